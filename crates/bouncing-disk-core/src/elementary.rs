@@ -1,0 +1,212 @@
+//! Elementary functions with the same bits on every machine.
+//!
+//! The sine and cosine pair of the impact solver is our own, because the project exists for it; everything
+//! else is the `libm` crate. Only IEEE addition, subtraction, multiplication, division and square root are
+//! used, in a fixed order and never fused.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+/// Largest argument of [`sin_cos`] that the fast reduction accepts, in radians.
+const FAST_REDUCTION_LIMIT: f64 = 1.0e5;
+
+/// 1.5 * 2^52: adding it rounds a double to the nearest integer and leaves that integer in the low bits.
+const ROUND_MAGIC: f64 = 6_755_399_441_055_744.0;
+
+/// The first 33 bits of pi/2, so that its product with a small integer is exact.
+const FRAC_PI_2_HEAD: f64 = 1.570_796_326_734_125_614_17;
+/// The next 33 bits of pi/2.
+const FRAC_PI_2_MIDDLE: f64 = 6.077_100_506_303_965_976_6e-11;
+/// The rest of pi/2.
+const FRAC_PI_2_TAIL: f64 = 2.022_266_248_795_950_631_54e-21;
+
+/// The first 25 bits of 2 pi, so that its product with a period count below 2^28 is exact.
+const TAU_HEAD: f64 = 6.283_185_243_606_567;
+/// The next 25 bits of 2 pi.
+const TAU_MIDDLE: f64 = 6.357_301_884_918_343e-8;
+/// The rest of 2 pi.
+const TAU_TAIL: f64 = 2.449_293_598_294_706_4e-16;
+
+/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 1e5, the `libm` crate beyond.
+#[must_use]
+#[inline]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    if x.abs() <= FAST_REDUCTION_LIMIT { sin_cos_bounded(x) } else { libm::sincos(x) }
+}
+
+/// Sine and cosine for |x| up to 1e5 rad, without a branch (Cody and Waite reduction, minimax polynomials of
+/// FreeBSD's `k_sin.c` and `k_cos.c`).
+#[must_use]
+#[inline(always)]
+pub(crate) fn sin_cos_bounded(x: f64) -> (f64, f64) {
+    let shifted = x * core::f64::consts::FRAC_2_PI + ROUND_MAGIC;
+    let quadrant = shifted.to_bits();
+    let n = shifted - ROUND_MAGIC;
+    let r = ((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE) - n * FRAC_PI_2_TAIL;
+    let z = r * r;
+    let z2 = z * z;
+    let sine = r
+        + (r * z)
+            * ((-1.666_666_666_666_663_243_48e-1 + z * 8.333_333_333_322_489_461_24e-3)
+                + z2 * ((-1.984_126_982_985_794_931_34e-4 + z * 2.755_731_370_707_006_767_89e-6)
+                    + z2 * (-2.505_076_025_340_686_341_95e-8 + z * 1.589_690_995_211_550_102_21e-10)));
+    let half = 0.5 * z;
+    let head = 1.0 - half;
+    let lost = (1.0 - head) - half;
+    let cosine = head
+        + (lost
+            + z2 * ((4.166_666_666_666_660_190_37e-2 + z * -1.388_888_888_887_410_957_49e-3)
+                + z2 * ((2.480_158_728_947_672_941_78e-5 + z * -2.755_731_435_139_066_330_35e-7)
+                    + z2 * (2.087_572_321_298_174_827_90e-9 + z * -1.135_964_755_778_819_482_65e-11))));
+    // Quadrant q: (sin, cos) is (s, c), (c, -s), (-s, -c), (-c, s).
+    let swap = quadrant & 1 == 1;
+    let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
+    let sin_sign = (quadrant & 2) << 62;
+    let cos_sign = (quadrant.wrapping_add(1) & 2) << 62;
+    (f64::from_bits(s.to_bits() ^ sin_sign), f64::from_bits(c.to_bits() ^ cos_sign))
+}
+
+/// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 2e-3 rad (truncation below
+/// 1e-19), without evaluating a new pair.
+#[inline(always)]
+pub(crate) fn rotated(sin: f64, cos: f64, delta: f64) -> (f64, f64) {
+    let d2 = delta * delta;
+    let versine = d2 * (0.5 - d2 * (1.0 / 24.0 - d2 * (1.0 / 720.0)));
+    let sine = delta - delta * d2 * (1.0 / 6.0 - d2 * (1.0 / 120.0));
+    (sin + (cos * sine - sin * versine), cos - (sin * sine + cos * versine))
+}
+
+/// (1 - cos h) / h^2 for |h| up to 1/2; relative error below 2e-16.
+#[inline(always)]
+pub(crate) fn versine_ratio(h: f64) -> f64 {
+    let z = h * h;
+    0.5 - z
+        * (1.0 / 24.0
+            - z * (1.0 / 720.0
+                - z * (1.0 / 40_320.0
+                    - z * (1.0 / 3_628_800.0
+                        - z * (1.0 / 479_001_600.0 - z * (1.0 / 87_178_291_200.0))))))
+}
+
+/// (h - sin h) / h^3 for |h| up to 1/2; relative error below 2e-16.
+#[inline(always)]
+pub(crate) fn sine_deficit_ratio(h: f64) -> f64 {
+    let z = h * h;
+    1.0 / 6.0
+        - z * (1.0 / 120.0
+            - z * (1.0 / 5_040.0
+                - z * (1.0 / 362_880.0
+                    - z * (1.0 / 39_916_800.0
+                        - z * (1.0 / 6_227_020_800.0 - z * (1.0 / 1_307_674_368_000.0))))))
+}
+
+/// Splits a non-negative duration in radians, at most 1.6e9, into whole periods and a remainder in [0, 2 pi).
+///
+/// The remainder is exact to one rounding of 2 pi (three-part reduction); what the rounding of `duration`
+/// itself has lost is lost.
+#[inline(always)]
+pub(crate) fn split_periods(duration: f64) -> (u64, f64) {
+    let quotient = duration * (1.0 / TAU);
+    // Truncation and correction: the quotient may be one too large next to a whole number.
+    let mut periods = quotient as u64;
+    let mut remainder = minus_periods(duration, periods as f64);
+    if remainder < 0.0 {
+        periods -= 1;
+        remainder = minus_periods(duration, periods as f64);
+    }
+    if remainder >= TAU {
+        periods += 1;
+        remainder = minus_periods(duration, periods as f64);
+    }
+    (periods, if remainder < 0.0 { 0.0 } else { remainder })
+}
+
+#[inline(always)]
+fn minus_periods(duration: f64, periods: f64) -> f64 {
+    ((duration - periods * TAU_HEAD) - periods * TAU_MIDDLE) - periods * TAU_TAIL
+}
+
+/// Reduces any finite angle to [0, 2 pi).
+#[must_use]
+pub fn wrapped_angle(angle: f64) -> f64 {
+    if (0.0..TAU).contains(&angle) {
+        return angle;
+    }
+    let wrapped = libm::fmod(angle, TAU);
+    let wrapped = if wrapped < 0.0 { wrapped + TAU } else { wrapped };
+    if wrapped < TAU { wrapped } else { 0.0 }
+}
+
+/// Arc sine in radians, argument in [-1, 1].
+#[must_use]
+pub fn asin(x: f64) -> f64 {
+    libm::asin(x)
+}
+
+/// Arc cosine in radians, argument in [-1, 1].
+#[must_use]
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// The angle of the point (`x`, `y`) in radians, in (-pi, pi].
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// Arc tangent in radians.
+#[must_use]
+pub fn atan(x: f64) -> f64 {
+    libm::atan(x)
+}
+
+/// Tangent of an angle in radians.
+#[must_use]
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+
+/// Sine of any finite angle in radians.
+#[must_use]
+pub fn sin(x: f64) -> f64 {
+    sin_cos(x).0
+}
+
+/// Cosine of any finite angle in radians.
+#[must_use]
+pub fn cos(x: f64) -> f64 {
+    sin_cos(x).1
+}
+
+/// Exponential function.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// exp(x) - 1, accurate near zero.
+#[must_use]
+pub fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// Natural logarithm.
+#[must_use]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// `base` to the power `exponent`.
+#[must_use]
+pub fn pow(base: f64, exponent: f64) -> f64 {
+    libm::pow(base, exponent)
+}
+
+/// Length of the vector (`x`, `y`).
+#[must_use]
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+
+/// pi/2: the platform's crest.
+pub(crate) const CREST: f64 = FRAC_PI_2;

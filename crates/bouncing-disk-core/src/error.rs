@@ -1,0 +1,66 @@
+//! The errors of this crate.
+
+/// What can go wrong in the math core. Every variant carries the numbers that are needed to see why.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An argument lies outside its legal range.
+    #[error("{field} = {value} is outside its legal range {legal}")]
+    OutOfRange {
+        /// The name of the argument.
+        field: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// The legal range, in words.
+        legal: &'static str,
+    },
+    /// A disk at rest on the platform does not leave it at this phase: the platform is not falling away.
+    #[error("a disk at rest on the platform (peak acceleration {peak_acceleration} g) does not lift off at phase {phase} rad")]
+    NoLiftOff {
+        /// Launch phase in radians.
+        phase: f64,
+        /// Peak acceleration of the platform in units of the preload acceleration.
+        peak_acceleration: f64,
+    },
+    /// The flight would last longer than the period counter can hold exactly.
+    #[error("a launch at relative speed {relative_speed} flies for {duration} rad, more than the largest duration {limit} rad")]
+    FlightTooLong {
+        /// Launch speed relative to the platform, in units of g/omega.
+        relative_speed: f64,
+        /// Duration of the flight in radians.
+        duration: f64,
+        /// The largest duration in radians.
+        limit: f64,
+    },
+    /// The root finder used up its evaluations. This is a defect of the solver; please report the numbers.
+    #[error("no convergence after {evaluations} evaluations: gap {gap} at phase {phase} rad")]
+    NoConvergence {
+        /// Evaluations of the gap.
+        evaluations: u32,
+        /// Last phase tried in radians.
+        phase: f64,
+        /// The gap there, in units of g/omega^2.
+        gap: f64,
+    },
+    /// An iteration (an orbit search, a refinement) did not settle.
+    #[error("{what} did not settle after {iterations} iterations; last residual {residual}")]
+    NotSettled {
+        /// What was sought.
+        what: &'static str,
+        /// Iterations used.
+        iterations: u32,
+        /// Size of the last residual.
+        residual: f64,
+    },
+}
+
+/// Checks that `value` lies in [`low`, `high`]; NaN does not.
+pub(crate) fn within(
+    field: &'static str,
+    value: f64,
+    low: f64,
+    high: f64,
+    legal: &'static str,
+) -> Result<f64, Error> {
+    if value >= low && value <= high { Ok(value) } else { Err(Error::OutOfRange { field, value, legal }) }
+}

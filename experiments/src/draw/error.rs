@@ -1,0 +1,119 @@
+//! Why a figure cannot be drawn.
+
+/// Why a figure cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DrawError {
+    /// A label uses a TeX command that this crate does not know.
+    #[error("label \"{label}\": unknown command \\{command}")]
+    UnknownCommand {
+        /// The command without its backslash.
+        command: String,
+        /// The source of the label.
+        label: String,
+    },
+    /// Braces or dollar signs of a label do not pair up, or a script or accent lacks its argument.
+    #[error("label \"{label}\": {what}")]
+    MalformedLabel {
+        /// What is wrong.
+        what: &'static str,
+        /// The source of the label.
+        label: String,
+    },
+    /// A character is in none of the bundled fonts.
+    #[error("label \"{label}\": the bundled fonts lack {character:?}")]
+    MissingGlyph {
+        /// The character.
+        character: char,
+        /// The source of the label.
+        label: String,
+    },
+    /// The ends of an axis coincide or are not finite.
+    #[error("axis \"{axis}\": the range {low} to {high} is empty or not finite")]
+    AxisRange {
+        /// The label of the axis.
+        axis: String,
+        /// One end.
+        low: f64,
+        /// The other end.
+        high: f64,
+    },
+    /// A logarithmic axis reaches zero or below.
+    #[error("logarithmic axis \"{axis}\": the range {low} to {high} is not positive")]
+    LogarithmicRange {
+        /// The label of the axis.
+        axis: String,
+        /// One end.
+        low: f64,
+        /// The other end.
+        high: f64,
+    },
+    /// The step between ticks is not a positive number, or gives too many ticks.
+    #[error("axis \"{axis}\": ticks every {step} from {low} to {high} cannot be drawn")]
+    TickStep {
+        /// The label of the axis.
+        axis: String,
+        /// The step.
+        step: f64,
+        /// One end of the axis.
+        low: f64,
+        /// The other end.
+        high: f64,
+    },
+    /// A layer refers to the axis on the right of a panel that has none.
+    #[error("panel \"{panel}\": a layer needs the axis on the right, which is missing")]
+    NoRightAxis {
+        /// The letter of the panel.
+        panel: String,
+    },
+    /// The cells of a raster are not width times height.
+    #[error("a raster of {width} by {height} cells was given {cells} cells")]
+    RasterSize {
+        /// Cells per row.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Cells given.
+        cells: usize,
+    },
+    /// A cell of a raster refers to no colour of its palette.
+    #[error("a raster cell has colour {index} of a palette of {colours}")]
+    RasterColour {
+        /// The index.
+        index: u8,
+        /// The size of the palette.
+        colours: usize,
+    },
+    /// A list of errors or edges does not match the points it belongs to.
+    #[error("{what}: {given} values for {points} points")]
+    Length {
+        /// Which list.
+        what: &'static str,
+        /// Its length.
+        given: usize,
+        /// The number of points.
+        points: usize,
+    },
+    /// The figure or a panel has no area, or is too large for a picture.
+    #[error("{what} is {width} by {height} points")]
+    Size {
+        /// Which part.
+        what: &'static str,
+        /// Its width in points.
+        width: f64,
+        /// Its height in points.
+        height: f64,
+    },
+    /// The PNG encoder failed.
+    #[error("PNG encoding failed: {message}")]
+    Png {
+        /// What it reported.
+        message: String,
+    },
+    /// The renderer could not read the vector picture.
+    #[error("rendering failed: {message}")]
+    Render {
+        /// What it reported.
+        message: String,
+    },
+}

@@ -1,0 +1,253 @@
+//! What a figure or table of the paper is: data, drawing, claims.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::claim::Claim;
+use crate::draw::{DrawError, Figure};
+use crate::finite::{self, FiniteError};
+use crate::progress::Progress;
+use crate::table::{Table, TableError};
+
+/// How finely an experiment samples its parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// Coarse grids: seconds per figure, for tests.
+    Draft,
+    /// The grids of the published pictures.
+    #[default]
+    Paper,
+}
+
+impl Quality {
+    /// The name used on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Paper => "paper",
+        }
+    }
+
+    /// One of two values, by quality: `quality.choose(50, 400)` grid lines in draft and in paper quality.
+    pub fn choose<T>(self, draft: T, paper: T) -> T {
+        match self {
+            Self::Draft => draft,
+            Self::Paper => paper,
+        }
+    }
+}
+
+impl fmt::Display for Quality {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+/// A quality that is neither `draft` nor `paper`.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown quality \"{given}\": draft or paper")]
+pub struct UnknownQuality {
+    /// What was given.
+    pub given: String,
+}
+
+impl FromStr for Quality {
+    type Err = UnknownQuality;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "draft" => Ok(Self::Draft),
+            "paper" => Ok(Self::Paper),
+            _ => Err(UnknownQuality { given: text.to_owned() }),
+        }
+    }
+}
+
+/// Why an experiment gave no result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExperimentError {
+    /// The model refused a parameter or could not finish a trajectory.
+    #[error("the model failed: {0}")]
+    Model(#[source] Box<dyn std::error::Error + Send + Sync>),
+    /// The figure could not be drawn.
+    #[error("the figure could not be drawn: {0}")]
+    Draw(#[from] DrawError),
+    /// The table is malformed.
+    #[error("the table could not be written: {0}")]
+    Table(#[from] TableError),
+    /// The data cannot be stored: a number is infinite or not a number.
+    #[error("the data cannot be stored: {0}")]
+    Data(#[from] FiniteError),
+    /// Stored data do not have the form this version reads.
+    #[error("the stored data do not fit this version: {0}")]
+    Stored(#[source] serde_json::Error),
+    /// An input file (a measurement, a table of the paper) could not be read.
+    #[error("cannot read {path}: {source}")]
+    Input {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What the system or the parser reported.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+}
+
+impl ExperimentError {
+    /// Wraps an error of the model: `model.run(..).map_err(ExperimentError::model)?`.
+    pub fn model(error: impl std::error::Error + Send + Sync + 'static) -> Self {
+        Self::Model(Box::new(error))
+    }
+}
+
+/// One figure or table of the paper.
+///
+/// Everything is an associated function: an experiment has no state besides its data.
+pub trait Experiment: Sync + Send + 'static {
+    /// The computed numbers: plain, serialisable, units in the field names. A number that does not exist is an
+    /// `Option`, never a NaN: storing a number that is not finite is an error.
+    type Data: Serialize + DeserializeOwned + Send + Sync + 'static;
+
+    /// `fig01` ... `fig14`, `table1` ... `table3`.
+    const ID: &'static str;
+
+    /// A short title for the gallery and for lists.
+    const TITLE: &'static str;
+
+    /// The caption, plain text with Unicode Greek.
+    fn caption(data: &Self::Data) -> String;
+
+    /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
+    ///
+    /// # Errors
+    ///
+    /// When the model fails.
+    fn run(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
+
+    /// Draws the data.
+    ///
+    /// # Errors
+    ///
+    /// When the data cannot be drawn.
+    fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
+
+    /// Every number and statement the paper prints about this figure, compared with the data.
+    fn claims(data: &Self::Data) -> Vec<Claim>;
+
+    /// Name and value with unit, for the gallery.
+    fn parameters(data: &Self::Data) -> Vec<(String, String)>;
+
+    /// The data as a table, where the paper prints a table.
+    fn table(_data: &Self::Data) -> Option<Table> {
+        None
+    }
+}
+
+/// An experiment whose data type is erased, so that a registry can hold all of them.
+pub trait Entry: Sync + Send {
+    /// See [`Experiment::ID`].
+    fn id(&self) -> &'static str;
+
+    /// See [`Experiment::TITLE`].
+    fn title(&self) -> &'static str;
+
+    /// Computes the data.
+    ///
+    /// # Errors
+    ///
+    /// When the model fails.
+    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError>;
+
+    /// Reads data that an earlier run stored.
+    ///
+    /// # Errors
+    ///
+    /// When another version wrote them and they do not fit.
+    fn read(&self, stored: Value) -> Result<Box<dyn Outcome>, ExperimentError>;
+}
+
+/// The data of one experiment, whatever their type, and what can be made from them.
+pub trait Outcome: Send + Sync {
+    /// The data as JSON.
+    ///
+    /// # Errors
+    ///
+    /// When a number is not finite; JSON has no way to write it and would silently hold `null`.
+    fn to_json(&self) -> Result<Value, ExperimentError>;
+
+    /// See [`Experiment::draw`].
+    ///
+    /// # Errors
+    ///
+    /// When the data cannot be drawn.
+    fn draw(&self) -> Result<Figure, ExperimentError>;
+
+    /// See [`Experiment::claims`].
+    fn claims(&self) -> Vec<Claim>;
+
+    /// See [`Experiment::caption`].
+    fn caption(&self) -> String;
+
+    /// See [`Experiment::parameters`].
+    fn parameters(&self) -> Vec<(String, String)>;
+
+    /// See [`Experiment::table`].
+    fn table(&self) -> Option<Table>;
+}
+
+/// The type-erased form of the experiment `E`, for the registry.
+pub fn entry<E: Experiment>() -> Box<dyn Entry> {
+    Box::new(Erased::<E>(std::marker::PhantomData))
+}
+
+struct Erased<E>(std::marker::PhantomData<E>);
+
+impl<E: Experiment> Entry for Erased<E> {
+    fn id(&self) -> &'static str {
+        E::ID
+    }
+
+    fn title(&self) -> &'static str {
+        E::TITLE
+    }
+
+    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError> {
+        Ok(Box::new(Typed::<E>(E::run(quality, progress)?)))
+    }
+
+    fn read(&self, stored: Value) -> Result<Box<dyn Outcome>, ExperimentError> {
+        Ok(Box::new(Typed::<E>(serde_json::from_value(stored).map_err(ExperimentError::Stored)?)))
+    }
+}
+
+struct Typed<E: Experiment>(E::Data);
+
+impl<E: Experiment> Outcome for Typed<E> {
+    fn to_json(&self) -> Result<Value, ExperimentError> {
+        Ok(finite::to_value(&self.0)?)
+    }
+
+    fn draw(&self) -> Result<Figure, ExperimentError> {
+        E::draw(&self.0)
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        E::claims(&self.0)
+    }
+
+    fn caption(&self) -> String {
+        E::caption(&self.0)
+    }
+
+    fn parameters(&self) -> Vec<(String, String)> {
+        E::parameters(&self.0)
+    }
+
+    fn table(&self) -> Option<Table> {
+        E::table(&self.0)
+    }
+}

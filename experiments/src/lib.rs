@@ -1,0 +1,28 @@
+//! Every figure and table of Liu, Friend and Yeo, Phys. Rev. E **80**, 046201 (2009): its data, its drawing and
+//! its printed numbers compared with ours.
+//!
+//! One module of [`figures`] makes one figure or table. It implements [`Experiment`]:
+//!
+//! * `run` computes plain, serialisable data (units in the field names); it knows no picture,
+//! * `draw` turns that data into a [`draw::Figure`]; it computes nothing,
+//! * `claims` compares every number the paper prints with the computed one ([`Claim`]).
+//!
+//! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery.
+
+pub mod claim;
+pub mod draw;
+pub mod experiment;
+pub mod figures;
+mod finite;
+pub mod json;
+pub mod output;
+pub mod page;
+pub mod progress;
+pub mod registry;
+pub mod stamp;
+pub mod table;
+
+pub use claim::Claim;
+pub use experiment::{Experiment, ExperimentError, Quality};
+pub use progress::{Progress, Silent};
+pub use table::Table;

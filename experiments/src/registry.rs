@@ -1,0 +1,86 @@
+//! The list of all experiments.
+
+use crate::experiment::Entry;
+
+/// All experiments, in the order of the paper.
+pub fn all() -> Vec<Box<dyn Entry>> {
+    // One line per module of `figures`: `entry::<fig06::Fig06>(),`
+    vec![]
+}
+
+/// An identifier that no experiment has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no figure or table is called \"{given}\"; known are: {}", known.join(", "))]
+pub struct UnknownId {
+    /// What was asked for.
+    pub given: String,
+    /// Every identifier there is.
+    pub known: Vec<&'static str>,
+}
+
+/// The entries called `ids`, each once, in the order of `entries`; all of them when `ids` is empty.
+///
+/// # Errors
+///
+/// When an identifier is unknown; the error lists the known ones.
+pub fn select<'a>(
+    entries: &'a [Box<dyn Entry>],
+    ids: &[String],
+) -> Result<Vec<&'a dyn Entry>, UnknownId> {
+    if let Some(given) = ids.iter().find(|given| !entries.iter().any(|entry| entry.id() == **given)) {
+        return Err(UnknownId {
+            given: given.clone(),
+            known: entries.iter().map(|entry| entry.id()).collect(),
+        });
+    }
+    Ok(entries
+        .iter()
+        .map(|entry| &**entry)
+        .filter(|entry| ids.is_empty() || ids.iter().any(|given| given == entry.id()))
+        .collect())
+}
+
+/// The entry called `id`.
+///
+/// # Errors
+///
+/// When it is unknown; the error lists the known ones.
+pub fn find<'a>(entries: &'a [Box<dyn Entry>], id: &str) -> Result<&'a dyn Entry, UnknownId> {
+    let found = entries.iter().map(|entry| &**entry).find(|entry| entry.id() == id);
+    found.ok_or_else(|| UnknownId {
+        given: id.to_owned(),
+        known: entries.iter().map(|entry| entry.id()).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::demo_entries;
+
+    #[test]
+    fn an_unknown_identifier_lists_the_known_ones() {
+        let entries = demo_entries();
+        let error = select(&entries, &["fig99".to_owned()]).err().expect("fig99 does not exist");
+        assert_eq!(error.to_string(), "no figure or table is called \"fig99\"; known are: demo, broken");
+        assert!(find(&entries, "nothing").is_err());
+    }
+
+    #[test]
+    fn no_identifier_selects_all_and_the_order_is_that_of_the_paper() {
+        let entries = demo_entries();
+        assert_eq!(select(&entries, &[]).expect("all").len(), entries.len());
+        let ids = ["broken".to_owned(), "demo".to_owned()];
+        let selected = select(&entries, &ids).expect("both exist");
+        assert_eq!(selected.iter().map(|entry| entry.id()).collect::<Vec<_>>(), ["demo", "broken"]);
+    }
+
+    #[test]
+    fn identifiers_in_the_registry_are_unique() {
+        let mut ids: Vec<_> = all().iter().map(|entry| entry.id()).collect();
+        ids.sort_unstable();
+        let count = ids.len();
+        ids.dedup();
+        assert_eq!(ids.len(), count);
+    }
+}
