@@ -359,7 +359,10 @@ mod tests {
     }
 
     #[test]
-    #[expect(clippy::float_cmp, reason = "decimal text is read without any rounding besides the nearest double")]
+    #[expect(
+        clippy::float_cmp,
+        reason = "decimal text is read without any rounding besides the nearest double"
+    )]
     fn the_tolerance_is_half_a_unit_of_the_last_printed_digit() {
         assert_eq!(read("0.486"), (0.486, 0.0005));
         assert_eq!(read("14"), (14.0, 0.5));
@@ -389,18 +392,24 @@ mod tests {
 
     #[test]
     fn the_verdict_is_computed() {
-        let claim = |value| Claim::number("fig06", "caption", "Γ at the first doubling", "", "0.486", value).verdict();
+        let claim = |value| {
+            Claim::number("fig06", "caption", "Γ at the first doubling", "", "0.486", value).verdict()
+        };
         assert_eq!(claim(0.486_003), Verdict::Reproduced);
         assert_eq!(claim(0.4855), Verdict::Reproduced);
         assert_eq!(claim(0.485_49), Verdict::Differs);
         assert_eq!(claim(f64::NAN), Verdict::Differs);
         assert_eq!(claim(f64::INFINITY), Verdict::Differs);
-        let wide = Claim::number("table2", "text", "speed", "rad/s", "14", 16.0).within(5.0).note("printed ± 5");
+        let wide =
+            Claim::number("table2", "text", "speed", "rad/s", "14", 16.0).within(5.0).note("printed ± 5");
         assert_eq!(wide.verdict(), Verdict::Reproduced);
         let not_a_number = Claim::number("table2", "text", "speed", "rad/s", "14", f64::NAN).within(5.0);
         assert_eq!(not_a_number.verdict(), Verdict::Differs);
         assert_eq!(Claim::label("fig04", "text", "optimum", "θ = 0", "θ = 0").verdict(), Verdict::Reproduced);
-        assert_eq!(Claim::statement("fig04", "text", "even in θ", false, "3 of 4").verdict(), Verdict::Differs);
+        assert_eq!(
+            Claim::statement("fig04", "text", "even in θ", false, "3 of 4").verdict(),
+            Verdict::Differs
+        );
     }
 
     #[test]

@@ -21,6 +21,8 @@ pub mod progress;
 pub mod registry;
 pub mod stamp;
 pub mod table;
+#[cfg(test)]
+mod testing;
 
 pub use claim::Claim;
 pub use experiment::{Experiment, ExperimentError, Quality};

@@ -23,10 +23,7 @@ pub struct UnknownId {
 /// # Errors
 ///
 /// When an identifier is unknown; the error lists the known ones.
-pub fn select<'a>(
-    entries: &'a [Box<dyn Entry>],
-    ids: &[String],
-) -> Result<Vec<&'a dyn Entry>, UnknownId> {
+pub fn select<'a>(entries: &'a [Box<dyn Entry>], ids: &[String]) -> Result<Vec<&'a dyn Entry>, UnknownId> {
     if let Some(given) = ids.iter().find(|given| !entries.iter().any(|entry| entry.id() == **given)) {
         return Err(UnknownId {
             given: given.clone(),

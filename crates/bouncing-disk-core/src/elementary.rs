@@ -4,6 +4,8 @@
 //! else is the `libm` crate. Only IEEE addition, subtraction, multiplication, division and square root are
 //! used, in a fixed order and never fused.
 
+#![expect(clippy::excessive_precision, reason = "constants are quoted as their sources print them")]
+
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 /// Largest argument of [`sin_cos`] that the fast reduction accepts, in radians.
@@ -83,8 +85,7 @@ pub(crate) fn versine_ratio(h: f64) -> f64 {
         * (1.0 / 24.0
             - z * (1.0 / 720.0
                 - z * (1.0 / 40_320.0
-                    - z * (1.0 / 3_628_800.0
-                        - z * (1.0 / 479_001_600.0 - z * (1.0 / 87_178_291_200.0))))))
+                    - z * (1.0 / 3_628_800.0 - z * (1.0 / 479_001_600.0 - z * (1.0 / 87_178_291_200.0))))))
 }
 
 /// (h - sin h) / h^3 for |h| up to 1/2; relative error below 2e-16.

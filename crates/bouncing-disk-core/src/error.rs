@@ -15,7 +15,9 @@ pub enum Error {
         legal: &'static str,
     },
     /// A disk at rest on the platform does not leave it at this phase: the platform is not falling away.
-    #[error("a disk at rest on the platform (peak acceleration {peak_acceleration} g) does not lift off at phase {phase} rad")]
+    #[error(
+        "a disk at rest on the platform (peak acceleration {peak_acceleration} g) does not lift off at phase {phase} rad"
+    )]
     NoLiftOff {
         /// Launch phase in radians.
         phase: f64,
@@ -23,7 +25,9 @@ pub enum Error {
         peak_acceleration: f64,
     },
     /// The flight would last longer than the period counter can hold exactly.
-    #[error("a launch at relative speed {relative_speed} flies for {duration} rad, more than the largest duration {limit} rad")]
+    #[error(
+        "a launch at relative speed {relative_speed} flies for {duration} rad, more than the largest duration {limit} rad"
+    )]
     FlightTooLong {
         /// Launch speed relative to the platform, in units of g/omega.
         relative_speed: f64,

@@ -23,9 +23,7 @@ use core::f64::consts::{PI, TAU};
 
 use serde::Serialize;
 
-use crate::elementary::{
-    CREST, rotated, sin_cos_bounded, sine_deficit_ratio, split_periods, versine_ratio,
-};
+use crate::elementary::{CREST, rotated, sin_cos_bounded, sine_deficit_ratio, split_periods, versine_ratio};
 use crate::error::Error;
 use crate::phase::Phase;
 use crate::vibration::Vibration;
@@ -193,11 +191,7 @@ impl Arc {
             }
             let radicand = slope * slope - 2.0 * gap * curvature;
             // The root of the quadratic model, with the sign that does not cancel.
-            let step = if radicand >= 0.0 {
-                -2.0 * gap / (slope - radicand.sqrt())
-            } else {
-                -x
-            };
+            let step = if radicand >= 0.0 { -2.0 * gap / (slope - radicand.sqrt()) } else { -x };
             let next = t + step;
             t = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
                 next
@@ -278,10 +272,10 @@ impl ShortFlight {
         let deficit = sine_deficit_ratio(h);
         let h2 = h * h;
         // P sin tau (1 - cos h)/h is written with 1/2 - (1/2 - versine) so that P sin tau = 1 cancels exactly.
-        let ratio = self.speed - h * (0.5 * self.pull + self.sine * (0.5 - versine))
-            + self.cosine * (h2 * deficit);
-        let velocity = self.speed - h * self.pull
-            + (self.cosine * (h2 * versine) - self.sine * (h2 * h * deficit));
+        let ratio =
+            self.speed - h * (0.5 * self.pull + self.sine * (0.5 - versine)) + self.cosine * (h2 * deficit);
+        let velocity =
+            self.speed - h * self.pull + (self.cosine * (h2 * versine) - self.sine * (h2 * h * deficit));
         (ratio, velocity)
     }
 
@@ -401,7 +395,8 @@ impl Vibration {
         }
         let (free_periods, free_remainder) = split_periods(free);
         let sum = angle + free_remainder;
-        let (start, free_turns) = if sum >= TAU { (sum - TAU, free_periods + 1) } else { (sum, free_periods) };
+        let (start, free_turns) =
+            if sum >= TAU { (sum - TAU, free_periods + 1) } else { (sum, free_periods) };
         let falling = Arc { peak: p, angle: start, speed: -fall, depth: 0.0 };
         let crest = if start < CREST { CREST - start } else { (CREST + TAU) - start };
         let inflection = crest - (CREST - self.separation_angle);
@@ -508,11 +503,7 @@ impl Vibration {
                 break None;
             }
             lo = end;
-            end += if convex {
-                PI + 2.0 * self.separation_angle
-            } else {
-                PI - 2.0 * self.separation_angle
-            };
+            end += if convex { PI + 2.0 * self.separation_angle } else { PI - 2.0 * self.separation_angle };
             convex = !convex;
         };
         let Some(bracket) = bracket else { return Ok(None) };

@@ -1,11 +1,21 @@
-//! Placeholder docs
+//! The vertical motion of a disk that bounces on a sinusoidally vibrating platform, without units.
+//!
+//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of the
+//! platform is its peak acceleration P = pi Gamma in units of g.
+
+mod chatter;
 pub mod elementary;
 mod error;
 mod flight;
+mod map;
 mod phase;
 mod vibration;
 
+pub use chatter::{
+    Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
+};
 pub use error::Error;
 pub use flight::{Impact, Launch, MAX_FLIGHT_DURATION};
+pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
 pub use phase::Phase;
 pub use vibration::Vibration;

@@ -314,7 +314,8 @@ fn is_operator(character: char) -> bool {
 
 /// An operator between two operands has thin spaces around it; a sign has none.
 fn operator(spans: &mut Vec<Span>, character: char, level: Level) {
-    let before = spans.iter().rev().find(|span| span.level == level).and_then(|span| span.text.chars().last());
+    let before =
+        spans.iter().rev().find(|span| span.level == level).and_then(|span| span.text.chars().last());
     let sign = matches!(character, '+' | '−' | '±' | '∼' | '≈' | '<' | '>' | '→');
     let after_operand = !spans.is_empty()
         && !before.is_some_and(|c| is_operator(c) || matches!(c, '(' | '[' | '{' | '/' | ',' | '\u{2009}'));
@@ -325,7 +326,10 @@ fn operator(spans: &mut Vec<Span>, character: char, level: Level) {
 }
 
 fn is_function(name: &str) -> bool {
-    matches!(name, "sin" | "cos" | "tan" | "ln" | "log" | "exp" | "max" | "min" | "arcsin" | "arccos" | "arctan")
+    matches!(
+        name,
+        "sin" | "cos" | "tan" | "ln" | "log" | "exp" | "max" | "min" | "arcsin" | "arccos" | "arctan"
+    )
 }
 
 fn symbol(name: &str) -> Option<char> {

@@ -1,0 +1,228 @@
+//! Chattering: infinitely many impacts in a finite time, and the two ways to end it.
+//!
+//! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
+//! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
+//! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
+//! coefficients satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
+//! The coefficients are derived in docs/numerics.md.
+
+use core::f64::consts::{PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::elementary::sin_cos_bounded;
+use crate::phase::Phase;
+use crate::vibration::Vibration;
+
+/// What is done with the infinite sequence of impacts of a chattering disk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum ChatterPolicy {
+    /// The sequence is summed in closed form and the disk attaches at the accumulation point; only where a bound
+    /// shows that the platform pulls back all the way there.
+    #[default]
+    Complete,
+    /// The paper's cut (Sec. IV A): the disk is put on the platform as soon as the impact speed |w|/pi falls
+    /// below 1e-6, or after 20 consecutive flights shorter than 1e-4 of a period.
+    Paper,
+}
+
+/// The paper's smallest impact speed |w_A Gamma / (omega A)|.
+pub const PAPER_SMALLEST_SPEED: f64 = 1.0e-6;
+/// The paper's "short" flight, in periods.
+pub const PAPER_SHORT_FLIGHT: f64 = 1.0e-4;
+/// The paper's number of consecutive short flights.
+pub const PAPER_SHORT_FLIGHTS: u32 = 20;
+
+/// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
+/// doubles in [pi/2, pi].
+const COMPLETION_ERROR: f64 = 1.0e-16;
+
+/// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
+const LONGEST_COMPLETION: f64 = 1.0e-2;
+
+/// Largest expansion parameter of the series; the majorant of the first omitted term needs it below 1/16.
+const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
+
+/// The accumulation point of a chattering sequence.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Accumulation {
+    /// Time from the last impact to the accumulation point, in radians.
+    pub duration: f64,
+    /// Bound on the error of `duration` that the truncated series leaves, in radians.
+    pub error_bound: f64,
+    /// The accumulation phase.
+    pub phase: Phase,
+    /// 1 if the phase passed 0 (mod 2 pi) on the way, else 0.
+    pub turns: u64,
+}
+
+/// One impact of a chattering sequence, from the expansion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ChatterImpact {
+    /// Time since the impact that the sequence started from, in radians.
+    pub time: f64,
+    /// Impact speed |w_A| in units of g/omega.
+    pub speed: f64,
+    /// Phase pair (sin, cos) at this impact.
+    pub pair: (f64, f64),
+}
+
+impl Vibration {
+    /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0, or `None`
+    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad.
+    ///
+    /// `restitution` in [0, 1).
+    #[must_use]
+    pub fn accumulation(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
+        let pull = self.contact_force(phase);
+        let x = speed / (pull * (1.0 - restitution));
+        // Cheap refusal of the ordinary impact; also of a pull <= 0 and of NaN.
+        if !(0.0..=0.5 * LONGEST_COMPLETION).contains(&x) || self.falls_away_at(phase.angle()) {
+            return self.at_rest(phase, speed);
+        }
+        let drift = self.velocity(phase);
+        let expansion = Expansion { pull, drift, restitution };
+        let error_bound = expansion.error_bound(x)?;
+        if error_bound > COMPLETION_ERROR || !self.pulls_back_throughout(phase, speed, restitution, 2.0 * x) {
+            return None;
+        }
+        let duration = expansion.duration(speed);
+        let (angle, turns) = wrapped(phase.angle() + duration);
+        Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
+    }
+
+    /// A disk without relative speed is at rest at once, unless the platform falls away.
+    #[inline]
+    fn at_rest(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
+        (speed <= 0.0 && !self.falls_away_at(phase.angle())).then_some(Accumulation {
+            duration: 0.0,
+            error_bound: 0.0,
+            phase,
+            turns: 0,
+        })
+    }
+
+    /// Proof that all impacts fall within 3/2 of the leading estimate: over that window the pull lies in
+    /// [least, most] > 0, so a flight lasts at most 2 w / least and returns at most sqrt(most/least) w.
+    fn pulls_back_throughout(&self, phase: Phase, speed: f64, restitution: f64, leading: f64) -> bool {
+        let window = 1.5 * leading;
+        let change = (self.velocity(phase).abs() + self.peak_acceleration() * window) * window;
+        let pull = self.contact_force(phase);
+        let (least, most) = (pull - change, pull + change);
+        if least <= 0.0 {
+            return false;
+        }
+        let ratio = restitution * (most / least).sqrt();
+        ratio < 1.0 && 2.0 * speed <= window * least * (1.0 - ratio)
+    }
+
+    /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
+    /// [`Self::accumulation`] accepts, until they carry less than 1e-17 of the first one's impulse.
+    pub fn chatter_impacts(
+        &self,
+        phase: Phase,
+        speed: f64,
+        restitution: f64,
+    ) -> impl Iterator<Item = ChatterImpact> + use<> {
+        let vibration = *self;
+        let last_speed = speed * 1.0e-17;
+        let mut time = 0.0;
+        let mut pair = (phase.sin(), phase.cos());
+        let mut launch = speed;
+        core::iter::from_fn(move || {
+            if launch <= last_speed {
+                return None;
+            }
+            let peak = vibration.peak_acceleration();
+            let expansion = Expansion { pull: 1.0 - peak * pair.0, drift: peak * pair.1, restitution };
+            let (flight, impact_speed) = expansion.flight(launch);
+            time += flight;
+            pair = sin_cos_bounded(phase.angle() + time);
+            launch = restitution * impact_speed;
+            Some(ChatterImpact { time, speed: impact_speed, pair })
+        })
+    }
+}
+
+#[inline(always)]
+fn wrapped(angle: f64) -> (f64, u64) {
+    if angle >= TAU { (angle - TAU, 1) } else { (angle, 0) }
+}
+
+/// The power series in the launch speed, about an impact with pull a = 1 - P sin tau and drift b = P cos tau.
+#[derive(Clone, Copy)]
+struct Expansion {
+    pull: f64,
+    drift: f64,
+    restitution: f64,
+}
+
+impl Expansion {
+    /// Duration of the next flight and its impact speed, to the fourth order.
+    fn flight(&self, speed: f64) -> (f64, f64) {
+        let (a, b, w) = (self.pull, self.drift, speed);
+        let x = w / a;
+        let beta = b / a;
+        let gamma = (a - 1.0) / a;
+        let h = 2.0
+            * x
+            * (1.0
+                + x * ((2.0 / 3.0) * beta
+                    + x * ((3.0 * gamma + 8.0 * beta * beta) / 9.0
+                        + x * beta * (2.0 / 135.0) * ((66.0 * a - 75.0) / a + 100.0 * beta * beta))));
+        let u = w
+            * (1.0
+                - x * ((2.0 / 3.0) * beta
+                    + x * ((2.0 / 9.0) * (3.0 * gamma + 4.0 * beta * beta)
+                        + x * beta * (2.0 / 135.0) * ((93.0 * a - 120.0) / a + 100.0 * beta * beta))));
+        (h, u)
+    }
+
+    /// Time to the accumulation point, to the third order.
+    fn duration(&self, speed: f64) -> f64 {
+        let r = self.restitution;
+        let a = self.pull;
+        let x = speed / (a * (1.0 - r));
+        let beta = self.drift / a;
+        let gamma = (a - 1.0) / a;
+        let third = (3.0 * gamma * (1.0 + r) * (1.0 + r) + beta * beta * (8.0 + r * (12.0 + 8.0 * r)))
+            / (9.0 * (1.0 + r * (1.0 + r)));
+        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * third))
+    }
+
+    /// Bound on what [`Self::duration`] omits: twice the majorant of the fourth-order term, or `None` if the
+    /// expansion parameter is too large for the majorant.
+    fn error_bound(&self, x: f64) -> Option<f64> {
+        let beta = (self.drift / self.pull).abs();
+        let gamma = ((self.pull - 1.0) / self.pull).abs();
+        let kappa = 1.0 + beta + gamma.sqrt();
+        if x * kappa > LARGEST_EXPANSION_PARAMETER {
+            return None;
+        }
+        let x2 = x * x;
+        Some(8.0 * (beta + gamma) * kappa * kappa * (x2 * x2))
+    }
+}
+
+/// Counts what the paper's cut needs to remember.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub(crate) struct ShortFlightCount(u32);
+
+impl ShortFlightCount {
+    /// No short flight yet.
+    pub(crate) const fn new() -> Self {
+        Self(0)
+    }
+
+    /// Whether the paper's rule puts the disk on the platform after an impact with this duration and speed.
+    #[inline]
+    pub(crate) fn attaches(&mut self, duration: f64, impact_speed: f64) -> bool {
+        self.0 = if duration < PAPER_SHORT_FLIGHT * TAU { self.0 + 1 } else { 0 };
+        let cut = impact_speed < PAPER_SMALLEST_SPEED * PI || self.0 >= PAPER_SHORT_FLIGHTS;
+        if cut {
+            self.0 = 0;
+        }
+        cut
+    }
+}
