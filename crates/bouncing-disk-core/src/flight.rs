@@ -113,15 +113,15 @@ impl Impact {
 
 /// A window in time from the reference of an [`Arc`] with exactly one root, the gap falling through it.
 #[derive(Clone, Copy)]
-struct Bracket {
-    lo: f64,
-    hi: f64,
+pub(crate) struct Bracket {
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
 }
 
 /// What an arc's root gives: time from the reference, phase pair there, relative velocity.
 #[derive(Clone, Copy)]
-struct Root {
-    time: f64,
+pub(crate) struct Root {
+    pub(crate) time: f64,
     sin: f64,
     cos: f64,
     velocity: f64,
@@ -131,19 +131,19 @@ struct Root {
 /// The gap in the form gap(t) = P [1 - sin(angle + t)] - depth + t (speed - t/2): heights are counted from the
 /// platform's crest, so that nothing large cancels however long the disk has been flying.
 #[derive(Clone, Copy)]
-struct Arc {
-    peak: f64,
-    angle: f64,
+pub(crate) struct Arc {
+    pub(crate) peak: f64,
+    pub(crate) angle: f64,
     /// Disk speed (not relative) at t = 0.
-    speed: f64,
+    pub(crate) speed: f64,
     /// Disk depth below the crest at t = 0.
-    depth: f64,
+    pub(crate) depth: f64,
 }
 
 impl Arc {
     /// Gap at a time whose platform depth below the crest, P (1 - sin), is known in closed form.
     #[inline(always)]
-    fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
+    pub(crate) fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
         (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
     }
 
@@ -152,7 +152,7 @@ impl Arc {
     /// Fifth-order series reversal steps from a pair; each is kept inside the shrinking bracket, with a step of
     /// the quadratic model or bisection where the series is useless (near a graze).
     #[inline(always)]
-    fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
+    pub(crate) fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
         let p = self.peak;
         let mut t = guess;
         let mut used = evaluations;
@@ -226,7 +226,7 @@ impl Arc {
     /// The smallest gap in [`lo`, `hi`], a piece of positive curvature whose slope changes from negative to
     /// positive, and its time: Newton steps on the slope, which increases, kept in a bracket.
     #[cold]
-    fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
+    pub(crate) fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
         let mut t = 0.5 * (lo + hi);
         loop {
             let (s, c) = sin_cos_bounded(self.angle + t);
@@ -352,10 +352,10 @@ impl Vibration {
     pub(crate) fn impact_after(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
         let p = self.peak_acceleration();
         let angle = from.angle();
-        if speed < self.long_launch_speed {
-            if let Some(done) = self.short_flight(from, speed)? {
-                return Ok(done);
-            }
+        if speed < self.long_launch_speed
+            && let Some(done) = self.short_flight(from, speed)?
+        {
+            return Ok(done);
         }
         let disk_speed = speed + p * from.cos();
         let depth = p - p * from.sin();
@@ -382,7 +382,21 @@ impl Vibration {
             }
         }
 
-        // The disk clears the crests: down to their height it flies free, in closed form.
+        self.impact_from_above(angle, disk_speed, depth, speed, evaluations)
+    }
+
+    /// The impact of a disk that rises above the crests: down to their height it flies free, in closed form.
+    /// `disk_speed` and `depth` (below the crest) are those at `angle`; `speed` is only for the error.
+    #[inline(always)]
+    pub(crate) fn impact_from_above(
+        &self,
+        angle: f64,
+        disk_speed: f64,
+        depth: f64,
+        speed: f64,
+        mut evaluations: u32,
+    ) -> Result<Impact, Error> {
+        let p = self.peak_acceleration();
         let radicand = disk_speed * disk_speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         let free = disk_speed + fall;
@@ -532,7 +546,7 @@ fn first_guess(_falling: &Arc, bracket: Bracket) -> f64 {
 
 /// The impact of an arc whose reference is `start`, `turns` passages of phase 0 after a launch at `angle`.
 #[inline(always)]
-fn landed(angle: f64, start: f64, turns: u64, root: Root) -> Impact {
+pub(crate) fn landed(angle: f64, start: f64, turns: u64, root: Root) -> Impact {
     let sum = start + root.time;
     let (wrapped, turns) = if sum >= TAU { (sum - TAU, turns + 1) } else { (sum, turns) };
     let ahead = wrapped - angle;

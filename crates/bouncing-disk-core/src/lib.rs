@@ -4,6 +4,7 @@
 //! platform is its peak acceleration P = pi Gamma in units of g.
 
 mod chatter;
+mod drop;
 pub mod elementary;
 mod error;
 mod flight;

@@ -135,6 +135,21 @@ impl ImpactMap {
         Orbit::after_impact(*self, policy, state)
     }
 
+    /// The orbit of a disk that starts in the air: see [`Vibration::first_impact_of_drop`].
+    ///
+    /// # Errors
+    /// Those of [`Vibration::first_impact_of_drop`].
+    pub fn orbit_from_drop(
+        &self,
+        phase: Phase,
+        gap: f64,
+        relative_velocity: f64,
+        policy: ChatterPolicy,
+    ) -> Result<Orbit, Error> {
+        let impact = self.vibration.first_impact_of_drop(phase, gap, relative_velocity)?;
+        Ok(Orbit::reporting(*self, policy, impact))
+    }
+
     /// The orbit of a disk that leaves the platform at `phase` with relative speed `speed` >= 0.
     ///
     /// # Errors
@@ -173,6 +188,8 @@ pub struct Stick {
 enum Next {
     /// Leave the platform at this phase and speed.
     Launch(Phase, f64),
+    /// Report this impact, already found.
+    Report(Impact),
     /// Come to rest.
     Attach(Accumulation, f64),
     /// Nothing more: it rests for ever, or an error was reported.
@@ -197,6 +214,10 @@ impl Orbit {
 
     const fn from_launch(map: ImpactMap, policy: ChatterPolicy, phase: Phase, speed: f64) -> Self {
         Self { map, policy, short_flights: ShortFlightCount::new(), next: Next::Launch(phase, speed) }
+    }
+
+    fn reporting(map: ImpactMap, policy: ChatterPolicy, impact: Impact) -> Self {
+        Self { map, policy, short_flights: ShortFlightCount::new(), next: Next::Report(impact) }
     }
 
     /// What follows an impact at `phase` with relative `velocity` after a flight of `duration`.
@@ -229,7 +250,7 @@ impl Orbit {
     pub const fn launch(&self) -> Option<(Phase, f64)> {
         match self.next {
             Next::Launch(phase, speed) => Some((phase, speed)),
-            Next::Attach(..) | Next::End => None,
+            Next::Report(_) | Next::Attach(..) | Next::End => None,
         }
     }
 
@@ -245,6 +266,14 @@ impl Orbit {
         Ok(())
     }
 
+    #[inline]
+    fn report(&mut self, impact: Impact) -> OrbitEvent {
+        // Only flights far below one period count as short.
+        let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
+        self.next = self.after(impact.phase, impact.velocity, duration);
+        OrbitEvent::Impact(impact)
+    }
+
     /// The next event, or `None` after the end of the orbit.
     ///
     /// # Errors
@@ -253,17 +282,13 @@ impl Orbit {
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         match self.next {
             Next::Launch(phase, speed) => match self.map.vibration.impact_after(phase, speed) {
-                Ok(impact) => {
-                    let duration =
-                        if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-                    self.next = self.after(impact.phase, impact.velocity, duration);
-                    Ok(Some(OrbitEvent::Impact(impact)))
-                }
+                Ok(impact) => Ok(Some(self.report(impact))),
                 Err(error) => {
                     self.next = Next::End;
                     Err(error)
                 }
             },
+            Next::Report(impact) => Ok(Some(self.report(impact))),
             Next::Attach(attachment, last_speed) => {
                 let separation = self
                     .map
