@@ -38,7 +38,7 @@ impl Vibration {
             && let Some(bracket) = self.bracket_before_crest(&arc, relative_velocity, &mut evaluations)
         {
             let root = arc.root(bracket, bracket.lo, evaluations)?;
-            let mut impact = landed(angle, angle, 0, root);
+            let mut impact = landed(angle, angle, 0.0, root);
             (impact.periods, impact.remainder) =
                 if root.time >= TAU { (1, root.time - TAU) } else { (0, root.time) };
             return Ok(impact);

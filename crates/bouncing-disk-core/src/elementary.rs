@@ -67,13 +67,13 @@ pub(crate) fn sin_cos_bounded(x: f64) -> (f64, f64) {
     (f64::from_bits(s.to_bits() ^ sin_sign), f64::from_bits(c.to_bits() ^ cos_sign))
 }
 
-/// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 2e-3 rad (truncation below
+/// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 5e-3 rad (truncation below
 /// 1e-19), without evaluating a new pair.
 #[inline(always)]
 pub(crate) fn rotated(sin: f64, cos: f64, delta: f64) -> (f64, f64) {
     let d2 = delta * delta;
     let versine = d2 * (0.5 - d2 * (1.0 / 24.0 - d2 * (1.0 / 720.0)));
-    let sine = delta - delta * d2 * (1.0 / 6.0 - d2 * (1.0 / 120.0));
+    let sine = delta - delta * (d2 * (1.0 / 6.0 - d2 * (1.0 / 120.0)));
     (sin + (cos * sine - sin * versine), cos - (sin * sine + cos * versine))
 }
 
@@ -100,30 +100,32 @@ pub(crate) fn sine_deficit_ratio(h: f64) -> f64 {
                         - z * (1.0 / 6_227_020_800.0 - z * (1.0 / 1_307_674_368_000.0))))))
 }
 
-/// Splits a non-negative duration in radians, at most 1.6e9, into whole periods and a remainder in [0, 2 pi).
+/// Splits a non-negative duration in radians, at most 1.6e9, into the nearest whole number of periods and the
+/// rest, in [-pi, pi].
 ///
-/// The remainder is exact to one rounding of 2 pi (three-part reduction); what the rounding of `duration`
-/// itself has lost is lost.
+/// The rest is exact to one rounding of 2 pi (three-part reduction); what the rounding of `duration` itself has
+/// lost is lost.
 #[inline(always)]
-pub(crate) fn split_periods(duration: f64) -> (u64, f64) {
-    let quotient = duration * (1.0 / TAU);
-    // Truncation and correction: the quotient may be one too large next to a whole number.
-    let mut periods = quotient as u64;
-    let mut remainder = minus_periods(duration, periods as f64);
-    if remainder < 0.0 {
-        periods -= 1;
-        remainder = minus_periods(duration, periods as f64);
-    }
-    if remainder >= TAU {
-        periods += 1;
-        remainder = minus_periods(duration, periods as f64);
-    }
-    (periods, if remainder < 0.0 { 0.0 } else { remainder })
+pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
+    let periods = (duration * (1.0 / TAU) + ROUND_MAGIC) - ROUND_MAGIC;
+    let rest = ((duration - periods * TAU_HEAD) - periods * TAU_MIDDLE) - periods * TAU_TAIL;
+    (periods, rest)
 }
 
+/// Reduces an angle in [-2 pi, 6 pi] to [0, 2 pi), with the whole turns taken away (negative if added), without
+/// a branch that depends on the turn.
 #[inline(always)]
-fn minus_periods(duration: f64, periods: f64) -> f64 {
-    ((duration - periods * TAU_HEAD) - periods * TAU_MIDDLE) - periods * TAU_TAIL
+pub(crate) fn nearby_wrapped(angle: f64) -> (f64, f64) {
+    let turns = ((angle * (1.0 / TAU) - 0.5) + ROUND_MAGIC) - ROUND_MAGIC;
+    let wrapped = angle - turns * TAU;
+    // Only at the seam itself can rounding leave the interval.
+    if wrapped < 0.0 {
+        (wrapped + TAU, turns - 1.0)
+    } else if wrapped >= TAU {
+        (wrapped - TAU, turns + 1.0)
+    } else {
+        (wrapped, turns)
+    }
 }
 
 /// Reduces any finite angle to [0, 2 pi).

@@ -23,7 +23,9 @@ use core::f64::consts::{PI, TAU};
 
 use serde::Serialize;
 
-use crate::elementary::{CREST, rotated, sin_cos_bounded, sine_deficit_ratio, split_periods, versine_ratio};
+use crate::elementary::{
+    CREST, nearby_wrapped, nearest_periods, rotated, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
+};
 use crate::error::Error;
 use crate::phase::Phase;
 use crate::vibration::Vibration;
@@ -34,9 +36,9 @@ pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
 
-/// Bounds step times relative curvature (and the step in radians) at which the fifth-order correction ends the
-/// search: what it leaves is below the fifth power, 3e-17 rad for a transversal impact.
-const LAST_STEP: f64 = 5.0e-4;
+/// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
+/// is below twice the seventh power, 4e-17 rad.
+const LAST_STEP: f64 = 4.0e-3;
 
 /// Relative size of the last Newton step on gap/h: what it leaves is its square.
 const LAST_SHORT_STEP: f64 = 1.0e-9;
@@ -166,19 +168,8 @@ impl Arc {
             let curvature = platform - 1.0;
             let inverse = 1.0 / slope;
             let x = gap * inverse;
-            let b = curvature * inverse;
-            let xb = x * b;
-            let size = x.abs() * (1.0 + b.abs());
-            if size <= LAST_STEP && slope < 0.0 {
-                let x2 = x * x;
-                let k = third * inverse;
-                let series = 1.0
-                    + (0.5 * xb
-                        + (x2 * (0.5 * (b * b) - (1.0 / 6.0) * k)
-                            + (x2 * x)
-                                * (b * (0.625 * (b * b) - (5.0 / 12.0) * k)
-                                    - (1.0 / 24.0) * platform * inverse)));
-                let delta = -x * series;
+            if x.abs() * (1.0 + (curvature * inverse).abs()) <= LAST_STEP && slope < 0.0 {
+                let delta = reverted(-x, inverse, curvature, third, platform);
                 let (sin, cos) = rotated(s, c, delta);
                 let time = t + delta;
                 let velocity = (self.speed - time) - p * cos;
@@ -190,8 +181,17 @@ impl Arc {
                 bracket.hi = t;
             }
             let radicand = slope * slope - 2.0 * gap * curvature;
-            // The root of the quadratic model, with the sign that does not cancel.
-            let step = if radicand >= 0.0 { -2.0 * gap / (slope - radicand.sqrt()) } else { -x };
+            let step = if radicand > 0.0 {
+                // The root of the quadratic model, with the sign that does not cancel; the slope of the model
+                // there is -sqrt(radicand), which turns the next two terms into a correction.
+                let root = radicand.sqrt();
+                let step = -2.0 * gap / (slope - root);
+                let correction =
+                    step * step * step * ((1.0 / 6.0) * third - (1.0 / 24.0) * platform * step) / root;
+                if correction.abs() < 0.5 * step.abs() { step + correction } else { step }
+            } else {
+                -x
+            };
             let next = t + step;
             t = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
                 next
@@ -251,6 +251,23 @@ impl Arc {
             t = next;
         }
     }
+}
+
+/// The step d with gap + slope d + curvature d^2/2 + ... = 0 by series reversal to the sixth order, given the
+/// Newton step `z` = -gap/slope, 1/slope, and the derivatives of a gap whose platform part is -`platform` (fourth
+/// derivative), -`third` (fifth) and so on.
+#[inline(always)]
+fn reverted(z: f64, inverse: f64, curvature: f64, third: f64, platform: f64) -> f64 {
+    let a2 = 0.5 * curvature * inverse;
+    let a3 = (1.0 / 6.0) * third * inverse;
+    let a4 = (-1.0 / 24.0) * platform * inverse;
+    let a5 = (-1.0 / 120.0) * third * inverse;
+    let b = a2 * a2;
+    let c3 = 2.0 * b - a3;
+    let c4 = a2 * (5.0 * (a3 - b)) - a4;
+    let c5 = (6.0 * a2 * a4 + 3.0 * a3 * a3) + (b * (14.0 * b - 21.0 * a3) - a5);
+    let z2 = z * z;
+    z + z2 * ((c3 * z - a2) + z2 * (c4 + c5 * z))
 }
 
 /// gap(h)/h and the relative velocity of a flight of at most [`SHORT_FLIGHT`], in relative accuracy.
@@ -363,26 +380,40 @@ impl Vibration {
         let mut evaluations = 0;
 
         // Until the first crest. A disk launched while the platform falls away, its crest still ahead, is above
-        // that crest for certain.
-        if !(angle >= self.separation_angle && angle < CREST) {
-            let inflection = self.time_to_separation(angle);
-            let crest = inflection + (CREST - self.separation_angle);
-            let bracket = if rising.gap_over(self.separation_depth, inflection) <= 0.0 {
-                Some(Bracket { lo: 0.0, hi: inflection })
-            } else if rising.gap_over(0.0, crest) <= 0.0 {
-                Some(Bracket { lo: inflection, hi: crest })
-            } else if disk_speed - inflection < self.separation_speed && disk_speed > crest {
-                let (lowest, gap) = rising.lowest(inflection, crest, &mut evaluations);
-                (gap <= 0.0).then_some(Bracket { lo: inflection, hi: lowest })
-            } else {
-                None
-            };
-            if let Some(bracket) = bracket {
-                return self.impact_before_crest(from, speed, rising, bracket, evaluations);
-            }
+        // that crest for certain. One branch for the whole question: each part of it is a coin toss in a chaotic
+        // orbit, the answer hardly ever.
+        let inflection = self.time_to_separation(angle);
+        let crest = inflection + (CREST - self.separation_angle);
+        let from_falling_away = (angle >= self.separation_angle) & (angle < CREST);
+        let above =
+            (rising.gap_over(self.separation_depth, inflection) > 0.0) & (rising.gap_over(0.0, crest) > 0.0);
+        let no_dip = (disk_speed - inflection >= self.separation_speed) | (disk_speed <= crest);
+        if !(from_falling_away | (above & no_dip))
+            && let Some(bracket) =
+                self.bracket_before_crest_of_launch(&rising, inflection, crest, &mut evaluations)
+        {
+            return self.impact_before_crest(from, speed, rising, bracket, evaluations);
         }
-
         self.impact_from_above(angle, disk_speed, depth, speed, evaluations)
+    }
+
+    /// The window of the first root of a launch before the crest, where it is not plain that there is none.
+    #[cold]
+    fn bracket_before_crest_of_launch(
+        &self,
+        rising: &Arc,
+        inflection: f64,
+        crest: f64,
+        evaluations: &mut u32,
+    ) -> Option<Bracket> {
+        if rising.gap_over(self.separation_depth, inflection) <= 0.0 {
+            Some(Bracket { lo: 0.0, hi: inflection })
+        } else if rising.gap_over(0.0, crest) <= 0.0 {
+            Some(Bracket { lo: inflection, hi: crest })
+        } else {
+            let (lowest, gap) = rising.lowest(inflection, crest, evaluations);
+            (gap <= 0.0).then_some(Bracket { lo: inflection, hi: lowest })
+        }
     }
 
     /// The impact of a disk that rises above the crests: down to their height it flies free, in closed form.
@@ -407,58 +438,39 @@ impl Vibration {
                 limit: MAX_FLIGHT_DURATION,
             });
         }
-        let (free_periods, free_remainder) = split_periods(free);
-        let sum = angle + free_remainder;
-        let (start, free_turns) =
-            if sum >= TAU { (sum - TAU, free_periods + 1) } else { (sum, free_periods) };
+        let (free_periods, rest) = nearest_periods(free);
+        let start = angle + rest;
         let falling = Arc { peak: p, angle: start, speed: -fall, depth: 0.0 };
-        let crest = if start < CREST { CREST - start } else { (CREST + TAU) - start };
-        let inflection = crest - (CREST - self.separation_angle);
-
-        let bracket = if fall >= p {
-            // The disk falls faster than the platform ever moves: one root.
-            Bracket { lo: 0.0, hi: crest }
+        let (turned, _) = nearby_wrapped(start);
+        let crest = (CREST - turned) + if turned < CREST { 0.0 } else { TAU };
+        // One root, unless the disk comes down slower than the platform can fall and just behind a crest.
+        let behind_crest = (turned > CREST) & (turned < self.retention_angle);
+        let bracket = if (fall < p) & behind_crest {
+            self.bracket_behind_crest(&Arc { angle: turned, ..falling }, crest, &mut evaluations)
         } else {
-            self.bracket_below_crests(&falling, crest, inflection, &mut evaluations)
+            Bracket { lo: 0.0, hi: crest }
         };
         let guess = first_guess(&falling, bracket);
         let root = falling.root(bracket, guess, evaluations)?;
-        Ok(landed(angle, start, free_turns, root))
+        Ok(landed(angle, start, free_periods, root))
     }
 
-    /// The window of the one first root of an arc that starts at the crests' height, slower than the platform
-    /// can be.
-    fn bracket_below_crests(
-        &self,
-        falling: &Arc,
-        crest: f64,
-        inflection: f64,
-        evaluations: &mut u32,
-    ) -> Bracket {
-        let mut lo = 0.0;
-        // While the platform falls away below the disk (it has just passed its crest) the disk may catch up
-        // with it and be left behind again.
-        if falling.angle > CREST && falling.angle < self.retention_angle {
-            let end = self.retention_angle - falling.angle;
-            if falling.gap_over(self.separation_depth, end) <= 0.0 {
-                return Bracket { lo: 0.0, hi: end };
-            }
-            let (_, c) = sin_cos_bounded(falling.angle);
-            if falling.speed < self.peak_acceleration() * c && falling.speed - end > -self.separation_speed {
-                let (lowest, gap) = falling.lowest(0.0, end, evaluations);
-                if gap <= 0.0 {
-                    return Bracket { lo: 0.0, hi: lowest };
-                }
-            }
-            lo = end;
+    /// The window of the first root of an arc that starts at the crests' height while the platform falls away
+    /// below the disk: the disk may catch up with the platform and be left behind again.
+    #[cold]
+    fn bracket_behind_crest(&self, falling: &Arc, crest: f64, evaluations: &mut u32) -> Bracket {
+        let end = self.retention_angle - falling.angle;
+        if falling.gap_over(self.separation_depth, end) <= 0.0 {
+            return Bracket { lo: 0.0, hi: end };
         }
-        if inflection <= 0.0 {
-            Bracket { lo: 0.0, hi: crest }
-        } else if falling.gap_over(self.separation_depth, inflection) <= 0.0 {
-            Bracket { lo, hi: inflection }
-        } else {
-            Bracket { lo: inflection, hi: crest }
+        let (_, cos) = sin_cos_bounded(falling.angle);
+        if falling.speed < self.peak_acceleration() * cos && falling.speed - end > -self.separation_speed {
+            let (lowest, gap) = falling.lowest(0.0, end, evaluations);
+            if gap <= 0.0 {
+                return Bracket { lo: 0.0, hi: lowest };
+            }
         }
+        Bracket { lo: end, hi: crest }
     }
 
     /// An impact before the first crest, longer than a short flight.
@@ -475,7 +487,7 @@ impl Vibration {
         let earliest = (2.0 * speed / (1.0 + self.peak_acceleration())).max(SHORT_FLIGHT);
         let bracket = Bracket { lo: bracket.lo.max(earliest.min(bracket.hi)), hi: bracket.hi };
         let root = rising.root(bracket, 0.5 * (bracket.lo + bracket.hi), evaluations)?;
-        let mut impact = landed(from.angle(), from.angle(), 0, root);
+        let mut impact = landed(from.angle(), from.angle(), 0.0, root);
         impact.periods = 0;
         impact.remainder = root.time;
         if impact.remainder >= TAU {
@@ -544,14 +556,17 @@ fn first_guess(_falling: &Arc, bracket: Bracket) -> f64 {
     bracket.lo
 }
 
-/// The impact of an arc whose reference is `start`, `turns` passages of phase 0 after a launch at `angle`.
+/// The impact of an arc whose reference is `start`, in [-pi, 3 pi), `periods` whole periods later than a launch at
+/// `angle` would put it.
 #[inline(always)]
-pub(crate) fn landed(angle: f64, start: f64, turns: u64, root: Root) -> Impact {
-    let sum = start + root.time;
-    let (wrapped, turns) = if sum >= TAU { (sum - TAU, turns + 1) } else { (sum, turns) };
+pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact {
+    let (wrapped, turns) = nearby_wrapped(start + root.time);
+    // The sum of a seam: -1e-17 + 2 pi rounds to 2 pi itself.
+    let wrapped = if wrapped < TAU { wrapped } else { 0.0 };
+    let turns = (periods + turns) as u64;
     let ahead = wrapped - angle;
     let (periods, remainder) =
-        if ahead >= 0.0 { (turns, ahead) } else { (turns.wrapping_sub(1), ahead + TAU) };
+        if ahead >= 0.0 { (turns, ahead) } else { (turns.saturating_sub(1), ahead + TAU) };
     Impact {
         periods,
         remainder,
