@@ -3,20 +3,24 @@
 //! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of the
 //! platform is its peak acceleration P = pi Gamma in units of g.
 
+mod basin;
 mod chatter;
 mod drop;
 pub mod elementary;
 mod error;
 mod flight;
 mod map;
+mod periodic;
 mod phase;
 mod vibration;
 
+pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};
 pub use chatter::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
 };
 pub use error::Error;
 pub use flight::{Impact, Launch, MAX_FLIGHT_DURATION};
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
+pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use phase::Phase;
 pub use vibration::Vibration;
