@@ -4,7 +4,8 @@ use core::f64::consts::TAU;
 
 use crate::elementary::{CREST, sin_cos_bounded};
 use crate::error::{Error, within};
-use crate::flight::{Arc, Bracket, Impact, landed};
+use crate::flight::{Impact, landed_within_a_turn};
+use crate::gap::{Bracket, CrestForm, GapForm};
 use crate::phase::Phase;
 use crate::vibration::Vibration;
 
@@ -27,7 +28,7 @@ impl Vibration {
         within("relative_velocity", relative_velocity, -1.0e9, 1.0e9, "[-1e9, 1e9] (units of g/omega)")?;
         let p = self.peak_acceleration();
         let angle = phase.angle();
-        let arc = Arc {
+        let arc = CrestForm {
             peak: p,
             angle,
             speed: relative_velocity + p * phase.cos(),
@@ -38,17 +39,14 @@ impl Vibration {
             && let Some(bracket) = self.bracket_before_crest(&arc, relative_velocity, &mut evaluations)
         {
             let root = arc.root(bracket, bracket.lo, evaluations)?;
-            let mut impact = landed(angle, angle, 0.0, root);
-            (impact.periods, impact.remainder) =
-                if root.time >= TAU { (1, root.time - TAU) } else { (0, root.time) };
-            return Ok(impact);
+            return Ok(landed_within_a_turn(angle, root));
         }
         self.impact_from_above(angle, arc.speed, arc.depth, relative_velocity, evaluations)
     }
 
     /// The window of the first root before the next crest, for an arc that starts above the platform and below
     /// the crest's height; `None` if it clears that crest.
-    fn bracket_before_crest(&self, arc: &Arc, slope: f64, evaluations: &mut u32) -> Option<Bracket> {
+    fn bracket_before_crest(&self, arc: &CrestForm, slope: f64, evaluations: &mut u32) -> Option<Bracket> {
         let crest = if arc.angle < CREST { CREST - arc.angle } else { CREST + TAU - arc.angle };
         // Phases in the pieces' order: away (convex) until retention, concave until separation, convex.
         let mut lo = 0.0;
@@ -76,7 +74,7 @@ impl Vibration {
     /// The first root in a convex piece that starts above the platform with `slope` and ends with `gap`.
     fn bracket_in_convex(
         &self,
-        arc: &Arc,
+        arc: &CrestForm,
         lo: f64,
         hi: f64,
         slope: f64,

@@ -77,15 +77,38 @@ pub(crate) fn rotated(sin: f64, cos: f64, delta: f64) -> (f64, f64) {
     (sin + (cos * sine - sin * versine), cos - (sin * sine + cos * versine))
 }
 
+/// (1/2 - (1 - cos h) / h^2) / h^2 for |h| up to 1/2; relative error below 2e-16.
+#[inline(always)]
+pub(crate) fn versine_shortfall(h: f64) -> f64 {
+    let z = h * h;
+    1.0 / 24.0
+        - z * (1.0 / 720.0
+            - z * (1.0 / 40_320.0
+                - z * (1.0 / 3_628_800.0 - z * (1.0 / 479_001_600.0 - z * (1.0 / 87_178_291_200.0)))))
+}
+
 /// (1 - cos h) / h^2 for |h| up to 1/2; relative error below 2e-16.
 #[inline(always)]
 pub(crate) fn versine_ratio(h: f64) -> f64 {
+    0.5 - h * h * versine_shortfall(h)
+}
+
+/// h - sin h for h in [0, 2 pi], in relative accuracy.
+pub(crate) fn sine_deficit(h: f64) -> f64 {
+    if h > 1.7 {
+        return h - sin_cos_bounded(h).0;
+    }
+    // The Taylor series, summed until its terms no longer count.
     let z = h * h;
-    0.5 - z
-        * (1.0 / 24.0
-            - z * (1.0 / 720.0
-                - z * (1.0 / 40_320.0
-                    - z * (1.0 / 3_628_800.0 - z * (1.0 / 479_001_600.0 - z * (1.0 / 87_178_291_200.0))))))
+    let mut term = h * z / 6.0;
+    let mut sum = term;
+    let mut k = 3.0;
+    while term.abs() > 1.0e-18 * sum.abs() {
+        term *= -z / ((k + 1.0) * (k + 2.0));
+        sum += term;
+        k += 2.0;
+    }
+    sum
 }
 
 /// (h - sin h) / h^3 for |h| up to 1/2; relative error below 2e-16.

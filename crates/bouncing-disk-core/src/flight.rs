@@ -24,9 +24,10 @@ use core::f64::consts::{PI, TAU};
 use serde::Serialize;
 
 use crate::elementary::{
-    CREST, nearby_wrapped, nearest_periods, rotated, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
+    CREST, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
 use crate::error::Error;
+use crate::gap::{Bracket, CrestForm, GapForm, LaunchForm, Root, ShortForm};
 use crate::phase::Phase;
 use crate::vibration::Vibration;
 
@@ -35,19 +36,6 @@ pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
-
-/// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
-/// is below twice the seventh power, 4e-17 rad.
-const LAST_STEP: f64 = 4.0e-3;
-
-/// Relative size of the last Newton step on gap/h: what it leaves is its square.
-const LAST_SHORT_STEP: f64 = 1.0e-9;
-
-/// Evaluations after which the search reports [`Error::NoConvergence`]; bisection alone needs about 60.
-const MAX_EVALUATIONS: u32 = 200;
-
-/// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
-const GAP_ROUNDING: f64 = 4.5e-16;
 
 /// A launch of the disk from the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -113,244 +101,6 @@ impl Impact {
     }
 }
 
-/// A window in time from the reference of an [`Arc`] with exactly one root, the gap falling through it.
-#[derive(Clone, Copy)]
-pub(crate) struct Bracket {
-    pub(crate) lo: f64,
-    pub(crate) hi: f64,
-}
-
-/// What an arc's root gives: time from the reference, phase pair there, relative velocity.
-#[derive(Clone, Copy)]
-pub(crate) struct Root {
-    pub(crate) time: f64,
-    sin: f64,
-    cos: f64,
-    velocity: f64,
-    evaluations: u32,
-}
-
-/// The gap in the form gap(t) = P [1 - sin(angle + t)] - depth + t (speed - t/2): heights are counted from the
-/// platform's crest, so that nothing large cancels however long the disk has been flying.
-#[derive(Clone, Copy)]
-pub(crate) struct Arc {
-    pub(crate) peak: f64,
-    pub(crate) angle: f64,
-    /// Disk speed (not relative) at t = 0.
-    pub(crate) speed: f64,
-    /// Disk depth below the crest at t = 0.
-    pub(crate) depth: f64,
-}
-
-impl Arc {
-    /// Gap at a time whose platform depth below the crest, P (1 - sin), is known in closed form.
-    #[inline(always)]
-    pub(crate) fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
-        (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
-    }
-
-    /// The root in `bracket`, which must hold exactly one, the gap falling through it, and the first guess.
-    ///
-    /// Fifth-order series reversal steps from a pair; each is kept inside the shrinking bracket, with a step of
-    /// the quadratic model or bisection where the series is useless (near a graze).
-    #[inline(always)]
-    pub(crate) fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
-        let p = self.peak;
-        let mut t = guess;
-        let mut used = evaluations;
-        loop {
-            let (s, c) = sin_cos_bounded(self.angle + t);
-            used += 1;
-            let platform = p * s;
-            let gap = ((p - platform) - self.depth) + t * (self.speed - 0.5 * t);
-            let third = p * c;
-            let slope = (self.speed - t) - third;
-            let curvature = platform - 1.0;
-            let inverse = 1.0 / slope;
-            let x = gap * inverse;
-            if x.abs() * (1.0 + (curvature * inverse).abs()) <= LAST_STEP && slope < 0.0 {
-                let delta = reverted(-x, inverse, curvature, third, platform);
-                let (sin, cos) = rotated(s, c, delta);
-                let time = t + delta;
-                let velocity = (self.speed - time) - p * cos;
-                return Ok(Root { time, sin, cos, velocity, evaluations: used });
-            }
-            if gap > 0.0 {
-                bracket.lo = t;
-            } else {
-                bracket.hi = t;
-            }
-            let radicand = slope * slope - 2.0 * gap * curvature;
-            let step = if radicand > 0.0 {
-                // The root of the quadratic model, with the sign that does not cancel; the slope of the model
-                // there is -sqrt(radicand), which turns the next two terms into a correction.
-                let root = radicand.sqrt();
-                let step = -2.0 * gap / (slope - root);
-                let correction =
-                    step * step * step * ((1.0 / 6.0) * third - (1.0 / 24.0) * platform * step) / root;
-                if correction.abs() < 0.5 * step.abs() { step + correction } else { step }
-            } else {
-                -x
-            };
-            let next = t + step;
-            t = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
-                next
-            } else {
-                0.5 * (bracket.lo + bracket.hi)
-            };
-            if used >= 8 && self.is_settled(bracket, gap) {
-                return Ok(self.root_as_found(t, used));
-            }
-            if used >= MAX_EVALUATIONS {
-                return Err(Error::NoConvergence { evaluations: used, phase: self.angle + t, gap });
-            }
-        }
-    }
-
-    /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known to
-    /// its conditioning limit.
-    #[cold]
-    fn is_settled(&self, bracket: Bracket, gap: f64) -> bool {
-        let scale = 2.0 * self.peak + self.depth.abs() + bracket.hi * (self.speed.abs() + bracket.hi);
-        gap.abs() <= GAP_ROUNDING * scale
-            || bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * (self.angle + bracket.hi)
-    }
-
-    #[cold]
-    fn root_as_found(&self, time: f64, evaluations: u32) -> Root {
-        let (sin, cos) = sin_cos_bounded(self.angle + time);
-        let velocity = ((self.speed - time) - self.peak * cos).min(0.0);
-        Root { time, sin, cos, velocity, evaluations: evaluations + 1 }
-    }
-
-    /// The smallest gap in [`lo`, `hi`], a piece of positive curvature whose slope changes from negative to
-    /// positive, and its time: Newton steps on the slope, which increases, kept in a bracket.
-    #[cold]
-    pub(crate) fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
-        let mut t = 0.5 * (lo + hi);
-        loop {
-            let (s, c) = sin_cos_bounded(self.angle + t);
-            *evaluations += 1;
-            let slope = (self.speed - t) - self.peak * c;
-            let curvature = self.peak * s - 1.0;
-            if slope < 0.0 {
-                lo = t;
-            } else {
-                hi = t;
-            }
-            let step = -slope / curvature;
-            let next = t + step;
-            let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
-            // The gap is flat at its minimum: an error d in time costs d^2 in the gap.
-            let settled = (next - t).abs() <= 1.0e-9 || hi - lo <= 1.0e-9;
-            if settled || *evaluations >= MAX_EVALUATIONS {
-                let (s, _) = sin_cos_bounded(self.angle + next);
-                let gap = ((self.peak - self.peak * s) - self.depth) + next * (self.speed - 0.5 * next);
-                return (next, gap);
-            }
-            t = next;
-        }
-    }
-}
-
-/// The step d with gap + slope d + curvature d^2/2 + ... = 0 by series reversal to the sixth order, given the
-/// Newton step `z` = -gap/slope, 1/slope, and the derivatives of a gap whose platform part is -`platform` (fourth
-/// derivative), -`third` (fifth) and so on.
-#[inline(always)]
-fn reverted(z: f64, inverse: f64, curvature: f64, third: f64, platform: f64) -> f64 {
-    let a2 = 0.5 * curvature * inverse;
-    let a3 = (1.0 / 6.0) * third * inverse;
-    let a4 = (-1.0 / 24.0) * platform * inverse;
-    let a5 = (-1.0 / 120.0) * third * inverse;
-    let b = a2 * a2;
-    let c3 = 2.0 * b - a3;
-    let c4 = a2 * (5.0 * (a3 - b)) - a4;
-    let c5 = (6.0 * a2 * a4 + 3.0 * a3 * a3) + (b * (14.0 * b - 21.0 * a3) - a5);
-    let z2 = z * z;
-    z + z2 * ((c3 * z - a2) + z2 * (c4 + c5 * z))
-}
-
-/// gap(h)/h and the relative velocity of a flight of at most [`SHORT_FLIGHT`], in relative accuracy.
-#[derive(Clone, Copy)]
-struct ShortFlight {
-    speed: f64,
-    /// P sin tau and P cos tau at launch.
-    sine: f64,
-    cosine: f64,
-    /// 1 - P sin tau: what pulls the disk back at launch.
-    pull: f64,
-}
-
-impl ShortFlight {
-    /// (gap(h)/h, relative velocity at h).
-    #[inline(always)]
-    fn at(&self, h: f64) -> (f64, f64) {
-        let versine = versine_ratio(h);
-        let deficit = sine_deficit_ratio(h);
-        let h2 = h * h;
-        // P sin tau (1 - cos h)/h is written with 1/2 - (1/2 - versine) so that P sin tau = 1 cancels exactly.
-        let ratio =
-            self.speed - h * (0.5 * self.pull + self.sine * (0.5 - versine)) + self.cosine * (h2 * deficit);
-        let velocity =
-            self.speed - h * self.pull + (self.cosine * (h2 * versine) - self.sine * (h2 * h * deficit));
-        (ratio, velocity)
-    }
-
-    /// The root of gap(h)/h in a bracket that holds exactly one.
-    #[inline(always)]
-    fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
-        // Two terms of the expansion in the launch speed; elsewhere the middle of the bracket.
-        let reach = self.speed / self.pull;
-        let mut h = 2.0 * reach * (1.0 + (2.0 / 3.0) * self.cosine * reach / self.pull);
-        if !(h > bracket.lo && h < bracket.hi) {
-            h = 0.5 * (bracket.lo + bracket.hi);
-        }
-        loop {
-            let (ratio, velocity) = self.at(h);
-            *evaluations += 1;
-            if ratio > 0.0 {
-                bracket.lo = h;
-            } else {
-                bracket.hi = h;
-            }
-            let slope = velocity - ratio;
-            let step = -ratio * h / slope;
-            let next = h + step;
-            if step.abs() <= LAST_SHORT_STEP * h && slope < 0.0 {
-                let acceleration = -self.pull + self.cosine * h;
-                return Ok((next, (velocity + acceleration * step).min(0.0)));
-            }
-            if bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * bracket.hi {
-                return Ok((h, velocity.min(0.0)));
-            }
-            h = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
-                next
-            } else {
-                0.5 * (bracket.lo + bracket.hi)
-            };
-            if *evaluations >= MAX_EVALUATIONS {
-                return Err(Error::NoConvergence { evaluations: *evaluations, phase: h, gap: ratio * h });
-            }
-        }
-    }
-
-    /// The lowest gap/h of a convex piece [lo, hi] by golden-free bisection on the relative velocity.
-    #[cold]
-    fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
-        while hi - lo > 1.0e-9 * hi && *evaluations < MAX_EVALUATIONS {
-            let middle = 0.5 * (lo + hi);
-            *evaluations += 1;
-            if self.at(middle).1 < 0.0 {
-                lo = middle;
-            } else {
-                hi = middle;
-            }
-        }
-        let h = 0.5 * (lo + hi);
-        (h, self.at(h).0 * h)
-    }
-}
-
 impl Vibration {
     /// The first impact after `launch` (Eq. 11).
     ///
@@ -376,7 +126,7 @@ impl Vibration {
         }
         let disk_speed = speed + p * from.cos();
         let depth = p - p * from.sin();
-        let rising = Arc { peak: p, angle, speed: disk_speed, depth };
+        let rising = CrestForm { peak: p, angle, speed: disk_speed, depth };
         let mut evaluations = 0;
 
         // Until the first crest. A disk launched while the platform falls away, its crest still ahead, is above
@@ -385,35 +135,50 @@ impl Vibration {
         let inflection = self.time_to_separation(angle);
         let crest = inflection + (CREST - self.separation_angle);
         let from_falling_away = (angle >= self.separation_angle) & (angle < CREST);
-        let above =
-            (rising.gap_over(self.separation_depth, inflection) > 0.0) & (rising.gap_over(0.0, crest) > 0.0);
+        let above = (rising.gap_over(self.separation_depth, inflection) > self.doubtful_gap)
+            & (rising.gap_over(0.0, crest) > self.doubtful_gap);
         let no_dip = (disk_speed - inflection >= self.separation_speed) | (disk_speed <= crest);
-        if !(from_falling_away | (above & no_dip))
-            && let Some(bracket) =
-                self.bracket_before_crest_of_launch(&rising, inflection, crest, &mut evaluations)
-        {
-            return self.impact_before_crest(from, speed, rising, bracket, evaluations);
+        if !(from_falling_away | (above & no_dip)) {
+            let low = LaunchForm { angle, peak: p, speed, sine: p * from.sin(), cosine: p * from.cos() };
+            if let Some(bracket) =
+                self.bracket_before_crest_of_launch(&low, inflection, crest, &mut evaluations)
+            {
+                return impact_before_crest(from, low, bracket, evaluations);
+            }
         }
         self.impact_from_above(angle, disk_speed, depth, speed, evaluations)
     }
 
     /// The window of the first root of a launch before the crest, where it is not plain that there is none.
+    ///
+    /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs.
     #[cold]
     fn bracket_before_crest_of_launch(
         &self,
-        rising: &Arc,
+        low: &LaunchForm,
         inflection: f64,
         crest: f64,
         evaluations: &mut u32,
     ) -> Option<Bracket> {
-        if rising.gap_over(self.separation_depth, inflection) <= 0.0 {
-            Some(Bracket { lo: 0.0, hi: inflection })
-        } else if rising.gap_over(0.0, crest) <= 0.0 {
-            Some(Bracket { lo: inflection, hi: crest })
-        } else {
-            let (lowest, gap) = rising.lowest(inflection, crest, evaluations);
-            (gap <= 0.0).then_some(Bracket { lo: inflection, hi: lowest })
+        if crest <= SHORT_FLIGHT {
+            return None;
         }
+        if inflection > SHORT_FLIGHT {
+            *evaluations += 1;
+            if low.gap(inflection) <= 0.0 {
+                return Some(Bracket { lo: SHORT_FLIGHT, hi: inflection });
+            }
+        }
+        *evaluations += 1;
+        let lo = inflection.max(SHORT_FLIGHT);
+        if low.gap(crest) <= 0.0 {
+            return Some(Bracket { lo, hi: crest });
+        }
+        if low.slope(lo) >= 0.0 || low.slope(crest) <= 0.0 {
+            return None;
+        }
+        let (lowest, gap) = low.lowest(lo, crest, evaluations);
+        (gap <= 0.0).then_some(Bracket { lo, hi: lowest })
     }
 
     /// The impact of a disk that rises above the crests: down to their height it flies free, in closed form.
@@ -440,25 +205,24 @@ impl Vibration {
         }
         let (free_periods, rest) = nearest_periods(free);
         let start = angle + rest;
-        let falling = Arc { peak: p, angle: start, speed: -fall, depth: 0.0 };
+        let falling = CrestForm { peak: p, angle: start, speed: -fall, depth: 0.0 };
         let (turned, _) = nearby_wrapped(start);
         let crest = (CREST - turned) + if turned < CREST { 0.0 } else { TAU };
         // One root, unless the disk comes down slower than the platform can fall and just behind a crest.
         let behind_crest = (turned > CREST) & (turned < self.retention_angle);
         let bracket = if (fall < p) & behind_crest {
-            self.bracket_behind_crest(&Arc { angle: turned, ..falling }, crest, &mut evaluations)
+            self.bracket_behind_crest(&CrestForm { angle: turned, ..falling }, crest, &mut evaluations)
         } else {
             Bracket { lo: 0.0, hi: crest }
         };
-        let guess = first_guess(&falling, bracket);
-        let root = falling.root(bracket, guess, evaluations)?;
+        let root = falling.root(bracket, bracket.lo, evaluations)?;
         Ok(landed(angle, start, free_periods, root))
     }
 
     /// The window of the first root of an arc that starts at the crests' height while the platform falls away
     /// below the disk: the disk may catch up with the platform and be left behind again.
     #[cold]
-    fn bracket_behind_crest(&self, falling: &Arc, crest: f64, evaluations: &mut u32) -> Bracket {
+    fn bracket_behind_crest(&self, falling: &CrestForm, crest: f64, evaluations: &mut u32) -> Bracket {
         let end = self.retention_angle - falling.angle;
         if falling.gap_over(self.separation_depth, end) <= 0.0 {
             return Bracket { lo: 0.0, hi: end };
@@ -473,30 +237,6 @@ impl Vibration {
         Bracket { lo: end, hi: crest }
     }
 
-    /// An impact before the first crest, longer than a short flight.
-    #[cold]
-    fn impact_before_crest(
-        &self,
-        from: Phase,
-        speed: f64,
-        rising: Arc,
-        bracket: Bracket,
-        evaluations: u32,
-    ) -> Result<Impact, Error> {
-        // No impact before this: the gap bends down by 1 + P at the most.
-        let earliest = (2.0 * speed / (1.0 + self.peak_acceleration())).max(SHORT_FLIGHT);
-        let bracket = Bracket { lo: bracket.lo.max(earliest.min(bracket.hi)), hi: bracket.hi };
-        let root = rising.root(bracket, 0.5 * (bracket.lo + bracket.hi), evaluations)?;
-        let mut impact = landed(from.angle(), from.angle(), 0.0, root);
-        impact.periods = 0;
-        impact.remainder = root.time;
-        if impact.remainder >= TAU {
-            impact.periods = 1;
-            impact.remainder -= TAU;
-        }
-        Ok(impact)
-    }
-
     /// The impact if it comes within [`SHORT_FLIGHT`], else `None`.
     fn short_flight(&self, from: Phase, speed: f64) -> Result<Option<Impact>, Error> {
         let p = self.peak_acceleration();
@@ -506,7 +246,7 @@ impl Vibration {
             return Err(Error::NoLiftOff { phase: angle, peak_acceleration: p });
         }
         let sine = p * from.sin();
-        let flight = ShortFlight { speed, sine, cosine: p * from.cos(), pull: 1.0 - sine };
+        let flight = ShortForm { speed, sine, cosine: p * from.cos(), pull: 1.0 - sine };
         let mut evaluations = 0;
         // Pieces of constant curvature: `away` (convex) until retention, else concave until separation.
         let mut lo = 0.0;
@@ -550,10 +290,23 @@ impl Vibration {
     }
 }
 
-/// The start of the search on an arc that comes down from the crests' height.
-#[inline(always)]
-fn first_guess(_falling: &Arc, bracket: Bracket) -> f64 {
-    bracket.lo
+/// An impact before the first crest, longer than a short flight.
+#[cold]
+fn impact_before_crest(
+    from: Phase,
+    low: LaunchForm,
+    bracket: Bracket,
+    evaluations: u32,
+) -> Result<Impact, Error> {
+    let root = low.root(bracket, 0.5 * (bracket.lo + bracket.hi), evaluations)?;
+    Ok(landed_within_a_turn(from.angle(), root))
+}
+
+/// The impact of a form whose reference is the start of the flight itself, at `angle`.
+pub(crate) fn landed_within_a_turn(angle: f64, root: Root) -> Impact {
+    let mut impact = landed(angle, angle, 0.0, root);
+    (impact.periods, impact.remainder) = if root.time >= TAU { (1, root.time - TAU) } else { (0, root.time) };
+    impact
 }
 
 /// The impact of an arc whose reference is `start`, in [-pi, 3 pi), `periods` whole periods later than a launch at
@@ -565,8 +318,14 @@ pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact
     let wrapped = if wrapped < TAU { wrapped } else { 0.0 };
     let turns = (periods + turns) as u64;
     let ahead = wrapped - angle;
-    let (periods, remainder) =
-        if ahead >= 0.0 { (turns, ahead) } else { (turns.saturating_sub(1), ahead + TAU) };
+    let (periods, remainder) = if ahead >= 0.0 {
+        (turns, ahead)
+    } else if ahead + TAU < TAU {
+        (turns.saturating_sub(1), ahead + TAU)
+    } else {
+        // A whole number of periods, less than the rounding.
+        (turns, 0.0)
+    };
     Impact {
         periods,
         remainder,

@@ -9,6 +9,7 @@ mod drop;
 pub mod elementary;
 mod error;
 mod flight;
+mod gap;
 mod map;
 mod periodic;
 mod phase;

@@ -28,6 +28,9 @@ pub struct Vibration {
     /// P - P sin sigma: how far the platform is below its crest at separation.
     #[serde(skip)]
     pub(crate) separation_depth: f64,
+    /// A gap at a crest or an inflection that may be rounding only, in the crest form.
+    #[serde(skip)]
+    pub(crate) doubtful_gap: f64,
     /// A launch at least this fast cannot come back within [`crate::flight::SHORT_FLIGHT`].
     #[serde(skip)]
     pub(crate) long_launch_speed: f64,
@@ -62,6 +65,7 @@ impl Vibration {
             retention_angle: PI - separation_angle,
             separation_speed,
             separation_depth,
+            doubtful_gap: 1.0e-14 * (1.0 + p),
             long_launch_speed: 0.5 * crate::flight::SHORT_FLIGHT * (1.0 + p),
         })
     }

@@ -1,0 +1,358 @@
+//! The gap between disk and platform in three forms, each without cancellation where it is used, and the search
+//! of a root that is known to be the only one in its window.
+
+use crate::elementary::{
+    rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
+};
+use crate::error::Error;
+
+/// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
+/// is below twice the seventh power, 4e-17 rad.
+const LAST_STEP: f64 = 4.0e-3;
+
+/// Relative size of the last Newton step on gap/h: what it leaves is its square.
+const LAST_SHORT_STEP: f64 = 1.0e-9;
+
+/// Evaluations after which the search reports [`Error::NoConvergence`]; bisection alone needs about 60.
+const MAX_EVALUATIONS: u32 = 200;
+
+/// Evaluations after which a search may be a graze, where the gap is flat and series do not converge.
+const PATIENCE: u32 = 8;
+
+/// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
+const GAP_ROUNDING: f64 = 4.5e-16;
+
+/// A window in time with exactly one root, the gap falling through it.
+#[derive(Clone, Copy)]
+pub(crate) struct Bracket {
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+}
+
+/// An impact in the time of its gap form, with the phase pair and the relative velocity.
+#[derive(Clone, Copy)]
+pub(crate) struct Root {
+    pub(crate) time: f64,
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+    pub(crate) velocity: f64,
+    pub(crate) evaluations: u32,
+}
+
+/// The gap and its derivatives at one time; the fourth derivative is -`platform`, the fifth -`third`.
+#[derive(Clone, Copy)]
+pub(crate) struct Jet {
+    gap: f64,
+    slope: f64,
+    curvature: f64,
+    /// P cos: the third derivative.
+    third: f64,
+    /// P sin: the platform's height.
+    platform: f64,
+    sin: f64,
+    cos: f64,
+}
+
+/// A way to evaluate the gap.
+pub(crate) trait GapForm: Copy {
+    /// Gap and derivatives at time `t` from the form's reference.
+    fn jet(&self, t: f64) -> Jet;
+    /// Relative velocity at `t`, where the phase has this cosine.
+    fn velocity(&self, t: f64, cos: f64) -> f64;
+    /// Bound on the rounding error of the gap for times up to `t`.
+    fn rounding(&self, t: f64) -> f64;
+
+    /// The root in `bracket`, which must hold exactly one, the gap falling through it, from a first `guess`.
+    ///
+    /// Each step is the root of the quadratic model with the next two terms as a correction, kept inside the
+    /// shrinking bracket by bisection; the last one is the sixth-order series reversal, whose smallness criterion
+    /// bounds what it leaves.
+    #[inline(always)]
+    fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
+        let mut t = guess;
+        let mut used = evaluations;
+        loop {
+            let jet = self.jet(t);
+            used += 1;
+            let Jet { gap, slope, curvature, third, platform, sin, cos } = jet;
+            let inverse = 1.0 / slope;
+            let x = gap * inverse;
+            // Terms of the third order and above are bounded by P/slope <= |third/slope| + |platform/slope|.
+            let small = x.abs() * (1.0 + (curvature * inverse).abs()) <= LAST_STEP
+                && (x * x) * ((third.abs() + platform.abs()) * inverse).abs() <= 1.5 * LAST_STEP * LAST_STEP;
+            if small && slope < 0.0 {
+                let delta = reverted(-x, inverse, &jet);
+                let time = t + delta;
+                let (sin, cos) = rotated(sin, cos, delta);
+                return Ok(Root { time, sin, cos, velocity: self.velocity(time, cos), evaluations: used });
+            }
+            if gap > 0.0 {
+                bracket.lo = t;
+            } else {
+                bracket.hi = t;
+            }
+            if used >= PATIENCE && self.is_settled(bracket, gap) {
+                let velocity = if slope < 0.0 { slope } else { 0.0 };
+                return Ok(Root { time: t, sin, cos, velocity, evaluations: used });
+            }
+            if used >= MAX_EVALUATIONS {
+                return Err(Error::NoConvergence { evaluations: used, phase: t, gap });
+            }
+            let radicand = slope * slope - 2.0 * gap * curvature;
+            let step = if radicand > 0.0 {
+                // The sign that does not cancel; the model's slope at its root is -sqrt(radicand).
+                let root = radicand.sqrt();
+                let step = -2.0 * gap / (slope - root);
+                let correction =
+                    step * step * step * ((1.0 / 6.0) * third - (1.0 / 24.0) * platform * step) / root;
+                if correction.abs() < 0.5 * step.abs() { step + correction } else { step }
+            } else {
+                -x
+            };
+            let next = t + step;
+            t = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
+                next
+            } else {
+                0.5 * (bracket.lo + bracket.hi)
+            };
+        }
+    }
+
+    /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known to
+    /// its conditioning limit.
+    #[cold]
+    fn is_settled(&self, bracket: Bracket, gap: f64) -> bool {
+        gap.abs() <= self.rounding(bracket.hi)
+            || bracket.hi - bracket.lo <= 4.0 * f64::EPSILON * (1.0 + bracket.hi)
+    }
+
+    /// The smallest gap in [`lo`, `hi`], a piece of positive curvature whose slope changes from negative to
+    /// positive, and its time: Newton steps on the slope, which increases, kept in a bracket.
+    #[cold]
+    fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
+        let mut t = 0.5 * (lo + hi);
+        loop {
+            let Jet { slope, curvature, .. } = self.jet(t);
+            *evaluations += 1;
+            if slope < 0.0 {
+                lo = t;
+            } else {
+                hi = t;
+            }
+            let next = t - slope / curvature;
+            let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
+            // The gap is flat at its minimum: an error d in time costs d^2 in the gap.
+            if (next - t).abs() <= 1.0e-9 || hi - lo <= 1.0e-9 || *evaluations >= MAX_EVALUATIONS {
+                return (next, self.jet(next).gap);
+            }
+            t = next;
+        }
+    }
+}
+
+/// The step d with gap + slope d + curvature d^2/2 + ... = 0 by series reversal to the sixth order, given the
+/// Newton step `z` = -gap/slope and `inverse` = 1/slope.
+#[inline(always)]
+fn reverted(z: f64, inverse: f64, jet: &Jet) -> f64 {
+    let a2 = 0.5 * jet.curvature * inverse;
+    let a3 = (1.0 / 6.0) * jet.third * inverse;
+    let a4 = (-1.0 / 24.0) * jet.platform * inverse;
+    let a5 = (-1.0 / 120.0) * jet.third * inverse;
+    let b = a2 * a2;
+    let c3 = 2.0 * b - a3;
+    let c4 = a2 * (5.0 * (a3 - b)) - a4;
+    let c5 = (6.0 * a2 * a4 + 3.0 * a3 * a3) + (b * (14.0 * b - 21.0 * a3) - a5);
+    let z2 = z * z;
+    z + z2 * ((c3 * z - a2) + z2 * (c4 + c5 * z))
+}
+
+/// The gap counted from the platform's crest, P [1 - sin(angle + t)] - depth + t (speed - t/2): nothing large
+/// cancels however long the disk has been flying before t = 0.
+#[derive(Clone, Copy)]
+pub(crate) struct CrestForm {
+    pub(crate) peak: f64,
+    pub(crate) angle: f64,
+    /// Disk speed (not relative) at t = 0.
+    pub(crate) speed: f64,
+    /// Disk depth below the crest at t = 0.
+    pub(crate) depth: f64,
+}
+
+impl CrestForm {
+    /// Gap at a time whose platform depth below the crest, P (1 - sin), is known in closed form.
+    #[inline(always)]
+    pub(crate) fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
+        (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
+    }
+}
+
+impl GapForm for CrestForm {
+    #[inline(always)]
+    fn jet(&self, t: f64) -> Jet {
+        let (sin, cos) = sin_cos_bounded(self.angle + t);
+        let platform = self.peak * sin;
+        let third = self.peak * cos;
+        Jet {
+            gap: ((self.peak - platform) - self.depth) + t * (self.speed - 0.5 * t),
+            slope: (self.speed - t) - third,
+            curvature: platform - 1.0,
+            third,
+            platform,
+            sin,
+            cos,
+        }
+    }
+
+    #[inline(always)]
+    fn velocity(&self, t: f64, cos: f64) -> f64 {
+        (self.speed - t) - self.peak * cos
+    }
+
+    fn rounding(&self, t: f64) -> f64 {
+        GAP_ROUNDING * (2.0 * self.peak + self.depth.abs() + t * (self.speed.abs() + t))
+    }
+}
+
+/// The gap counted from the launch, w t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]: accurate relative
+/// to its own terms, for flights that stay low.
+#[derive(Clone, Copy)]
+pub(crate) struct LaunchForm {
+    pub(crate) angle: f64,
+    pub(crate) peak: f64,
+    /// Relative launch speed w.
+    pub(crate) speed: f64,
+    /// P sin tau and P cos tau at launch.
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+}
+
+impl LaunchForm {
+    /// The gap alone.
+    pub(crate) fn gap(&self, t: f64) -> f64 {
+        self.jet(t).gap
+    }
+
+    /// The relative velocity.
+    pub(crate) fn slope(&self, t: f64) -> f64 {
+        let (half_sin, half_cos) = sin_cos_bounded(0.5 * t);
+        let (versine, sin_t) = (2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos);
+        (self.speed - t) + (self.cosine * versine + self.sine * sin_t)
+    }
+}
+
+impl GapForm for LaunchForm {
+    fn jet(&self, t: f64) -> Jet {
+        let (sin, cos) = sin_cos_bounded(self.angle + t);
+        let (half_sin, _) = sin_cos_bounded(0.5 * t);
+        let versine = 2.0 * half_sin * half_sin;
+        let platform = self.peak * sin;
+        Jet {
+            gap: t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t)),
+            slope: self.slope(t),
+            curvature: platform - 1.0,
+            third: self.peak * cos,
+            platform,
+            sin,
+            cos,
+        }
+    }
+
+    fn velocity(&self, t: f64, _cos: f64) -> f64 {
+        self.slope(t)
+    }
+
+    fn rounding(&self, t: f64) -> f64 {
+        let sides = self.sine.abs() * t.min(2.0) * t.min(2.0) + self.cosine.abs() * sine_deficit(t);
+        GAP_ROUNDING * (t * (self.speed + 0.5 * t) + sides)
+    }
+}
+
+/// gap(h)/h for h up to [`crate::flight::SHORT_FLIGHT`], in relative accuracy: the launch itself is divided out.
+#[derive(Clone, Copy)]
+pub(crate) struct ShortForm {
+    pub(crate) speed: f64,
+    /// P sin tau and P cos tau at launch.
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+    /// 1 - P sin tau: what pulls the disk back at launch.
+    pub(crate) pull: f64,
+}
+
+impl ShortForm {
+    /// (gap(h)/h, relative velocity at h).
+    #[inline(always)]
+    pub(crate) fn at(&self, h: f64) -> (f64, f64) {
+        let shortfall = versine_shortfall(h);
+        let deficit = sine_deficit_ratio(h);
+        let h2 = h * h;
+        // sin tau (1 - cos h)/h is split at 1/2 so that P sin tau = 1 cancels exactly.
+        let ratio =
+            self.speed - h * (0.5 * self.pull + self.sine * (h2 * shortfall)) + self.cosine * (h2 * deficit);
+        let versine = 0.5 - h2 * shortfall;
+        let velocity =
+            self.speed - h * self.pull + (self.cosine * (h2 * versine) - self.sine * (h2 * h * deficit));
+        (ratio, velocity)
+    }
+
+    /// The gap's second derivative at h.
+    #[inline(always)]
+    fn curvature(&self, h: f64) -> f64 {
+        let h2 = h * h;
+        let sin_h = h - h2 * h * sine_deficit_ratio(h);
+        (self.cosine * sin_h - self.pull) - self.sine * (h2 * versine_ratio(h))
+    }
+
+    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
+    #[inline(always)]
+    pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
+        // Two terms of the expansion in the launch speed; elsewhere the middle of the bracket.
+        let reach = self.speed / self.pull;
+        let mut h = 2.0 * reach * (1.0 + (2.0 / 3.0) * self.cosine * reach / self.pull);
+        if !(h > bracket.lo && h < bracket.hi) {
+            h = 0.5 * (bracket.lo + bracket.hi);
+        }
+        loop {
+            let (ratio, velocity) = self.at(h);
+            *evaluations += 1;
+            if ratio > 0.0 {
+                bracket.lo = h;
+            } else {
+                bracket.hi = h;
+            }
+            let slope = velocity - ratio;
+            let step = -ratio * h / slope;
+            let next = h + step;
+            if step.abs() <= LAST_SHORT_STEP * h && slope < 0.0 {
+                return Ok((next, (velocity + self.curvature(h) * step).min(0.0)));
+            }
+            if bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * bracket.hi {
+                return Ok((h, velocity.min(0.0)));
+            }
+            if *evaluations >= MAX_EVALUATIONS {
+                return Err(Error::NoConvergence { evaluations: *evaluations, phase: h, gap: ratio * h });
+            }
+            h = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
+                next
+            } else {
+                0.5 * (bracket.lo + bracket.hi)
+            };
+        }
+    }
+
+    /// The time and size of the smallest gap in a convex piece [lo, hi] whose slope changes from negative to
+    /// positive, by bisection on the relative velocity.
+    #[cold]
+    pub(crate) fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
+        while hi - lo > 1.0e-9 * hi && *evaluations < MAX_EVALUATIONS {
+            let middle = 0.5 * (lo + hi);
+            *evaluations += 1;
+            if self.at(middle).1 < 0.0 {
+                lo = middle;
+            } else {
+                hi = middle;
+            }
+        }
+        let h = 0.5 * (lo + hi);
+        (h, self.at(h).0 * h)
+    }
+}

@@ -1,0 +1,306 @@
+//! The impact map, its orbits and what is done with them: laws, closed forms and independent derivatives.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk_core::{
+    ATTACHED, Axis, BasinSettings, ChatterPolicy, Error, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
+    KnownOrbit, Launch, Multipliers, OrbitEvent, Phase, UNDECIDED, Vibration, period_doublings,
+};
+use glam::{DMat2, DVec2};
+use num_dual::{Dual64, DualNum};
+use proptest::prelude::*;
+
+fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    let vibration = Vibration::from_axial_forcing(axial_forcing).expect("legal forcing");
+    ImpactMap::new(vibration, restitution).expect("legal restitution")
+}
+
+fn state(angle: f64, velocity: f64) -> ImpactState {
+    ImpactState::new(Phase::new(angle).expect("finite"), velocity).expect("legal velocity")
+}
+
+/// The derivative of the map in dual numbers: the impact time is pulled along by Newton steps on the gap, which
+/// knows nothing of the implicit-function formulas of the library.
+fn dual_jacobian(map: &ImpactMap, from: ImpactState, duration: f64) -> DMat2 {
+    let column = |by_phase: f64, by_velocity: f64| {
+        let p = map.vibration().peak_acceleration();
+        let tau = Dual64::new(from.phase().angle(), by_phase);
+        let v = Dual64::new(from.velocity(), by_velocity);
+        let w = -v * map.restitution();
+        let mut h = Dual64::from_re(duration);
+        for _ in 0..3 {
+            let later = tau + h;
+            let gap = w * h + tau.cos() * p * h - h * h * 0.5 - (later.sin() - tau.sin()) * p;
+            let slope = w + tau.cos() * p - h - later.cos() * p;
+            h -= gap / slope;
+        }
+        let phase = tau + h;
+        let velocity = w + tau.cos() * p - h - phase.cos() * p;
+        DVec2::new(phase.eps, velocity.eps)
+    };
+    DMat2::from_cols(column(1.0, 0.0), column(0.0, 1.0))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn jacobian_agrees_with_dual_numbers(
+        forcing in 0.05_f64..60.0, restitution in 0.05_f64..0.95, angle in 0.0..TAU, speed in 0.05_f64..4.0,
+    ) {
+        let map = map(forcing, restitution);
+        let from = state(angle, -speed * PI * forcing);
+        let Ok(impact) = map.step(from) else { return Ok(()) };
+        // Next to a graze the derivative is unbounded and the comparison would only test conditioning.
+        prop_assume!(impact.velocity < -0.05 * PI * forcing.min(1.0));
+        let own = map.jacobian(from, &impact);
+        let other = dual_jacobian(&map, from, impact.duration());
+        let scale = other.x_axis.abs().max_element().max(other.y_axis.abs().max_element()).max(1.0);
+        prop_assert!((own - other).x_axis.abs().max_element() <= 1e-9 * scale, "{own} {other}");
+        prop_assert!((own - other).y_axis.abs().max_element() <= 1e-9 * scale, "{own} {other}");
+    }
+
+    /// The map contracts areas by restitution^2 times the ratio of the impact speeds, whatever the platform does.
+    #[test]
+    fn determinant_is_restitution_squared_times_the_speed_ratio(
+        forcing in 0.05_f64..20.0, restitution in 0.05_f64..0.95, angle in 0.0..TAU, speed in 0.05_f64..4.0,
+    ) {
+        let map = map(forcing, restitution);
+        let from = state(angle, -speed * PI * forcing);
+        let Ok(impact) = map.step(from) else { return Ok(()) };
+        prop_assume!(impact.velocity < -0.05 * PI * forcing.min(1.0));
+        let jacobian = map.jacobian(from, &impact);
+        let expected = restitution * restitution * from.velocity() / impact.velocity;
+        // Two products of the entries cancel: their size sets the rounding.
+        let scale = (jacobian.x_axis.x * jacobian.y_axis.y).abs() + expected.abs();
+        prop_assert!((jacobian.determinant() - expected).abs() <= 1e-11 * scale);
+    }
+
+    /// The closed form of the chattering sum against the sequence itself, impact by impact to the last bit.
+    #[test]
+    fn accumulation_agrees_with_the_impacts_one_by_one(
+        forcing in 0.0_f64..3.0, restitution in 0.05_f64..0.9, angle in 0.0..TAU, exponent in -6.0_f64..-1.0,
+    ) {
+        let map = map(forcing, restitution);
+        let phase = Phase::new(angle).expect("finite");
+        let speed = bouncing_disk_core::elementary::pow(10.0, exponent);
+        let Some(sum) = map.vibration().accumulation(phase, speed, restitution) else { return Ok(()) };
+        let (mut total, mut launch, mut at) = (0.0, speed, phase);
+        while launch > 1e-30 * speed {
+            let impact = map.vibration().first_impact(Launch::new(at, launch).expect("legal")).expect("returns");
+            prop_assert_eq!(impact.periods, 0);
+            total += impact.remainder;
+            (at, launch) = (impact.phase, -restitution * impact.velocity);
+        }
+        // Phases next to P sin tau = 1 round by 2e-16, which the pull 1 - P sin tau carries into every flight.
+        let pull = map.vibration().contact_force(phase);
+        let rounding = 4e-15 * (1.0 + forcing / pull) * total / (1.0 - restitution);
+        prop_assert!(
+            (sum.duration - total).abs() <= sum.error_bound + rounding,
+            "{} {} bound {}", sum.duration, total, sum.error_bound
+        );
+        let mut last = 0.0;
+        for impact in map.vibration().chatter_impacts(phase, speed, restitution) {
+            prop_assert!(impact.time >= last && impact.time <= sum.duration * (1.0 + 1e-12) + 1e-15);
+            last = impact.time;
+        }
+        prop_assert!((last - sum.duration).abs() <= 1e-12 * sum.duration + 2.0 * sum.error_bound + rounding);
+    }
+
+    /// A disk let go from a point of a flight meets the platform where the flight does.
+    #[test]
+    fn drop_from_the_middle_of_a_flight_ends_at_the_same_impact(
+        forcing in 0.0_f64..5.0, angle in 0.0..TAU, speed in 0.01_f64..3.0, share in 0.05_f64..0.95,
+    ) {
+        let vibration = Vibration::from_axial_forcing(forcing).expect("legal");
+        let p = vibration.peak_acceleration();
+        let phase = Phase::new(angle).expect("finite");
+        let speed = speed * (1.0 + p);
+        let impact = vibration.first_impact(Launch::new(phase, speed).expect("legal")).expect("returns");
+        let h = share * impact.duration();
+        let middle = Phase::new(angle + h).expect("finite");
+        let disk_speed = speed + p * phase.cos();
+        let gap = disk_speed * h - 0.5 * h * h - p * (middle.sin() - phase.sin());
+        prop_assume!(gap > 1e-3 * (1.0 + p) && impact.velocity < -1e-2 * (1.0 + p));
+        let again = vibration.first_impact_of_drop(middle, gap, disk_speed - h - p * middle.cos()).expect("returns");
+        // The gap itself was computed with this rounding.
+        let rounding = 1e-14 * (1.0 + p + disk_speed * disk_speed) / impact.velocity.abs();
+        let total = h + again.duration();
+        prop_assert!((total - impact.duration()).abs() <= rounding * 10.0, "{} {}", total, impact.duration());
+        prop_assert!((again.velocity - impact.velocity).abs() <= 10.0 * rounding * (2.0 + p + impact.velocity.abs()));
+    }
+
+    /// Same start, same bits; and the orbit iterator is the map iterated.
+    #[test]
+    fn orbit_is_the_iterated_map(angle in 0.0..TAU, speed in 0.1_f64..2.0) {
+        let map = map(0.55, 0.5);
+        let start = ImpactState::from_normalised(angle, speed).expect("legal");
+        let mut by_hand = start;
+        for event in map.orbit(start, ChatterPolicy::Complete).take(200) {
+            let OrbitEvent::Impact(impact) = event.expect("no failure") else { break };
+            by_hand = map.step(by_hand).expect("an impact follows").into();
+            prop_assert_eq!(impact.phase.angle().to_bits(), by_hand.phase().angle().to_bits());
+            prop_assert_eq!(impact.velocity.to_bits(), by_hand.velocity().to_bits());
+        }
+    }
+}
+
+#[test]
+fn still_platform_returns_restitution_squared_of_every_height() {
+    for restitution in [0.0, 0.3, 0.5, 0.9, 0.99] {
+        let map = map(0.0, restitution);
+        let height = 3.0_f64;
+        let fall = (2.0 * height).sqrt();
+        let phase = Phase::new(1.0).expect("finite");
+        let mut time = 0.0;
+        let mut apex = height;
+        for event in map.orbit_from_drop(phase, height, 0.0, ChatterPolicy::Complete).expect("legal") {
+            match event.expect("no failure") {
+                OrbitEvent::Impact(impact) => {
+                    let rebound = 0.5 * (restitution * impact.velocity) * (restitution * impact.velocity);
+                    apex *= restitution * restitution;
+                    assert!((rebound - apex).abs() <= 1e-13 * apex, "{rebound} {apex}");
+                    time += impact.duration();
+                }
+                OrbitEvent::Stick(stick) => {
+                    time += stick.attachment.duration;
+                    assert!(stick.separation.is_none(), "a still platform never throws the disk");
+                }
+                _ => unreachable!("no other events"),
+            }
+        }
+        let zeno = fall * (1.0 + restitution) / (1.0 - restitution);
+        assert!((time - zeno).abs() <= 1e-13 * zeno, "restitution {restitution}: {time} {zeno}");
+    }
+}
+
+#[test]
+fn period_one_is_a_fixed_point_where_it_exists() {
+    for forcing in [1.0 / 3.0 + 1e-9, 0.34, 0.4, 0.486] {
+        let map = map(forcing, 0.5);
+        let orbit = map.period_one(1).expect("exists above (1-r)/(1+r)");
+        let impact = map.step(orbit).expect("returns");
+        assert!((impact.phase.angle() - orbit.phase().angle()).abs() < 1e-13);
+        assert!((impact.velocity - orbit.velocity()).abs() < 1e-13);
+        assert_eq!(impact.turns, 1);
+    }
+    assert!(map(0.3333, 0.5).period_one(1).is_none());
+}
+
+#[test]
+fn cascade_agrees_with_the_closed_form_and_with_feigenbaum() {
+    let cascade = period_doublings(0.5, 6).expect("the cascade exists");
+    assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-12);
+    let periods: Vec<_> = cascade.iter().map(|doubling| doubling.period).collect();
+    assert_eq!(periods, [1, 2, 4, 8, 16, 32]);
+    let gaps: Vec<_> = cascade.windows(2).map(|pair| pair[1].axial_forcing - pair[0].axial_forcing).collect();
+    let last_ratio = gaps[3] / gaps[4];
+    assert!((last_ratio - 4.669_201_609).abs() < 0.01, "{last_ratio}");
+}
+
+#[test]
+fn stability_changes_at_the_first_doubling() {
+    let doubling = ImpactMap::first_doubling_forcing(0.5);
+    for (forcing, stable) in [(doubling - 1e-6, true), (doubling + 1e-6, false)] {
+        let map = map(forcing, 0.5);
+        let orbit = map.refine(&[map.period_one(1).expect("exists")]).expect("settles");
+        assert_eq!(orbit.multipliers().spectral_radius() < 1.0, stable);
+        assert_eq!(orbit.platform_periods, 1);
+    }
+}
+
+#[test]
+fn multipliers_of_plain_matrices() {
+    let real = Multipliers::of(DMat2::from_cols(DVec2::new(3.0, 0.0), DVec2::new(5.0, -0.5)));
+    assert_eq!(real, Multipliers::Real(3.0, -0.5));
+    let turn = Multipliers::of(DMat2::from_cols(DVec2::new(0.0, 1.0), DVec2::new(-1.0, 0.0)));
+    assert_eq!(turn, Multipliers::Complex { real: 0.0, imaginary: 1.0 });
+    assert!((turn.spectral_radius() - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn basins_are_the_same_for_any_number_of_threads() {
+    let map = map(0.5, 0.5);
+    let start = ImpactState::from_normalised(0.9, 1.3).expect("legal");
+    let orbit = map.settled_orbit(start, 2_000, 8, 1e-9).expect("no failure").expect("period 2");
+    assert_eq!(orbit.period(), 2);
+    let radius = orbit.trapping_radius(&map, 32).expect("attracts");
+    let known = [KnownOrbit { orbit, radius }];
+    let grid = Grid::new(Axis::new(0.0, 1.0, 37).expect("legal"), Axis::new(0.0, 2.0, 41).expect("legal"))
+        .expect("legal");
+    let labels = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+        pool.install(|| map.basins(grid, &known, BasinSettings::default(), || {})).expect("no failure")
+    };
+    let one = labels(1);
+    assert!(one.fraction(FIRST_ORBIT) > 0.2 && one.fraction(ATTACHED) > 0.4);
+    assert!(one.fraction(UNDECIDED) <= 0.0, "every start is decided at this forcing");
+    assert_eq!(one, labels(2));
+    assert_eq!(one, labels(7));
+}
+
+#[test]
+fn policies_agree_where_the_cut_does_not_matter() {
+    // Below the first doubling the chattering orbit settles on one toss a cycle: the impacts before the cut agree
+    // to what the cut throws away.
+    let map = map(0.4, 0.5);
+    let separation = map.vibration().separation_phase().expect("lifts off");
+    let impacts = |policy| -> Vec<f64> {
+        map.orbit_from_launch(separation, 0.0, policy)
+            .expect("legal")
+            .take(12)
+            .filter_map(|event| match event.expect("no failure") {
+                OrbitEvent::Impact(impact) => Some(impact.velocity),
+                _ => None,
+            })
+            .collect()
+    };
+    let (complete, paper) = (impacts(ChatterPolicy::Complete), impacts(ChatterPolicy::Paper));
+    for (a, b) in complete.iter().zip(&paper) {
+        assert!((a - b).abs() <= 1e-5 * a.abs(), "{a} {b}");
+    }
+}
+
+#[test]
+fn restitution_zero_sticks_at_every_impact() {
+    let map = map(0.6, 0.0);
+    let separation = map.vibration().separation_phase().expect("lifts off");
+    let kinds: Vec<bool> = map
+        .orbit_from_launch(separation, 0.0, ChatterPolicy::Complete)
+        .expect("legal")
+        .take(8)
+        .map(|event| matches!(event.expect("no failure"), OrbitEvent::Impact(_)))
+        .collect();
+    assert_eq!(kinds, [true, false, true, false, true, false, true, false]);
+}
+
+#[test]
+fn illegal_arguments_are_named() {
+    for illegal in [f64::NAN, f64::INFINITY, -1.0] {
+        assert!(matches!(Vibration::new(illegal), Err(Error::OutOfRange { field: "peak_acceleration", .. })));
+        assert!(matches!(
+            Vibration::from_axial_forcing(illegal),
+            Err(Error::OutOfRange { field: "axial_forcing", .. })
+        ));
+        let phase = Phase::new(0.0).expect("finite");
+        assert!(matches!(
+            Launch::new(phase, illegal),
+            Err(Error::OutOfRange { field: "relative_speed", .. })
+        ));
+    }
+    let vibration = Vibration::new(2.0).expect("legal");
+    for illegal in [1.0, -0.1, f64::NAN] {
+        let error = ImpactMap::new(vibration, illegal).expect_err("illegal restitution");
+        assert!(error.to_string().contains("restitution") && error.to_string().contains("[0, 1)"), "{error}");
+    }
+    assert!(Phase::new(f64::NAN).is_err());
+    assert!(ImpactState::new(Phase::new(0.0).expect("finite"), 0.1).is_err());
+    assert!(
+        Axis::new(0.0, 0.0, 5).is_err() && Axis::new(1.0, 0.0, 5).is_err() && Axis::new(0.0, 1.0, 0).is_err()
+    );
+    let at_rest = Launch::new(Phase::new(3.0).expect("finite"), 0.0).expect("legal");
+    assert!(matches!(vibration.first_impact(at_rest), Err(Error::NoLiftOff { .. })));
+    let fast = Launch::new(Phase::new(3.0).expect("finite"), 1e12).expect("legal");
+    assert!(matches!(vibration.first_impact(fast), Err(Error::FlightTooLong { .. })));
+    assert!(map(0.5, 0.5).refine(&[]).is_err());
+}
