@@ -359,10 +359,6 @@ mod tests {
     }
 
     #[test]
-    #[expect(
-        clippy::float_cmp,
-        reason = "decimal text is read without any rounding besides the nearest double"
-    )]
     fn the_tolerance_is_half_a_unit_of_the_last_printed_digit() {
         assert_eq!(read("0.486"), (0.486, 0.0005));
         assert_eq!(read("14"), (14.0, 0.5));

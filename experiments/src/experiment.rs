@@ -68,27 +68,27 @@ impl FromStr for Quality {
     }
 }
 
-/// Why an experiment gave no result.
+/// Why an experiment gave no result. The cause is the [source](std::error::Error::source); [`chain`] shows all.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
     /// The model refused a parameter or could not finish a trajectory.
-    #[error("the model failed: {0}")]
+    #[error("the model failed")]
     Model(#[source] Box<dyn std::error::Error + Send + Sync>),
     /// The figure could not be drawn.
-    #[error("the figure could not be drawn: {0}")]
+    #[error("the figure could not be drawn")]
     Draw(#[from] DrawError),
     /// The table is malformed.
-    #[error("the table could not be written: {0}")]
+    #[error("the table could not be written")]
     Table(#[from] TableError),
     /// The data cannot be stored: a number is infinite or not a number.
-    #[error("the data cannot be stored: {0}")]
+    #[error("the data cannot be stored")]
     Data(#[from] FiniteError),
     /// Stored data do not have the form this version reads.
-    #[error("the stored data do not fit this version: {0}")]
+    #[error("the stored data do not fit this version")]
     Stored(#[source] serde_json::Error),
     /// An input file (a measurement, a table of the paper) could not be read.
-    #[error("cannot read {path}: {source}")]
+    #[error("cannot read {path}")]
     Input {
         /// The file.
         path: std::path::PathBuf,
@@ -102,6 +102,17 @@ impl ExperimentError {
     pub fn model(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self::Model(Box::new(error))
     }
+}
+
+/// An error with all its causes, on one line.
+pub fn chain(error: &dyn std::error::Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        text.push_str(&format!(": {error}"));
+        cause = error.source();
+    }
+    text
 }
 
 /// One figure or table of the paper.

@@ -17,14 +17,17 @@ mod finite;
 pub mod json;
 pub mod output;
 pub mod page;
+pub mod product;
 pub mod progress;
 pub mod registry;
 pub mod stamp;
+pub mod summary;
 pub mod table;
 #[cfg(test)]
 mod testing;
 
 pub use claim::Claim;
 pub use experiment::{Experiment, ExperimentError, Quality};
+pub use finite::FiniteError;
 pub use progress::{Progress, Silent};
 pub use table::Table;

@@ -1,1 +1,309 @@
-//! The gallery.
+//! The gallery: one HTML page without scripts and without anything from the network.
+
+use std::fmt::Write as _;
+
+use crate::claim::{Claim, Computed, Verdict};
+use crate::experiment::Quality;
+
+const STYLE: &str = include_str!("page.css");
+
+/// One figure of the gallery.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// The identifier.
+    pub id: String,
+    /// The short title.
+    pub title: String,
+    /// The caption.
+    pub caption: String,
+    /// Names and values with units.
+    pub parameters: Vec<(String, String)>,
+    /// Printed against computed.
+    pub claims: Vec<Claim>,
+    /// The quality it was made in.
+    pub quality: Quality,
+    /// The time it took.
+    pub run_time_s: f64,
+    /// Whether the sources or the files have changed since.
+    pub outdated: bool,
+    /// Whether there is a table as comma-separated values.
+    pub has_table: bool,
+    /// The width of the picture in pixels.
+    pub width: Option<u32>,
+}
+
+/// The page.
+pub fn html(sections: &[Section]) -> String {
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>Rotating bouncing disks: figures and numbers</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
+    );
+    push_header(&mut page, sections);
+    page.push_str("<main>\n");
+    for section in sections {
+        push_section(&mut page, section);
+    }
+    page.push_str(
+        "</main>\n<footer><p>Made by <code>cargo xtask figures</code>.</p></footer>\n</body>\n</html>\n",
+    );
+    page
+}
+
+fn push_header(page: &mut String, sections: &[Section]) {
+    let count = |verdict| {
+        sections.iter().flat_map(|section| &section.claims).filter(|claim| claim.verdict() == verdict).count()
+    };
+    let (reproduced, differs) = (count(Verdict::Reproduced), count(Verdict::Differs));
+    let not_computable = count(Verdict::NotComputable);
+    page.push_str(
+        "<header>\n<h1>Rotating bouncing disks, tossing pizza dough, and ultrasonic motors</h1>\n\
+         <p>Figures and tables of K.-C. Liu, J. Friend and L. Yeo, Phys. Rev. E <b>80</b>, 046201 (2009), computed \
+         anew. A printed number counts as reproduced when ours agrees within half a unit of its last printed digit, \
+         unless a tolerance is given.</p>\n",
+    );
+    let _ = writeln!(
+        page,
+        "<p>{} figures and tables; of the printed numbers and statements \
+         <span class=\"reproduced\"><b>{reproduced} reproduced</b></span>, \
+         <span class=\"differs\"><b>{differs} differ</b></span>, \
+         <span class=\"not-computable\"><b>{not_computable} not computable</b></span>.</p>",
+        sections.len()
+    );
+    page.push_str("<nav>");
+    for section in sections {
+        let _ = writeln!(page, "<a href=\"#{0}\">{1}</a>", escaped(&section.id), escaped(&name(&section.id)));
+    }
+    page.push_str("</nav>\n</header>\n");
+}
+
+fn push_section(page: &mut String, section: &Section) {
+    let id = escaped(&section.id);
+    let title = escaped(&section.title);
+    let _ = writeln!(page, "<section id=\"{id}\">\n<h2>{}. {title}</h2>", escaped(&name(&section.id)));
+    // Four pixels are a point; 1.9 pixels per point make a double column fill the page.
+    let width =
+        section.width.map(|pixels| format!(" style=\"width:{}px\"", pixels * 19 / 40)).unwrap_or_default();
+    let caption = escaped(&section.caption);
+    let _ = writeln!(
+        page,
+        "<figure>\n<a href=\"{id}.svg\"><img src=\"{id}.png\" alt=\"{title}\"{width}></a>\n\
+         <figcaption>{caption}</figcaption>\n</figure>"
+    );
+    if section.outdated {
+        let _ = writeln!(
+            page,
+            "<p class=\"differs\">Out of date: the program has changed since. To repair: \
+             <code>cargo xtask figures {id}</code></p>"
+        );
+    }
+    push_parameters(page, &section.parameters);
+    push_claims(page, &section.claims);
+    let table =
+        if section.has_table { format!(", <a href=\"{id}.csv\">table (CSV)</a>") } else { String::new() };
+    let _ = writeln!(
+        page,
+        "<p class=\"files\">{} quality, {}. <a href=\"{id}.json\">data (JSON)</a>{table}, \
+         <a href=\"{id}.svg\">SVG</a>, <a href=\"{id}.png\">PNG</a></p>\n</section>",
+        capitalised(section.quality.name()),
+        duration(section.run_time_s),
+    );
+}
+
+fn push_parameters(page: &mut String, parameters: &[(String, String)]) {
+    if parameters.is_empty() {
+        return;
+    }
+    page.push_str("<h3>Parameters</h3>\n<table class=\"parameters\">\n<tbody>\n");
+    for (name, value) in parameters {
+        let _ = writeln!(page, "<tr><td>{}</td><td>{}</td></tr>", escaped(name), escaped(value));
+    }
+    page.push_str("</tbody>\n</table>\n");
+}
+
+fn push_claims(page: &mut String, claims: &[Claim]) {
+    if claims.is_empty() {
+        return;
+    }
+    page.push_str(
+        "<h3>Printed against computed</h3>\n<table class=\"claims\">\n<thead><tr><th>Place</th><th>Quantity</th>\
+         <th>Printed</th><th>Computed</th><th>Tolerance</th><th>Verdict</th><th>Note</th></tr></thead>\n<tbody>\n",
+    );
+    for claim in claims {
+        let computed = match claim.computed() {
+            Computed::Number(number) => with_unit(&like(claim.printed(), *number, 6), claim.unit()),
+            Computed::Boolean(true) => "holds".to_owned(),
+            Computed::Boolean(false) => "does not hold".to_owned(),
+            Computed::Text(text) => text.clone(),
+            Computed::Nothing => "—".to_owned(),
+        };
+        let printed = match claim.computed() {
+            Computed::Boolean(_) => "stated".to_owned(),
+            _ => with_unit(claim.printed(), claim.unit()),
+        };
+        let tolerance =
+            claim.tolerance().map_or("—".to_owned(), |tolerance| like(claim.printed(), tolerance, 2));
+        let verdict = claim.verdict().name();
+        let cells = [
+            ("Place", "", claim.place()),
+            ("Quantity", "", claim.quantity()),
+            ("Printed", "number", printed.as_str()),
+            ("Computed", "number", computed.as_str()),
+            ("Tolerance", "number", tolerance.as_str()),
+        ];
+        page.push_str("<tr>");
+        for (label, class, text) in cells {
+            let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
+            let _ = write!(page, "<td data-label=\"{label}\"{class}>{}</td>", escaped(text));
+        }
+        let note = if claim.remarks().is_empty() { "—" } else { claim.remarks() };
+        let _ = writeln!(
+            page,
+            "<td data-label=\"Verdict\"><span class=\"verdict {verdict}\">{}</span></td>\
+             <td data-label=\"Note\">{}</td></tr>",
+            verdict.replace('-', " "),
+            escaped(note)
+        );
+    }
+    page.push_str("</tbody>\n</table>\n");
+}
+
+/// "Fig. 6" for `fig06`, "Table II" for `table2`, the identifier for anything else.
+fn name(id: &str) -> String {
+    let number = |digits: &str| digits.parse::<u32>().ok();
+    if let Some(figure) = id.strip_prefix("fig").and_then(number) {
+        return format!("Fig. {figure}");
+    }
+    match id.strip_prefix("table").and_then(number) {
+        Some(1) => "Table I".to_owned(),
+        Some(2) => "Table II".to_owned(),
+        Some(3) => "Table III".to_owned(),
+        _ => id.to_owned(),
+    }
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    // A printed text may bring its unit along.
+    if unit.is_empty() || number.ends_with(unit) {
+        number.to_owned()
+    } else {
+        format!("{number}\u{a0}{unit}")
+    }
+}
+
+/// A number with so many significant digits, as a multiple of π where the printed one is.
+fn like(printed: &str, number: f64, digits: usize) -> String {
+    if printed.contains('π') {
+        format!("{}π", significant(number / std::f64::consts::PI, digits))
+    } else {
+        significant(number, digits)
+    }
+}
+
+/// A number with so many significant digits, as one reads it.
+fn significant(number: f64, digits: usize) -> String {
+    if number == 0.0 {
+        return "0".to_owned();
+    }
+    let scientific = format!("{number:.*e}", digits.max(1) - 1);
+    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
+    let exponent: i32 = exponent.parse().unwrap_or_default();
+    let text = if (-4..=6).contains(&exponent) {
+        let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap_or_default();
+        shortened(&format!("{number:.decimals$}"))
+    } else {
+        format!("{} × 10{}", shortened(mantissa), superscript(exponent))
+    };
+    text.replace('-', "−")
+}
+
+/// Without zeros at the end of the decimals.
+fn shortened(number: &str) -> String {
+    if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        number.to_owned()
+    }
+}
+
+fn superscript(number: i32) -> String {
+    let raised = |c| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        '9' => '⁹',
+        _ => '⁰',
+    };
+    number.to_string().chars().map(raised).collect()
+}
+
+fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        "less than a second".to_owned()
+    } else if seconds < 100.0 {
+        format!("{seconds:.1} s")
+    } else {
+        let whole = seconds.round() as u64;
+        format!("{} min {} s", whole / 60, whole % 60)
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_readable() {
+        assert_eq!(significant(0.486_003_078_3, 6), "0.486003");
+        assert_eq!(significant(22.0, 6), "22");
+        assert_eq!(significant(-1.234_567_89e-8, 6), "−1.23457 × 10⁻⁸");
+        assert_eq!(significant(70_000.0, 6), "70000");
+        assert_eq!(significant(0.0005, 2), "0.0005");
+        assert_eq!(significant(999_999.96, 6), "1000000");
+        assert_eq!(significant(0.0, 6), "0");
+        assert_eq!(like("0.323π", 0.3225 * std::f64::consts::PI, 6), "0.3225π");
+    }
+
+    #[test]
+    fn names_of_figures_and_tables() {
+        assert_eq!(name("fig06"), "Fig. 6");
+        assert_eq!(name("fig13"), "Fig. 13");
+        assert_eq!(name("table3"), "Table III");
+        assert_eq!(name("demo"), "demo");
+    }
+
+    #[test]
+    fn the_page_needs_nothing_from_outside() {
+        let section = Section {
+            id: "fig06".to_owned(),
+            title: "A \"title\"".to_owned(),
+            caption: "Γ < 1".to_owned(),
+            parameters: vec![("ε".to_owned(), "0.5".to_owned())],
+            claims: vec![Claim::number("fig06", "text", "Γ", "", "0.486", 0.486)],
+            quality: Quality::Paper,
+            run_time_s: 75.2,
+            outdated: true,
+            has_table: true,
+            width: Some(2040),
+        };
+        let page = html(&[section]);
+        assert!(!page.contains("http") && !page.contains("<script"), "{page}");
+        assert!(page.contains("Γ &lt; 1") && page.contains("fig06.csv") && page.contains("75.2 s"));
+        assert!(page.contains("class=\"verdict reproduced\""));
+    }
+}

@@ -1,1 +1,138 @@
-//! Stamps.
+//! Recognises finished figures that are up to date.
+//!
+//! A stamp is written after all files of a figure. It holds the digest of the sources that determine the result,
+//! the quality, and a digest of every file: a changed source, a killed run and an edited or missing file are all
+//! seen.
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use serde::{Deserialize, Serialize};
+
+use crate::experiment::Quality;
+
+include!(concat!(env!("OUT_DIR"), "/digests.rs"));
+
+/// What a finished figure was made from, and its files.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stamp {
+    key: String,
+    /// The quality it was made in.
+    pub quality: Quality,
+    /// The time the computation and the drawing took.
+    pub run_time_s: f64,
+    files: BTreeMap<String, String>,
+}
+
+/// Why a figure is not up to date.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stale {
+    /// There is no stamp: never made, or the run was interrupted.
+    Missing,
+    /// Made in another quality.
+    Quality {
+        /// The quality found.
+        found: Quality,
+    },
+    /// The sources have changed.
+    Sources,
+    /// A file is missing or was changed.
+    File {
+        /// Its name.
+        name: String,
+    },
+}
+
+impl std::fmt::Display for Stale {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Missing => formatter.write_str("not made yet"),
+            Self::Quality { found } => write!(formatter, "made in {found} quality"),
+            Self::Sources => formatter.write_str("the sources have changed"),
+            Self::File { name } => write!(formatter, "{name} is missing or was changed"),
+        }
+    }
+}
+
+impl Stamp {
+    /// A stamp of files made by this version.
+    pub fn new<'a>(
+        id: &str,
+        quality: Quality,
+        run_time_s: f64,
+        files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
+    ) -> Self {
+        let files = files.into_iter().map(|(name, bytes)| (name.to_owned(), digest(bytes))).collect();
+        Self { key: key(id, quality), quality, run_time_s, files }
+    }
+
+    /// Compares the stamp with this version and with the files; `read` gives the content of a file.
+    ///
+    /// # Errors
+    ///
+    /// The first reason to make the figure again.
+    pub fn check(
+        &self,
+        id: &str,
+        quality: Quality,
+        mut read: impl FnMut(&str) -> Option<Vec<u8>>,
+    ) -> Result<(), Stale> {
+        if self.quality != quality {
+            return Err(Stale::Quality { found: self.quality });
+        }
+        if self.key != key(id, quality) {
+            return Err(Stale::Sources);
+        }
+        let changed = |(name, expected): &(&String, &String)| {
+            read(name).is_none_or(|bytes| digest(&bytes) != **expected)
+        };
+        match self.files.iter().find(changed) {
+            Some((name, _)) => Err(Stale::File { name: name.clone() }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The digest of everything that determines the result.
+fn key(id: &str, quality: Quality) -> String {
+    let mut hasher = DefaultHasher::new();
+    (id, quality.name(), SHARED).hash(&mut hasher);
+    match MODULES.iter().find(|(module, _)| *module == id) {
+        Some((_, digest)) => digest.hash(&mut hasher),
+        // Without a module of its own it may depend on any.
+        None => MODULES.hash(&mut hasher),
+    }
+    format!("{:016x}", hasher.finish())
+}
+
+fn digest(bytes: &[u8]) -> String {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_change_is_seen() {
+        let stamp = Stamp::new("demo", Quality::Draft, 1.5, [("demo.json", b"{}".as_slice())]);
+        let same = |name: &str| (name == "demo.json").then(|| b"{}".to_vec());
+        assert_eq!(stamp.check("demo", Quality::Draft, same), Ok(()));
+        let found = Quality::Draft;
+        assert_eq!(stamp.check("demo", Quality::Paper, same), Err(Stale::Quality { found }));
+        let name = "demo.json".to_owned();
+        assert_eq!(stamp.check("demo", Quality::Draft, |_| None), Err(Stale::File { name: name.clone() }));
+        assert_eq!(stamp.check("demo", Quality::Draft, |_| Some(vec![0])), Err(Stale::File { name }));
+        let older = Stamp { key: "0".to_owned(), ..stamp };
+        assert_eq!(older.check("demo", Quality::Draft, same), Err(Stale::Sources));
+    }
+
+    #[test]
+    fn the_key_depends_on_figure_and_quality() {
+        assert_ne!(key("demo", Quality::Draft), key("demo", Quality::Paper));
+        assert_ne!(key("demo", Quality::Draft), key("other", Quality::Draft));
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::error::DrawError;
 use super::label::Label;
-use super::ticks::{self, Tick, Ticks};
+use super::ticks::{self, Ticks};
 
 /// Linear or logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -130,10 +130,10 @@ impl Axis {
     }
 
     /// The ticks, for an axis of `length` points with about `spacing` points between labels.
-    pub(crate) fn choose_ticks(&self, length: f64, spacing: f64) -> Result<Vec<Tick>, DrawError> {
+    pub(crate) fn choose_ticks(&self, length: f64, spacing: f64) -> Result<ticks::Scale, DrawError> {
         self.check()?;
         match self.scale {
-            Scale::Logarithmic => Ok(ticks::logarithmic(&self.ticks, self.first, self.last)),
+            Scale::Logarithmic => Ok(ticks::logarithmic(&self.ticks, self.first, self.last).into()),
             Scale::Linear => {
                 let room = (length / spacing).clamp(2.0, 8.0) as usize;
                 ticks::linear(&self.ticks, self.first, self.last, room).map_err(|step| DrawError::TickStep {

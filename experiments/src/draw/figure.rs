@@ -85,7 +85,7 @@ impl Figure {
         let mut svg = Svg::new(self.width, self.height);
         for part in &self.parts {
             match part {
-                Part::Panel(panel) => panel.render(&mut svg, self.text_size)?,
+                Part::Panel(panel) => panel.render(&mut svg, (self.width, self.height), self.text_size)?,
                 Part::Drawing(drawing) => drawing.render(&mut svg, self.text_size)?,
             }
         }

@@ -196,6 +196,7 @@ impl Parser<'_> {
             '\\' => self.command(level, spans)?,
             '\'' => push(spans, "′", Style::Roman, level),
             '-' => operator(spans, '−', level),
+            ',' if level == Level::Base => push(spans, ",\u{2009}", Style::Roman, level),
             c if c.is_whitespace() => {}
             c if is_operator(c) => operator(spans, c, level),
             c => push(spans, c.encode_utf8(&mut [0; 4]), letter_style(c), level),
@@ -312,15 +313,17 @@ fn is_operator(character: char) -> bool {
         || matches!(character, '≤' | '≥' | '≈' | '≠' | '∼' | '∝' | '→' | '≪' | '≫' | '∈')
 }
 
-/// An operator between two operands has thin spaces around it; a sign has none.
+/// An operator between two operands has spaces around it; a sign has none.
 fn operator(spans: &mut Vec<Span>, character: char, level: Level) {
     let before =
         spans.iter().rev().find(|span| span.level == level).and_then(|span| span.text.chars().last());
     let sign = matches!(character, '+' | '−' | '±' | '∼' | '≈' | '<' | '>' | '→');
     let after_operand = !spans.is_empty()
-        && !before.is_some_and(|c| is_operator(c) || matches!(c, '(' | '[' | '{' | '/' | ',' | '\u{2009}'));
+        && !before.is_some_and(|c| {
+            is_operator(c) || matches!(c, '(' | '[' | '{' | '/' | ',' | '\u{2009}' | '\u{a0}')
+        });
     let spaced = level == Level::Base && (after_operand || !sign);
-    let space = if spaced { "\u{2009}" } else { "" };
+    let space = if spaced { "\u{a0}" } else { "" };
     let text = if character == '·' { "·".to_owned() } else { format!("{space}{character}{space}") };
     push(spans, &text, Style::Roman, level);
 }
@@ -408,14 +411,14 @@ mod tests {
                 ("|".to_owned(), Roman, Base),
                 ("α\u{307}".to_owned(), Italic, Base),
                 ("f".to_owned(), Italic, Subscript),
-                ("|".to_owned(), Roman, Base),
-                (" (rad/s)".to_owned(), Roman, Base),
+                ("| (rad/s)".to_owned(), Roman, Base),
             ]
         );
         assert_eq!(spans("$τ_{imp}$")[1], ("imp".to_owned(), Roman, Subscript));
         assert_eq!(spans(r"$\Gamma_T$")[0], ("Γ".to_owned(), Roman, Base));
         assert_eq!(spans("$10^{-8}$")[1], ("−8".to_owned(), Roman, Superscript));
-        assert_eq!(spans(r"$\theta = -\pi/4$")[1].0, "\u{2009}=\u{2009}−");
+        assert_eq!(spans(r"$\theta = -\pi/4$")[1].0, "\u{a0}=\u{a0}−");
+        assert_eq!(spans("$τ, w$")[1].0, ",\u{2009}");
         assert_eq!(spans(r"costs \$5")[0].0, "costs $5");
     }
 

@@ -10,7 +10,7 @@ use super::layer::Layer;
 use super::legend::{Corner, Legend};
 use super::stroke::Stroke;
 use super::svg::{Svg, TextStyle, line_to, move_to};
-use super::ticks::Tick;
+use super::ticks::{Scale, Tick};
 
 /// Lengths in points.
 const FRAME_WIDTH: f64 = 0.7;
@@ -133,7 +133,8 @@ impl Panel {
         self
     }
 
-    pub(crate) fn render(&self, svg: &mut Svg, text_size: f64) -> Result<(), DrawError> {
+    /// Draws the panel on a page of the given width and height.
+    pub(crate) fn render(&self, svg: &mut Svg, page: (f64, f64), text_size: f64) -> Result<(), DrawError> {
         let area = self.area;
         if !area.has_area() {
             return Err(DrawError::Size { what: "a panel", width: area.width, height: area.height });
@@ -148,20 +149,20 @@ impl Panel {
         self.render_layers(svg, text_size)?;
         let stroke = Stroke::new(Colour::BLACK, FRAME_WIDTH);
         let mut marks = String::new();
-        self.push_marks(&mut marks, &self.x, &x_ticks, &[Edge::Bottom, Edge::Top]);
+        self.push_marks(&mut marks, &self.x, &x_ticks.ticks, &[Edge::Bottom, Edge::Top]);
         match (&self.right, &right_ticks) {
             (Some(axis), Some(ticks)) => {
-                self.push_marks(&mut marks, &self.y, &y_ticks, &[Edge::Left]);
-                self.push_marks(&mut marks, axis, ticks, &[Edge::Right]);
+                self.push_marks(&mut marks, &self.y, &y_ticks.ticks, &[Edge::Left]);
+                self.push_marks(&mut marks, axis, &ticks.ticks, &[Edge::Right]);
             }
-            _ => self.push_marks(&mut marks, &self.y, &y_ticks, &[Edge::Left, Edge::Right]),
+            _ => self.push_marks(&mut marks, &self.y, &y_ticks.ticks, &[Edge::Left, Edge::Right]),
         }
         svg.path(&marks, Some(&stroke), None);
         svg.rectangle(area, Some(&stroke), None);
-        self.render_axis(svg, &self.x, &x_ticks, Edge::Bottom, text_size)?;
-        self.render_axis(svg, &self.y, &y_ticks, Edge::Left, text_size)?;
+        self.render_axis(svg, &self.x, &x_ticks, Edge::Bottom, page, text_size)?;
+        self.render_axis(svg, &self.y, &y_ticks, Edge::Left, page, text_size)?;
         if let (Some(axis), Some(ticks)) = (&self.right, &right_ticks) {
-            self.render_axis(svg, axis, ticks, Edge::Right, text_size)?;
+            self.render_axis(svg, axis, ticks, Edge::Right, page, text_size)?;
         }
         let frame = Frame { area, x: &self.x, y: &self.y, text_size };
         if let Some(legend) = &self.legend {
@@ -242,21 +243,22 @@ impl Panel {
         &self,
         svg: &mut Svg,
         axis: &Axis,
-        ticks: &[Tick],
+        scale: &Scale,
         edge: Edge,
+        page: (f64, f64),
         text_size: f64,
     ) -> Result<(), DrawError> {
         let area = self.area;
         let size = 0.92 * text_size;
         let mut widest: f64 = 0.0;
-        for tick in ticks.iter().filter(|_| axis.shows_numbers()) {
+        for tick in scale.ticks.iter().filter(|_| axis.shows_numbers()) {
             let Some(label) = &tick.label else { continue };
             widest = widest.max(label.width(size));
             let fraction = axis.fraction(tick.value);
             let (x, y) = (area.left + fraction * area.width, area.bottom() - fraction * area.height);
             let (place, anchor) = match edge {
                 Edge::Bottom | Edge::Top => {
-                    ((x, area.bottom() + NUMBER_DISTANCE + 0.68 * size), Anchor::Middle)
+                    ((x, area.bottom() + NUMBER_DISTANCE + 0.75 * size), Anchor::Middle)
                 }
                 Edge::Left => ((area.left - NUMBER_DISTANCE, y), Anchor::RightCentre),
                 Edge::Right => ((area.right() + NUMBER_DISTANCE, y), Anchor::LeftCentre),
@@ -265,20 +267,34 @@ impl Panel {
         }
         let (middle_x, middle_y) = (area.left + 0.5 * area.width, area.top + 0.5 * area.height);
         let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + widest } else { 0.0 };
+        if let (Some(power), true) = (scale.power, axis.shows_numbers()) {
+            let label = Label::new(&format!("$\\times 10^{{{power}}}$"));
+            let (place, anchor) = match edge {
+                Edge::Bottom | Edge::Top => {
+                    ((area.right(), area.bottom() + NUMBER_DISTANCE + 1.85 * size), Anchor::Right)
+                }
+                Edge::Left => ((area.left, area.top - 3.5), Anchor::Left),
+                Edge::Right => ((area.right(), area.top - 3.5), Anchor::Right),
+            };
+            svg.label(&label, place, TextStyle::new(size, anchor))?;
+        }
+        // However wide the numbers are, the label stays on the page.
         let mut style = TextStyle::new(text_size, Anchor::Middle);
         let place = match edge {
             Edge::Bottom | Edge::Top => {
                 let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + 0.7 * size } else { 0.0 };
                 let distance = axis.distance().unwrap_or(numbers + 1.45 * text_size);
-                (middle_x, area.bottom() + distance)
+                (middle_x, (area.bottom() + distance).min(page.1 - 0.3 * text_size))
             }
             Edge::Left => {
                 style.rotation = 90.0;
-                (area.left - axis.distance().unwrap_or(numbers + 0.7 * text_size), middle_y)
+                let distance = axis.distance().unwrap_or(numbers + 0.7 * text_size);
+                ((area.left - distance).max(0.85 * text_size), middle_y)
             }
             Edge::Right => {
                 style.rotation = 90.0;
-                (area.right() + axis.distance().unwrap_or(numbers + 1.3 * text_size), middle_y)
+                let distance = axis.distance().unwrap_or(numbers + 1.3 * text_size);
+                ((area.right() + distance).min(page.0 - 0.35 * text_size), middle_y)
             }
         };
         svg.label(axis.label_text(), place, style)

@@ -81,16 +81,28 @@ pub(crate) struct Tick {
     pub(crate) label: Option<Label>,
 }
 
+/// The ticks of an axis, and the power of ten that their numbers leave out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scale {
+    pub(crate) ticks: Vec<Tick>,
+    pub(crate) power: Option<i32>,
+}
+
+impl From<Vec<Tick>> for Scale {
+    fn from(ticks: Vec<Tick>) -> Self {
+        Self { ticks, power: None }
+    }
+}
+
 /// The ticks of a linear axis; `Err` holds the step that does not work.
-pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<Vec<Tick>, f64> {
+pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<Scale, f64> {
     let (low, high) = if low < high { (low, high) } else { (high, low) };
     let (step, parts) = match ticks.choice {
-        Choice::None => return Ok(Vec::new()),
+        Choice::None => return Ok(Scale::default()),
         Choice::At(ref given) => {
             let inside = given.iter().filter(|(value, _)| (low..=high).contains(value));
-            return Ok(inside
-                .map(|(value, label)| Tick { value: *value, label: Some(label.clone()) })
-                .collect());
+            let ticks = inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) });
+            return Ok(ticks.collect::<Vec<_>>().into());
         }
         Choice::Automatic => round_step((high - low) / room.max(1) as f64),
         Choice::Every(step) => (step, 2),
@@ -109,7 +121,8 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
     let minor_step = step / f64::from(parts);
     let first = (low / minor_step - slack).ceil() as i64;
     let last = (high / minor_step + slack).floor() as i64;
-    let largest = low.abs().max(high.abs());
+    let pi = matches!(ticks.choice, Choice::PiFractions { .. } | Choice::PiDecimals(_));
+    let power = if pi { None } else { common_power(low.abs().max(high.abs())) };
     let ticks = (first..=last).map(|index| {
         if index % i64::from(parts) != 0 {
             return Tick { value: index as f64 * minor_step, label: None };
@@ -119,11 +132,11 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
         let label = match ticks.choice {
             Choice::PiFractions { numerator, denominator } => pi_fraction(multiple, numerator, denominator),
             Choice::PiDecimals(step) => pi_decimal(multiple, step),
-            _ => Label::new(&number(value, step, largest)),
+            _ => Label::plain(&number(value, step, power)),
         };
         Tick { value, label: Some(label) }
     });
-    Ok(ticks.collect())
+    Ok(Scale { ticks: ticks.collect(), power })
 }
 
 /// The ticks of a logarithmic axis: decades, and the eight values between them.
@@ -185,19 +198,16 @@ fn round_step(raw: f64) -> (f64, u32) {
     (format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN), parts)
 }
 
-/// A number with as many decimals as the step needs, or with a power of ten when it is very large or small.
-fn number(value: f64, step: f64, largest: f64) -> String {
-    if largest >= 1e5 || largest < 1e-3 {
-        let exponent = libm::floor(libm::log10(largest) + 1e-9) as i32;
-        let unit = power_of_ten(exponent);
-        let mantissa = decimal(value / unit, decimals(step / unit));
-        return match mantissa.as_str() {
-            "0" => mantissa,
-            _ if mantissa.trim_matches(['0', '.']).is_empty() => "0".to_owned(),
-            _ => format!("{mantissa}$\\times 10^{{{exponent}}}$"),
-        };
-    }
-    decimal(value, decimals(step))
+/// The power of ten to leave out of the numbers, when they are very large or small.
+fn common_power(largest: f64) -> Option<i32> {
+    let plain = (1e-3..1e5).contains(&largest) || largest == 0.0;
+    (!plain).then(|| libm::floor(libm::log10(largest) + 1e-9) as i32)
+}
+
+/// A number with as many decimals as the step needs.
+fn number(value: f64, step: f64, power: Option<i32>) -> String {
+    let unit = power.map_or(1.0, power_of_ten);
+    decimal(value / unit, decimals(step / unit))
 }
 
 /// Decimals that write multiples of `step` exactly, at most six.
@@ -259,8 +269,10 @@ fn pi_decimal(multiple: i64, step: f64) -> Label {
 mod tests {
     use super::*;
 
-    fn labels(ticks: &[Tick]) -> Vec<String> {
+    fn labels(ticks: impl Into<Scale>) -> Vec<String> {
         ticks
+            .into()
+            .ticks
             .iter()
             .filter_map(|tick| tick.label.as_ref())
             .map(|label| label.source().replace('$', ""))
@@ -270,31 +282,31 @@ mod tests {
     #[test]
     fn automatic_steps_are_round() {
         let ticks = linear(&Ticks::automatic(), 0.3, 0.6, 6).expect("ticks");
-        assert_eq!(labels(&ticks), ["0.30", "0.35", "0.40", "0.45", "0.50", "0.55", "0.60"]);
+        assert_eq!(labels(ticks.clone()), ["0.30", "0.35", "0.40", "0.45", "0.50", "0.55", "0.60"]);
         let ticks = linear(&Ticks::automatic(), -22.0, 22.0, 5).expect("ticks");
-        assert_eq!(labels(&ticks), ["−20", "−10", "0", "10", "20"]);
+        assert_eq!(labels(ticks.clone()), ["−20", "−10", "0", "10", "20"]);
         let ticks = linear(&Ticks::automatic(), 0.0, 2e-8, 5).expect("ticks");
-        assert_eq!(labels(&ticks)[1], "0.5\\times 10^{-8}");
-        assert_eq!(labels(&ticks)[0], "0");
+        assert_eq!(labels(ticks.clone()), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
+        assert_eq!(ticks.power, Some(-8));
     }
 
     #[test]
     fn multiples_of_pi() {
         let ticks = linear(&Ticks::pi(1, 2), -PI, 2.0 * PI, 5).expect("ticks");
-        assert_eq!(labels(&ticks), ["−\\pi", "−\\pi/2", "0", "\\pi/2", "\\pi", "3\\pi/2", "2\\pi"]);
+        assert_eq!(labels(ticks.clone()), ["−\\pi", "−\\pi/2", "0", "\\pi/2", "\\pi", "3\\pi/2", "2\\pi"]);
         let ticks = linear(&Ticks::pi_decimal(0.1), 0.0, 0.5 * PI, 5).expect("ticks");
-        assert_eq!(labels(&ticks), ["0", "0.1\\pi", "0.2\\pi", "0.3\\pi", "0.4\\pi", "0.5\\pi"]);
+        assert_eq!(labels(ticks.clone()), ["0", "0.1\\pi", "0.2\\pi", "0.3\\pi", "0.4\\pi", "0.5\\pi"]);
         let ticks = linear(&Ticks::pi_decimal(0.5), -PI, PI, 5).expect("ticks");
-        assert_eq!(labels(&ticks), ["−\\pi", "−0.5\\pi", "0", "0.5\\pi", "\\pi"]);
+        assert_eq!(labels(ticks.clone()), ["−\\pi", "−0.5\\pi", "0", "0.5\\pi", "\\pi"]);
     }
 
     #[test]
     fn logarithmic_ticks_are_decades() {
         let ticks = logarithmic(&Ticks::automatic(), 1e-9, 1e-7);
-        assert_eq!(labels(&ticks), ["10^{-9}", "10^{-8}", "10^{-7}"]);
+        assert_eq!(labels(ticks.clone()), ["10^{-9}", "10^{-8}", "10^{-7}"]);
         assert_eq!(ticks.len(), 19);
         let ticks = logarithmic(&Ticks::automatic(), 0.3, 0.8);
-        assert_eq!(labels(&ticks), ["5\\times 10^{-1}"]);
+        assert_eq!(labels(ticks.clone()), ["5\\times 10^{-1}"]);
     }
 
     #[test]
@@ -302,6 +314,6 @@ mod tests {
         assert_eq!(linear(&Ticks::every(1e-6), 0.0, 1.0, 5), Err(1e-6));
         assert_eq!(linear(&Ticks::every(-0.5), 0.0, 1.0, 5), Err(-0.5));
         assert!(linear(&Ticks::pi(1, 0), 0.0, 1.0, 5).is_err());
-        assert_eq!(linear(&Ticks::every(0.5).minor(5), 0.0, 1.0, 5).map(|ticks| ticks.len()), Ok(11));
+        assert_eq!(linear(&Ticks::every(0.5).minor(5), 0.0, 1.0, 5).map(|scale| scale.ticks.len()), Ok(11));
     }
 }

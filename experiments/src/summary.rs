@@ -1,0 +1,126 @@
+//! What is made from all figures together: `claims.json` and the gallery.
+
+use crate::claim::Claim;
+use crate::experiment::{self, Entry};
+use crate::output::{OutputError, OutputFolder};
+use crate::page::{self, Section};
+use crate::{json, product};
+
+/// The texts of the common files, and the figures that are not in them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Summary {
+    /// The content of `claims.json`.
+    pub claims: String,
+    /// The content of `index.html`.
+    pub page: String,
+    /// Identifiers of figures whose stored data could not be used, and why.
+    pub left_out: Vec<(String, String)>,
+}
+
+/// The names of the common files.
+pub const CLAIMS_FILE: &str = "claims.json";
+/// The gallery.
+pub const PAGE_FILE: &str = "index.html";
+
+impl Summary {
+    /// Collects all figures whose results lie in the folder.
+    ///
+    /// # Errors
+    ///
+    /// When a file exists and cannot be read.
+    pub fn of(entries: &[Box<dyn Entry>], folder: &OutputFolder) -> Result<Self, OutputError> {
+        let mut sections = Vec::new();
+        let mut claims: Vec<Claim> = Vec::new();
+        let mut left_out = Vec::new();
+        for entry in entries {
+            let id = entry.id();
+            // Without a stamp the files may be from different runs.
+            let Some(stamp) = folder.stamp(id) else { continue };
+            let Some(bytes) = folder.read(&format!("{id}.json"))? else { continue };
+            let (outcome, quality) = match product::read(&**entry, &bytes) {
+                Ok(read) => read,
+                Err(error) => {
+                    left_out.push((id.to_owned(), experiment::chain(&error)));
+                    continue;
+                }
+            };
+            let section = Section {
+                id: id.to_owned(),
+                title: entry.title().to_owned(),
+                caption: outcome.caption(),
+                parameters: outcome.parameters(),
+                claims: outcome.claims(),
+                quality,
+                run_time_s: stamp.run_time_s,
+                outdated: folder.check(id, quality).is_err(),
+                has_table: folder.path().join(format!("{id}.csv")).exists(),
+                width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
+            };
+            claims.extend(section.claims.iter().cloned());
+            sections.push(section);
+        }
+        // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
+        let claims = serde_json::to_value(&claims).unwrap_or_default();
+        Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), left_out })
+    }
+
+    /// Writes the common files.
+    ///
+    /// # Errors
+    ///
+    /// When the system refuses.
+    pub fn write(&self, folder: &OutputFolder) -> Result<(), OutputError> {
+        folder.write(CLAIMS_FILE, self.claims.as_bytes())?;
+        folder.write(PAGE_FILE, self.page.as_bytes())
+    }
+
+    /// The names of common files that are missing or out of date.
+    ///
+    /// # Errors
+    ///
+    /// When a file exists and cannot be read.
+    pub fn outdated(&self, folder: &OutputFolder) -> Result<Vec<&'static str>, OutputError> {
+        let mut outdated = Vec::new();
+        for (name, text) in [(CLAIMS_FILE, &self.claims), (PAGE_FILE, &self.page)] {
+            if folder.read(name)?.as_deref() != Some(text.as_bytes()) {
+                outdated.push(name);
+            }
+        }
+        Ok(outdated)
+    }
+}
+
+/// The width in pixels that the header of a PNG file states.
+fn png_width(bytes: &[u8]) -> Option<u32> {
+    let width = bytes.get(16..20)?;
+    Some(u32::from_be_bytes(width.try_into().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::Quality;
+    use crate::progress::Silent;
+    use crate::testing::demo_entries;
+
+    #[test]
+    fn the_summary_holds_what_lies_in_the_folder() {
+        let path = std::env::temp_dir().join(format!("bouncing-disk-summary-{}", std::process::id()));
+        let folder = OutputFolder::create(&path).expect("writable");
+        let entries = demo_entries();
+        let empty = Summary::of(&entries, &folder).expect("readable");
+        assert_eq!(empty.claims, "[]\n");
+        let files = product::make(&*entries[0], Quality::Draft, &Silent).expect("works");
+        folder.write_set("demo", Quality::Draft, 0.25, &files).expect("writable");
+        let summary = Summary::of(&entries, &folder).expect("readable");
+        assert!(summary.claims.contains("\"verdict\": \"reproduced\""), "{}", summary.claims);
+        assert!(summary.page.contains("τ_imp &amp; Γ &lt; 1"));
+        assert_eq!(summary.outdated(&folder).expect("readable"), [CLAIMS_FILE, PAGE_FILE]);
+        summary.write(&folder).expect("writable");
+        assert!(summary.outdated(&folder).expect("readable").is_empty());
+        // A record of another version.
+        folder.write("demo.json", b"{}").expect("writable");
+        assert_eq!(Summary::of(&entries, &folder).expect("readable").left_out.len(), 1);
+        std::fs::remove_dir_all(path).expect("removable");
+    }
+}

@@ -1,0 +1,127 @@
+//! Makes several figures at the same time.
+
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, anyhow};
+use bouncing_disk_experiments::Quality;
+use bouncing_disk_experiments::experiment::Entry;
+use bouncing_disk_experiments::output::OutputFolder;
+use bouncing_disk_experiments::product;
+
+use crate::report::Report;
+
+/// What became of one figure.
+#[derive(Debug)]
+pub(crate) struct Finished {
+    pub(crate) id: &'static str,
+    pub(crate) run_time: Duration,
+    pub(crate) result: anyhow::Result<()>,
+}
+
+/// Makes all entries, at most `threads` at a time. A figure that fails does not stop the others.
+///
+/// The figures are taken by threads of their own and only their parallel parts run in the pool of computing
+/// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run time
+/// would count for both.
+pub(crate) fn make_all(
+    entries: &[&dyn Entry],
+    quality: Quality,
+    folder: &OutputFolder,
+    threads: usize,
+    report: &Report,
+) -> Vec<Finished> {
+    let next = AtomicUsize::new(0);
+    let finished = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..threads.min(entries.len()) {
+            scope.spawn(|| {
+                while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let figure = make(*entry, quality, folder, report);
+                    // A poisoned lock holds intact results: a push is the only thing done under it.
+                    finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
+                }
+            });
+        }
+    });
+    finished.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+fn make(entry: &dyn Entry, quality: Quality, folder: &OutputFolder, report: &Report) -> Finished {
+    let id = entry.id();
+    let progress = report.begin(id);
+    let start = Instant::now();
+    let made = panic::catch_unwind(AssertUnwindSafe(|| product::make(entry, quality, &progress)));
+    let run_time = start.elapsed();
+    let result = match made {
+        Ok(Ok(files)) => folder.write_set(id, quality, run_time.as_secs_f64(), &files).map_err(Into::into),
+        Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
+        Err(payload) => Err(anyhow!("panicked: {}", message(&*payload))),
+    };
+    progress.end(run_time, result.is_ok());
+    Finished { id, run_time, result }
+}
+
+/// The message of a panic.
+fn message(payload: &(dyn std::any::Any + Send)) -> &str {
+    let text = payload.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("no message")
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_experiments::experiment::{ExperimentError, Outcome};
+    use bouncing_disk_experiments::{FiniteError, Progress};
+
+    use super::*;
+
+    /// Panics or fails.
+    struct Failing {
+        id: &'static str,
+        panics: bool,
+    }
+
+    impl Entry for Failing {
+        fn id(&self) -> &'static str {
+            self.id
+        }
+
+        fn title(&self) -> &'static str {
+            "fails"
+        }
+
+        fn run(&self, _: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError> {
+            progress.start(2, "steps");
+            progress.advance(1);
+            assert!(!self.panics, "index {} out of range", 7);
+            let place = "speed_m_per_s[3]".to_owned();
+            Err(ExperimentError::Data(FiniteError::NotFinite { place, number: f64::NAN }))
+        }
+
+        fn read(&self, _: serde_json::Value) -> Result<Box<dyn Outcome>, ExperimentError> {
+            unreachable!("nothing is stored")
+        }
+    }
+
+    #[test]
+    fn one_failure_does_not_stop_the_others() {
+        let path = std::env::temp_dir().join(format!("bouncing-disk-work-{}", std::process::id()));
+        let folder = OutputFolder::create(&path).expect("writable");
+        let entries = [
+            Failing { id: "a", panics: true },
+            Failing { id: "b", panics: false },
+            Failing { id: "c", panics: true },
+        ];
+        let entries: Vec<&dyn Entry> = entries.iter().map(|entry| entry as &dyn Entry).collect();
+        let mut finished = make_all(&entries, Quality::Draft, &folder, 2, &Report::silent());
+        finished.sort_by_key(|figure| figure.id);
+        let errors: Vec<_> =
+            finished.iter().map(|f| format!("{:#}", f.result.as_ref().expect_err("all fail"))).collect();
+        assert_eq!(errors[0], "panicked: index 7 out of range");
+        assert!(errors[1].contains("speed_m_per_s[3] is NaN"), "{}", errors[1]);
+        assert_eq!(errors.len(), 3);
+        std::fs::remove_dir_all(path).expect("removable");
+    }
+}
