@@ -41,7 +41,7 @@ const COMPLETION_ERROR: f64 = 1.0e-16;
 /// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
 const LONGEST_COMPLETION: f64 = 1.0e-2;
 
-/// Largest expansion parameter of the series; the majorant of the first omitted term needs it below 1/16.
+/// Largest expansion parameter of the series; its majorant needs it below 1/16.
 const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
 
 /// The accumulation point of a chattering sequence.
@@ -179,19 +179,29 @@ impl Expansion {
         (h, u)
     }
 
-    /// Time to the accumulation point, to the third order.
+    /// Time to the accumulation point, to the fourth order.
     fn duration(&self, speed: f64) -> f64 {
         let r = self.restitution;
         let a = self.pull;
         let x = speed / (a * (1.0 - r));
         let beta = self.drift / a;
         let gamma = (a - 1.0) / a;
-        let third = (3.0 * gamma * (1.0 + r) * (1.0 + r) + beta * beta * (8.0 + r * (12.0 + 8.0 * r)))
-            / (9.0 * (1.0 + r * (1.0 + r)));
-        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * third))
+        let beta2 = beta * beta;
+        let three = 1.0 + r * (1.0 + r);
+        let third =
+            (3.0 * gamma * (1.0 + r) * (1.0 + r) + beta2 * (8.0 + r * (12.0 + 8.0 * r))) / (9.0 * three);
+        // The fourth-order coefficient is a polynomial in r whose terms in a^2, a and b^2 are symmetric.
+        let symmetric =
+            |ends: f64, next: f64, middle: f64| ends + r * (next + r * (middle + r * (next + r * ends)));
+        let fourth = beta
+            * (symmetric(66.0, 204.0, 60.0) - symmetric(75.0, 240.0, 60.0) / a
+                + beta2 * symmetric(100.0, 260.0, 120.0))
+            * (2.0 / 135.0)
+            / ((1.0 + r * r) * three);
+        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * (third + x * fourth)))
     }
 
-    /// Bound on what [`Self::duration`] omits: twice the majorant of the fourth-order term, or `None` if the
+    /// Bound on what [`Self::duration`] omits: a majorant of the fifth-order term and what follows it, or `None` if the
     /// expansion parameter is too large for the majorant.
     fn error_bound(&self, x: f64) -> Option<f64> {
         let beta = (self.drift / self.pull).abs();
@@ -201,7 +211,7 @@ impl Expansion {
             return None;
         }
         let x2 = x * x;
-        Some(8.0 * (beta + gamma) * kappa * kappa * (x2 * x2))
+        Some(32.0 * (beta + gamma) * (kappa * kappa * kappa) * (x2 * x2 * x))
     }
 }
 

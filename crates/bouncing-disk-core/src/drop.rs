@@ -86,8 +86,7 @@ impl Vibration {
         }
         let (_, cos) = sin_cos_bounded(arc.angle + hi);
         if slope < 0.0 && arc.speed - hi > self.peak_acceleration() * cos {
-            let (lowest, gap) = arc.lowest(lo, hi, evaluations);
-            return (gap <= 0.0).then_some(Bracket { lo, hi: lowest });
+            return arc.dip(lo, hi, evaluations).map(|hi| Bracket { lo, hi });
         }
         None
     }

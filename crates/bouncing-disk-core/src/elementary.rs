@@ -23,42 +23,62 @@ const FRAC_PI_2_TAIL: f64 = 2.022_266_248_795_950_631_54e-21;
 
 /// The first 25 bits of 2 pi, so that its product with a period count below 2^28 is exact.
 const TAU_HEAD: f64 = 6.283_185_243_606_567;
-/// The next 25 bits of 2 pi.
-const TAU_MIDDLE: f64 = 6.357_301_884_918_343e-8;
 /// The rest of 2 pi.
-const TAU_TAIL: f64 = 2.449_293_598_294_706_4e-16;
+const TAU_TAIL: f64 = 6.357_301_909_411_279e-8;
 
-/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 1e5, the `libm` crate beyond.
+/// Largest argument of [`sin_cos_bounded`], in radians.
+const BOUND: f64 = 100.0;
+
+/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 20 and below 1.5e-16 up to 1e5, the
+/// `libm` crate beyond.
 #[must_use]
 #[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    if x.abs() <= FAST_REDUCTION_LIMIT { sin_cos_bounded(x) } else { libm::sincos(x) }
+    if x.abs() <= BOUND {
+        sin_cos_bounded(x)
+    } else if x.abs() <= FAST_REDUCTION_LIMIT {
+        let (n, quadrant) = nearest_quarter_turns(x);
+        let head = (x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE;
+        sin_cos_reduced(head - n * FRAC_PI_2_TAIL, quadrant)
+    } else {
+        libm::sincos(x)
+    }
 }
 
-/// Sine and cosine for |x| up to 1e5 rad, without a branch (Cody and Waite reduction, minimax polynomials of
-/// FreeBSD's `k_sin.c` and `k_cos.c`).
-#[must_use]
+/// Sine and cosine for |x| up to 100 rad, without a branch (Cody and Waite reduction; its third part would add
+/// less than 2e-19).
 #[inline(always)]
 pub(crate) fn sin_cos_bounded(x: f64) -> (f64, f64) {
+    let (n, quadrant) = nearest_quarter_turns(x);
+    sin_cos_reduced((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE, quadrant)
+}
+
+/// The nearest whole number of quarter turns, as a double and as bits of which the lowest two count.
+#[inline(always)]
+fn nearest_quarter_turns(x: f64) -> (f64, u64) {
     let shifted = x * core::f64::consts::FRAC_2_PI + ROUND_MAGIC;
-    let quadrant = shifted.to_bits();
-    let n = shifted - ROUND_MAGIC;
-    let r = ((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE) - n * FRAC_PI_2_TAIL;
+    (shifted - ROUND_MAGIC, shifted.to_bits())
+}
+
+/// Sine and cosine of `r` in [-pi/4, pi/4] plus `quadrant` quarter turns: the minimax polynomials of FreeBSD's
+/// `k_sin.c` and `k_cos.c`, summed as z A + z^2 B + z^3 C to keep the chains short.
+#[inline(always)]
+fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
     let z = r * r;
     let z2 = z * z;
-    let sine = r
-        + (r * z)
-            * ((-1.666_666_666_666_663_243_48e-1 + z * 8.333_333_333_322_489_461_24e-3)
-                + z2 * ((-1.984_126_982_985_794_931_34e-4 + z * 2.755_731_370_707_006_767_89e-6)
-                    + z2 * (-2.505_076_025_340_686_341_95e-8 + z * 1.589_690_995_211_550_102_21e-10)));
+    let rz = r * z;
+    let sine_low = -1.666_666_666_666_663_243_48e-1 + z * 8.333_333_333_322_489_461_24e-3;
+    let sine_middle = -1.984_126_982_985_794_931_34e-4 + z * 2.755_731_370_707_006_767_89e-6;
+    let sine_high = -2.505_076_025_340_686_341_95e-8 + z * 1.589_690_995_211_550_102_21e-10;
+    let z4 = z2 * z2;
+    let sine = r + rz * ((sine_low + z2 * sine_middle) + z4 * sine_high);
     let half = 0.5 * z;
     let head = 1.0 - half;
     let lost = (1.0 - head) - half;
-    let cosine = head
-        + (lost
-            + z2 * ((4.166_666_666_666_660_190_37e-2 + z * -1.388_888_888_887_410_957_49e-3)
-                + z2 * ((2.480_158_728_947_672_941_78e-5 + z * -2.755_731_435_139_066_330_35e-7)
-                    + z2 * (2.087_572_321_298_174_827_90e-9 + z * -1.135_964_755_778_819_482_65e-11))));
+    let cosine_low = 4.166_666_666_666_660_190_37e-2 + z * -1.388_888_888_887_410_957_49e-3;
+    let cosine_middle = 2.480_158_728_947_672_941_78e-5 + z * -2.755_731_435_139_066_330_35e-7;
+    let cosine_high = 2.087_572_321_298_174_827_90e-9 + z * -1.135_964_755_778_819_482_65e-11;
+    let cosine = head + ((lost + z2 * cosine_low) + (z4 * cosine_middle + (z4 * z2) * cosine_high));
     // Quadrant q: (sin, cos) is (s, c), (c, -s), (-s, -c), (-c, s).
     let swap = quadrant & 1 == 1;
     let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
@@ -67,13 +87,13 @@ pub(crate) fn sin_cos_bounded(x: f64) -> (f64, f64) {
     (f64::from_bits(s.to_bits() ^ sin_sign), f64::from_bits(c.to_bits() ^ cos_sign))
 }
 
-/// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 5e-3 rad (truncation below
-/// 1e-19), without evaluating a new pair.
+/// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 4e-3 rad (truncation below
+/// 6e-18), without evaluating a new pair.
 #[inline(always)]
 pub(crate) fn rotated(sin: f64, cos: f64, delta: f64) -> (f64, f64) {
     let d2 = delta * delta;
-    let versine = d2 * (0.5 - d2 * (1.0 / 24.0 - d2 * (1.0 / 720.0)));
-    let sine = delta - delta * (d2 * (1.0 / 6.0 - d2 * (1.0 / 120.0)));
+    let versine = d2 * (0.5 - d2 * (1.0 / 24.0));
+    let sine = delta - (delta * d2) * (1.0 / 6.0 - d2 * (1.0 / 120.0));
     (sin + (cos * sine - sin * versine), cos - (sin * sine + cos * versine))
 }
 
@@ -126,12 +146,12 @@ pub(crate) fn sine_deficit_ratio(h: f64) -> f64 {
 /// Splits a non-negative duration in radians, at most 1.6e9, into the nearest whole number of periods and the
 /// rest, in [-pi, pi].
 ///
-/// The rest is exact to one rounding of 2 pi (three-part reduction); what the rounding of `duration` itself has
+/// The rest is exact to one rounding (two-part reduction); what the rounding of `duration` itself has
 /// lost is lost.
 #[inline(always)]
 pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
     let periods = (duration * (1.0 / TAU) + ROUND_MAGIC) - ROUND_MAGIC;
-    let rest = ((duration - periods * TAU_HEAD) - periods * TAU_MIDDLE) - periods * TAU_TAIL;
+    let rest = (duration - periods * TAU_HEAD) - periods * TAU_TAIL;
     (periods, rest)
 }
 

@@ -177,8 +177,7 @@ impl Vibration {
         if low.slope(lo) >= 0.0 || low.slope(crest) <= 0.0 {
             return None;
         }
-        let (lowest, gap) = low.lowest(lo, crest, evaluations);
-        (gap <= 0.0).then_some(Bracket { lo, hi: lowest })
+        low.dip(lo, crest, evaluations).map(|hi| Bracket { lo, hi })
     }
 
     /// The impact of a disk that rises above the crests: down to their height it flies free, in closed form.
@@ -227,12 +226,18 @@ impl Vibration {
         if falling.gap_over(self.separation_depth, end) <= 0.0 {
             return Bracket { lo: 0.0, hi: end };
         }
-        let (_, cos) = sin_cos_bounded(falling.angle);
-        if falling.speed < self.peak_acceleration() * cos && falling.speed - end > -self.separation_speed {
-            let (lowest, gap) = falling.lowest(0.0, end, evaluations);
-            if gap <= 0.0 {
-                return Bracket { lo: 0.0, hi: lowest };
-            }
+        let p = self.peak_acceleration();
+        let (sin, cos) = sin_cos_bounded(falling.angle);
+        // Slopes at both ends; between them the gap lies above both tangents, so above where these meet.
+        let (first, last) = (falling.speed - p * cos, (falling.speed - end) + self.separation_speed);
+        let gap = p - p * sin;
+        let meet = (gap - falling.gap_over(self.separation_depth, end) + last * end) / (last - first);
+        if first < 0.0
+            && last > 0.0
+            && gap + first * meet <= self.doubtful_gap
+            && let Some(hi) = falling.dip(0.0, end, evaluations)
+        {
+            return Bracket { lo: 0.0, hi };
         }
         Bracket { lo: end, hi: crest }
     }
@@ -248,32 +253,16 @@ impl Vibration {
         let sine = p * from.sin();
         let flight = ShortForm { speed, sine, cosine: p * from.cos(), pull: 1.0 - sine };
         let mut evaluations = 0;
-        // Pieces of constant curvature: `away` (convex) until retention, else concave until separation.
-        let mut lo = 0.0;
-        let mut convex = away;
-        let mut end = if away { self.retention_angle - angle } else { self.time_to_separation(angle) };
-        let bracket = loop {
-            let hi = end.min(SHORT_FLIGHT);
-            let (ratio, velocity) = flight.at(hi);
-            evaluations += 1;
-            if ratio <= 0.0 {
-                break Some(Bracket { lo, hi });
-            }
-            if convex && lo > 0.0 && velocity > 0.0 && flight.at(lo).1 < 0.0 {
-                let (lowest, gap) = flight.lowest(lo, hi, &mut evaluations);
-                if gap <= 0.0 {
-                    break Some(Bracket { lo, hi: lowest });
-                }
-            }
-            if end >= SHORT_FLIGHT {
-                break None;
-            }
-            lo = end;
-            end += if convex { PI + 2.0 * self.separation_angle } else { PI - 2.0 * self.separation_angle };
-            convex = !convex;
+        let end = if away { self.retention_angle - angle } else { self.time_to_separation(angle) };
+        let at_once =
+            if away { None } else { flight.root_in_first_piece(end.min(SHORT_FLIGHT), &mut evaluations) };
+        let (h, velocity) = match at_once {
+            Some(root) => root,
+            None => match self.short_bracket(&flight, away, end, &mut evaluations) {
+                Some(bracket) => flight.root(bracket, &mut evaluations)?,
+                None => return Ok(None),
+            },
         };
-        let Some(bracket) = bracket else { return Ok(None) };
-        let (h, velocity) = flight.root(bracket, &mut evaluations)?;
         let h2 = h * h;
         let (sin_h, versine) = (h - h2 * h * sine_deficit_ratio(h), h2 * versine_ratio(h));
         let (s, c) = (from.sin(), from.cos());
@@ -287,6 +276,42 @@ impl Vibration {
             velocity,
             evaluations,
         }))
+    }
+}
+
+impl Vibration {
+    /// The window of the first root within [`SHORT_FLIGHT`], piece by piece of constant curvature: convex while the
+    /// platform falls `away`, else concave; the first piece reaches to `end`.
+    fn short_bracket(
+        &self,
+        flight: &ShortForm,
+        away: bool,
+        end: f64,
+        evaluations: &mut u32,
+    ) -> Option<Bracket> {
+        let (mut lo, mut end, mut convex) = (0.0, end, away);
+        loop {
+            let hi = end.min(SHORT_FLIGHT);
+            let (ratio, velocity) = flight.at(hi);
+            *evaluations += 1;
+            if ratio <= 0.0 {
+                return Some(Bracket { lo, hi });
+            }
+            if convex
+                && lo > 0.0
+                && velocity > 0.0
+                && flight.at(lo).1 < 0.0
+                && let Some(hi) = flight.dip(lo, hi, evaluations)
+            {
+                return Some(Bracket { lo, hi });
+            }
+            if end >= SHORT_FLIGHT {
+                return None;
+            }
+            lo = end;
+            end += if convex { PI + 2.0 * self.separation_angle } else { PI - 2.0 * self.separation_angle };
+            convex = !convex;
+        }
     }
 }
 

@@ -59,7 +59,7 @@ pub(crate) trait GapForm: Copy {
     fn jet(&self, t: f64) -> Jet;
     /// Relative velocity at `t`, where the phase has this cosine.
     fn velocity(&self, t: f64, cos: f64) -> f64;
-    /// Bound on the rounding error of the gap for times up to `t`.
+    /// Bound on the rounding error of the gap at `t`.
     fn rounding(&self, t: f64) -> f64;
 
     /// The root in `bracket`, which must hold exactly one, the gap falling through it, from a first `guess`.
@@ -91,7 +91,7 @@ pub(crate) trait GapForm: Copy {
             } else {
                 bracket.hi = t;
             }
-            if used >= PATIENCE && self.is_settled(bracket, gap) {
+            if used >= evaluations + PATIENCE && self.is_settled(bracket, t, gap) {
                 let velocity = if slope < 0.0 { slope } else { 0.0 };
                 return Ok(Root { time: t, sin, cos, velocity, evaluations: used });
             }
@@ -100,12 +100,18 @@ pub(crate) trait GapForm: Copy {
             }
             let radicand = slope * slope - 2.0 * gap * curvature;
             let step = if radicand > 0.0 {
-                // The sign that does not cancel; the model's slope at its root is -sqrt(radicand).
+                // The root of the quadratic model, with the sign that does not cancel; then one Newton step on the
+                // polynomial of the sixth order, whose quadratic part has the slope -sqrt(radicand) there.
                 let root = radicand.sqrt();
-                let step = -2.0 * gap / (slope - root);
-                let correction =
-                    step * step * step * ((1.0 / 6.0) * third - (1.0 / 24.0) * platform * step) / root;
-                if correction.abs() < 0.5 * step.abs() { step + correction } else { step }
+                let d = -2.0 * gap / (slope - root);
+                let d2 = d * d;
+                let rest = (d2 * d)
+                    * (((1.0 / 6.0) * third - (1.0 / 24.0) * (platform * d))
+                        - d2 * ((1.0 / 120.0) * third - (1.0 / 720.0) * (platform * d)));
+                let rest_slope =
+                    d2 * ((0.5 * third - (1.0 / 6.0) * (platform * d)) - d2 * ((1.0 / 24.0) * third));
+                let correction = rest / (root - rest_slope);
+                if correction.abs() < 0.5 * d.abs() { d + correction } else { d }
             } else {
                 -x
             };
@@ -121,19 +127,28 @@ pub(crate) trait GapForm: Copy {
     /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known to
     /// its conditioning limit.
     #[cold]
-    fn is_settled(&self, bracket: Bracket, gap: f64) -> bool {
-        gap.abs() <= self.rounding(bracket.hi)
-            || bracket.hi - bracket.lo <= 4.0 * f64::EPSILON * (1.0 + bracket.hi)
+    fn is_settled(&self, bracket: Bracket, t: f64, gap: f64) -> bool {
+        gap.abs() <= self.rounding(t) || bracket.hi - bracket.lo <= 4.0 * f64::EPSILON * (1.0 + bracket.hi)
     }
 
-    /// The smallest gap in [`lo`, `hi`], a piece of positive curvature whose slope changes from negative to
-    /// positive, and its time: Newton steps on the slope, which increases, kept in a bracket.
+    /// A time in (`lo`, `hi`) where the gap is not positive, or `None` if there is none: the piece must be convex,
+    /// with a slope that changes from negative to positive.
+    ///
+    /// Newton steps on the slope approach the minimum; the tangents, which a convex function never crosses, end
+    /// the search as soon as they prove that it is positive.
     #[cold]
-    fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
+    fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let mut t = 0.5 * (lo + hi);
         loop {
-            let Jet { slope, curvature, .. } = self.jet(t);
+            let Jet { gap, slope, curvature, .. } = self.jet(t);
             *evaluations += 1;
+            if gap <= 0.0 {
+                return Some(t);
+            }
+            let far = if slope < 0.0 { hi } else { lo };
+            if gap + slope * (far - t) > 0.0 {
+                return None;
+            }
             if slope < 0.0 {
                 lo = t;
             } else {
@@ -142,8 +157,8 @@ pub(crate) trait GapForm: Copy {
             let next = t - slope / curvature;
             let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
             // The gap is flat at its minimum: an error d in time costs d^2 in the gap.
-            if (next - t).abs() <= 1.0e-9 || hi - lo <= 1.0e-9 || *evaluations >= MAX_EVALUATIONS {
-                return (next, self.jet(next).gap);
+            if hi - lo <= 1.0e-9 || *evaluations >= MAX_EVALUATIONS {
+                return None;
             }
             t = next;
         }
@@ -302,15 +317,41 @@ impl ShortForm {
         (self.cosine * sin_h - self.pull) - self.sine * (h2 * versine_ratio(h))
     }
 
-    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
+    /// The first flight of a chattering sequence, from the expansion in the launch speed.
     #[inline(always)]
-    pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
-        // Two terms of the expansion in the launch speed; elsewhere the middle of the bracket.
-        let reach = self.speed / self.pull;
-        let mut h = 2.0 * reach * (1.0 + (2.0 / 3.0) * self.cosine * reach / self.pull);
-        if !(h > bracket.lo && h < bracket.hi) {
-            h = 0.5 * (bracket.lo + bracket.hi);
+    fn expected(&self) -> f64 {
+        let inverse = 1.0 / self.pull;
+        let x = self.speed * inverse;
+        let beta = self.cosine * inverse;
+        // (a - 1)/a with a - 1 = -P sin tau.
+        let gamma = -self.sine * inverse;
+        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * ((1.0 / 3.0) * gamma + (8.0 / 9.0) * (beta * beta))))
+    }
+
+    /// The root in (0, `end`) of a flight that starts in a concave piece which reaches to `end`: gap/h has at most
+    /// one there, so the one that Newton's iteration finds is the first. `None` if it does not find one at once.
+    #[inline(always)]
+    pub(crate) fn root_in_first_piece(&self, end: f64, evaluations: &mut u32) -> Option<(f64, f64)> {
+        let mut h = self.expected();
+        for _ in 0..4 {
+            if !(h > 0.0 && h < end) {
+                return None;
+            }
+            let (ratio, velocity) = self.at(h);
+            *evaluations += 1;
+            let slope = velocity - ratio;
+            let step = -ratio * h / slope;
+            if step.abs() <= LAST_SHORT_STEP * h && slope < 0.0 {
+                return Some((h + step, (velocity + self.curvature(h) * step).min(0.0)));
+            }
+            h += step;
         }
+        None
+    }
+
+    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
+    pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
+        let mut h = 0.5 * (bracket.lo + bracket.hi);
         loop {
             let (ratio, velocity) = self.at(h);
             *evaluations += 1;
@@ -339,20 +380,27 @@ impl ShortForm {
         }
     }
 
-    /// The time and size of the smallest gap in a convex piece [lo, hi] whose slope changes from negative to
-    /// positive, by bisection on the relative velocity.
+    /// A time in (`lo`, `hi`) where the gap is not positive, or `None`: as [`GapForm::dip`], by bisection.
     #[cold]
-    pub(crate) fn lowest(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> (f64, f64) {
+    pub(crate) fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         while hi - lo > 1.0e-9 * hi && *evaluations < MAX_EVALUATIONS {
             let middle = 0.5 * (lo + hi);
             *evaluations += 1;
-            if self.at(middle).1 < 0.0 {
+            let (ratio, slope) = self.at(middle);
+            let gap = ratio * middle;
+            if gap <= 0.0 {
+                return Some(middle);
+            }
+            let far = if slope < 0.0 { hi } else { lo };
+            if gap + slope * (far - middle) > 0.0 {
+                return None;
+            }
+            if slope < 0.0 {
                 lo = middle;
             } else {
                 hi = middle;
             }
         }
-        let h = 0.5 * (lo + hi);
-        (h, self.at(h).0 * h)
+        None
     }
 }
