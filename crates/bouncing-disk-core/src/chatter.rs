@@ -74,15 +74,28 @@ impl Vibration {
     ///
     /// `restitution` in [0, 1).
     #[must_use]
+    #[inline]
     pub fn accumulation(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
         let pull = self.contact_force(phase);
-        let x = speed / (pull * (1.0 - restitution));
+        let reach = pull * (1.0 - restitution);
         // Cheap refusal of the ordinary impact; also of a pull <= 0 and of NaN.
-        if !(0.0..=0.5 * LONGEST_COMPLETION).contains(&x) || self.falls_away_at(phase.angle()) {
+        let small = speed > 0.0 && speed <= 0.5 * LONGEST_COMPLETION * reach;
+        if !small || self.falls_away_at(phase.angle()) {
             return self.at_rest(phase, speed);
         }
-        let drift = self.velocity(phase);
-        let expansion = Expansion { pull, drift, restitution };
+        self.accumulation_of_small(phase, speed, restitution, speed / reach)
+    }
+
+    /// [`Self::accumulation`] for an expansion parameter `x` that is worth trying.
+    fn accumulation_of_small(
+        &self,
+        phase: Phase,
+        speed: f64,
+        restitution: f64,
+        x: f64,
+    ) -> Option<Accumulation> {
+        let expansion =
+            Expansion { pull: self.contact_force(phase), drift: self.velocity(phase), restitution };
         let error_bound = expansion.error_bound(x)?;
         if error_bound > COMPLETION_ERROR || !self.pulls_back_throughout(phase, speed, restitution, 2.0 * x) {
             return None;

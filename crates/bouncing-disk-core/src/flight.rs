@@ -140,44 +140,59 @@ impl Vibration {
         let no_dip = (disk_speed - inflection >= self.separation_speed) | (disk_speed <= crest);
         if !(from_falling_away | (above & no_dip)) {
             let low = LaunchForm { angle, peak: p, speed, sine: p * from.sin(), cosine: p * from.cos() };
-            if let Some(bracket) =
-                self.bracket_before_crest_of_launch(&low, inflection, crest, &mut evaluations)
+            if let Some((bracket, guess)) =
+                self.bracket_before_crest_of_launch(&rising, &low, inflection, crest, &mut evaluations)
             {
-                return impact_before_crest(from, low, bracket, evaluations);
+                let root = low.root(bracket, guess, evaluations)?;
+                return Ok(landed_within_a_turn(angle, root));
             }
         }
         self.impact_from_above(angle, disk_speed, depth, speed, evaluations)
     }
 
-    /// The window of the first root of a launch before the crest, where it is not plain that there is none.
+    /// The window of the first root of a launch before the crest, where it is not plain that there is none, and
+    /// where to start the search in it.
     ///
-    /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs.
-    #[cold]
+    /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs. The sign
+    /// of a gap is taken from the crest form where that is beyond doubt, else from the launch form.
+    #[inline(never)]
     fn bracket_before_crest_of_launch(
         &self,
+        rising: &CrestForm,
         low: &LaunchForm,
         inflection: f64,
         crest: f64,
         evaluations: &mut u32,
-    ) -> Option<Bracket> {
+    ) -> Option<(Bracket, f64)> {
         if crest <= SHORT_FLIGHT {
             return None;
         }
-        if inflection > SHORT_FLIGHT {
-            *evaluations += 1;
-            if low.gap(inflection) <= 0.0 {
-                return Some(Bracket { lo: SHORT_FLIGHT, hi: inflection });
+        let mut has_passed = |platform_depth: f64, t: f64| {
+            let gap = rising.gap_over(platform_depth, t);
+            if gap.abs() > self.doubtful_gap {
+                return gap <= 0.0;
             }
+            *evaluations += 1;
+            low.gap(t) <= 0.0
+        };
+        if inflection > SHORT_FLIGHT && has_passed(self.separation_depth, inflection) {
+            // The parabola of the launch; where it leads out of the window, the end, from which a concave gap is
+            // approached without overshooting.
+            let parabola = 2.0 * low.speed / (1.0 - low.sine);
+            let inside = parabola > SHORT_FLIGHT && parabola < inflection;
+            return Some((
+                Bracket { lo: SHORT_FLIGHT, hi: inflection },
+                if inside { parabola } else { inflection },
+            ));
         }
-        *evaluations += 1;
         let lo = inflection.max(SHORT_FLIGHT);
-        if low.gap(crest) <= 0.0 {
-            return Some(Bracket { lo, hi: crest });
+        if has_passed(0.0, crest) {
+            return Some((Bracket { lo, hi: crest }, lo));
         }
         if low.slope(lo) >= 0.0 || low.slope(crest) <= 0.0 {
             return None;
         }
-        low.dip(lo, crest, evaluations).map(|hi| Bracket { lo, hi })
+        low.dip(lo, crest, evaluations).map(|hi| (Bracket { lo, hi }, lo))
     }
 
     /// The impact of a disk that rises above the crests: down to their height it flies free, in closed form.
@@ -313,18 +328,6 @@ impl Vibration {
             convex = !convex;
         }
     }
-}
-
-/// An impact before the first crest, longer than a short flight.
-#[cold]
-fn impact_before_crest(
-    from: Phase,
-    low: LaunchForm,
-    bracket: Bracket,
-    evaluations: u32,
-) -> Result<Impact, Error> {
-    let root = low.root(bracket, 0.5 * (bracket.lo + bracket.hi), evaluations)?;
-    Ok(landed_within_a_turn(from.angle(), root))
 }
 
 /// The impact of a form whose reference is the start of the flight itself, at `angle`.

@@ -242,28 +242,35 @@ pub(crate) struct LaunchForm {
 }
 
 impl LaunchForm {
+    /// 1 - cos t and sin t, each in relative accuracy.
+    #[inline(always)]
+    fn versine_and_sine(t: f64) -> (f64, f64) {
+        let (half_sin, half_cos) = sin_cos_bounded(0.5 * t);
+        (2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos)
+    }
+
     /// The gap alone.
     pub(crate) fn gap(&self, t: f64) -> f64 {
-        self.jet(t).gap
+        let (versine, sin_t) = Self::versine_and_sine(t);
+        t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t))
     }
 
     /// The relative velocity.
     pub(crate) fn slope(&self, t: f64) -> f64 {
-        let (half_sin, half_cos) = sin_cos_bounded(0.5 * t);
-        let (versine, sin_t) = (2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos);
+        let (versine, sin_t) = Self::versine_and_sine(t);
         (self.speed - t) + (self.cosine * versine + self.sine * sin_t)
     }
 }
 
 impl GapForm for LaunchForm {
+    #[inline(always)]
     fn jet(&self, t: f64) -> Jet {
         let (sin, cos) = sin_cos_bounded(self.angle + t);
-        let (half_sin, _) = sin_cos_bounded(0.5 * t);
-        let versine = 2.0 * half_sin * half_sin;
+        let (versine, sin_t) = Self::versine_and_sine(t);
         let platform = self.peak * sin;
         Jet {
-            gap: t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t)),
-            slope: self.slope(t),
+            gap: t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t)),
+            slope: (self.speed - t) + (self.cosine * versine + self.sine * sin_t),
             curvature: platform - 1.0,
             third: self.peak * cos,
             platform,
@@ -277,7 +284,8 @@ impl GapForm for LaunchForm {
     }
 
     fn rounding(&self, t: f64) -> f64 {
-        let sides = self.sine.abs() * t.min(2.0) * t.min(2.0) + self.cosine.abs() * sine_deficit(t);
+        let (versine, sin_t) = Self::versine_and_sine(t);
+        let sides = self.sine.abs() * versine + self.cosine.abs() * sine_deficit(t, sin_t);
         GAP_ROUNDING * (t * (self.speed + 0.5 * t) + sides)
     }
 }

@@ -13,6 +13,7 @@ mod gap;
 mod map;
 mod periodic;
 mod phase;
+pub mod reference;
 mod vibration;
 
 pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};

@@ -232,7 +232,8 @@ impl Orbit {
                 }
             }
             ChatterPolicy::Paper => {
-                if !self.short_flights.attaches(duration, -velocity) {
+                // A disk without rebound speed is on the platform, cut or not.
+                if !self.short_flights.attaches(duration, -velocity) && speed > 0.0 {
                     Next::Launch(phase, speed)
                 } else if self.map.vibration.falls_away_at(phase.angle()) {
                     // Put on a platform that falls away, the disk is in flight again at once.

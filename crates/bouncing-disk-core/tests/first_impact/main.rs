@@ -1,3 +1,10 @@
-//! stub
-#[test]
-fn stub() {}
+//! The first impact: judged launch by launch by a high-precision oracle, and compared with the stored cases.
+#![allow(unreachable_pub, reason = "the modules of a test have no public interface")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod campaign;
+mod cases;
+mod elementary;
+mod launches;
+mod oracle;
+mod properties;

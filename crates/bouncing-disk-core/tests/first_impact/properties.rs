@@ -1,0 +1,95 @@
+//! What every first impact has in common.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::{Error, Impact, Launch, MAX_FLIGHT_DURATION, Phase, Vibration, elementary};
+use proptest::prelude::*;
+
+fn impact(peak: f64, angle: f64, speed: f64) -> Impact {
+    let phase = Phase::new(angle).unwrap();
+    Vibration::new(peak).unwrap().first_impact(Launch::new(phase, speed).unwrap()).unwrap()
+}
+
+fn peaks() -> impl Strategy<Value = f64> {
+    prop_oneof![0.0..1.0, Just(1.0), 1.0..10.0_f64, (1.0..6.0_f64).prop_map(libm::exp10)]
+}
+
+fn speeds() -> impl Strategy<Value = f64> {
+    (-9.0..5.0_f64).prop_map(libm::exp10)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn gravity_and_the_largest_pull_bound_the_flight(peak in peaks(), angle in 0.0..TAU, speed in speeds()) {
+        let impact = impact(peak, angle, speed);
+        let duration = impact.duration();
+        prop_assert!(duration >= 2.0 * speed / (1.0 + peak) * (1.0 - 1.0e-14));
+        // Never longer than up to the height of the crests, back, and a period.
+        let climb = speed + peak;
+        prop_assert!(duration <= 2.0 * climb + 2.0 * (2.0 * peak).sqrt() + 2.0 * TAU);
+        prop_assert!(impact.velocity <= 0.0);
+        prop_assert!(impact.velocity >= -(duration + 2.0 * peak));
+    }
+
+    #[test]
+    fn whole_turns_of_the_launch_phase_do_not_matter(
+        peak in peaks(), angle in 0.0..TAU, turns in -40_i32..40, speed in speeds(),
+    ) {
+        let shifted = angle + TAU * f64::from(turns);
+        let wrapped = elementary::wrapped_angle(shifted);
+        prop_assert!((wrapped - angle).abs() <= 1.0e-13 || TAU - (wrapped - angle).abs() <= 1.0e-13);
+        prop_assert_eq!(impact(peak, shifted, speed), impact(peak, wrapped, speed));
+    }
+
+    #[test]
+    fn turns_periods_and_phases_agree(peak in peaks(), angle in 0.0..TAU, speed in speeds()) {
+        let impact = impact(peak, angle, speed);
+        let by_phase = (impact.phase.angle() - angle) + impact.turns as f64 * TAU;
+        let tolerance = 4.0e-15 + 4.0 * f64::EPSILON * impact.duration();
+        prop_assert!((by_phase - impact.duration()).abs() <= tolerance);
+    }
+
+    #[test]
+    fn a_platform_at_rest_gives_a_parabola(angle in 0.0..TAU, speed in speeds()) {
+        let impact = impact(0.0, angle, speed);
+        prop_assert!((impact.duration() - 2.0 * speed).abs() <= 4.0 * f64::EPSILON * speed);
+        prop_assert!((impact.velocity + speed).abs() <= 4.0 * f64::EPSILON * speed);
+    }
+
+    #[test]
+    fn a_faster_launch_of_a_calm_platform_flies_longer(
+        peak in 0.0..1.0, angle in 0.0..TAU, speed in speeds(), more in 1.001..2.0_f64,
+    ) {
+        // Without zones of positive curvature nothing can be grazed.
+        prop_assert!(impact(peak, angle, speed * more).duration() > impact(peak, angle, speed).duration());
+    }
+
+    #[test]
+    fn a_faster_launch_is_not_hit_sooner(
+        peak in peaks(), angle in 0.0..TAU, speed in speeds(), more in 1.001..2.0_f64,
+    ) {
+        // The gap grows with the launch speed at every instant.
+        prop_assert!(impact(peak, angle, speed * more).duration() > impact(peak, angle, speed).duration());
+    }
+}
+
+#[test]
+fn launches_that_are_refused() {
+    let phase = Phase::new(0.3).unwrap();
+    for speed in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(Launch::new(phase, speed), Err(Error::OutOfRange { .. })), "{speed}");
+    }
+    for angle in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(Phase::new(angle), Err(Error::OutOfRange { .. })), "{angle}");
+    }
+    let rest = Launch::new(phase, 0.0).unwrap();
+    for peak in [0.0, 0.5, 1.0, 3.0] {
+        let vibration = Vibration::new(peak).unwrap();
+        assert!(matches!(vibration.first_impact(rest), Err(Error::NoLiftOff { .. })), "{peak}");
+    }
+    let fast = Launch::new(phase, MAX_FLIGHT_DURATION).unwrap();
+    let vibration = Vibration::new(2.0).unwrap();
+    assert!(matches!(vibration.first_impact(fast), Err(Error::FlightTooLong { .. })));
+}

@@ -1,0 +1,135 @@
+//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no longer count.
+
+use bouncing_disk_core::{ChatterImpact, Phase};
+
+use crate::dimensionless::Dimensionless;
+use crate::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::ledger::EnergyLedger;
+use crate::spell::{book_flight_load, flight_turn};
+
+/// A chattering sequence followed up to some time: the state just after the last impact by then.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Chatter {
+    /// Time of the last impact since the start (rad).
+    pub(crate) time: f64,
+    /// Phase pair at the last impact.
+    pub(crate) pair: (f64, f64),
+    /// Relative launch speed after it.
+    pub(crate) launch_speed: f64,
+    pub(crate) angular_speed: f64,
+    /// Angle turned since the start.
+    pub(crate) angle: f64,
+    /// Whether friction ended the slip in the last impact.
+    pub(crate) capped: bool,
+    pub(crate) impacts: u32,
+    pub(crate) axial_impulse: f64,
+    pub(crate) angular_impulse: f64,
+    /// Impacts and the load's work in the flights between them. The change of the axial energy is not in it.
+    pub(crate) ledger: EnergyLedger,
+}
+
+impl Chatter {
+    /// The sequence that starts with a launch at `phase` with `speed`, up to `duration` rad later.
+    pub(crate) fn new(
+        system: &Dimensionless,
+        phase: Phase,
+        speed: f64,
+        angular_speed: f64,
+        duration: f64,
+    ) -> Self {
+        let mut chatter = Self {
+            time: 0.0,
+            pair: (phase.sin(), phase.cos()),
+            launch_speed: speed,
+            angular_speed,
+            angle: 0.0,
+            capped: false,
+            impacts: 0,
+            axial_impulse: 0.0,
+            angular_impulse: 0.0,
+            ledger: EnergyLedger::default(),
+        };
+        for impact in system.vibration().chatter_impacts(phase, speed, system.restitution()) {
+            if impact.time > duration {
+                break;
+            }
+            chatter.advance(system, &impact);
+        }
+        chatter
+    }
+
+    fn advance(&mut self, system: &Dimensionless, impact: &ChatterImpact) {
+        let turn = flight_turn(system, self.angular_speed, impact.time - self.time);
+        book_flight_load(&mut self.ledger, system, self.angular_speed, &turn);
+        let platform_speed = system.angular_speed_at(impact.pair);
+        let axial = axial_impulse(system.restitution(), -impact.speed);
+        let slip = turn.speed - platform_speed;
+        let rotary = friction_impact(system.friction(), axial, slip);
+        let after = if rotary.capped { platform_speed } else { turn.speed + rotary.impulse };
+        book_impact(
+            &mut self.ledger,
+            ImpactEnergy {
+                axial,
+                relative_velocity: -impact.speed,
+                restitution: system.restitution(),
+                platform_velocity: system.peak_acceleration() * impact.pair.1,
+                rotary: rotary.impulse,
+                slip,
+                platform_speed,
+            },
+        );
+        self.ledger.book_rotary_change(turn.speed, after);
+        self.time = impact.time;
+        self.pair = impact.pair;
+        self.launch_speed = rebound_velocity(system.restitution(), -impact.speed);
+        self.angular_speed = after;
+        self.angle += turn.angle;
+        self.capped = rotary.capped;
+        self.impacts += 1;
+        self.axial_impulse += axial;
+        self.angular_impulse += rotary.impulse;
+    }
+
+    /// Axial velocity of the disk just after the last impact.
+    pub(crate) fn launch_velocity(&self, system: &Dimensionless) -> f64 {
+        self.launch_speed + system.peak_acceleration() * self.pair.1
+    }
+}
+
+/// What the energy of an impact is computed from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ImpactEnergy {
+    /// Axial impulse per mass.
+    pub(crate) axial: f64,
+    /// Relative axial velocity before.
+    pub(crate) relative_velocity: f64,
+    pub(crate) restitution: f64,
+    /// Axial velocity of the platform.
+    pub(crate) platform_velocity: f64,
+    /// Angular impulse.
+    pub(crate) rotary: f64,
+    /// Angular speed relative to the platform before.
+    pub(crate) slip: f64,
+    /// Angular speed of the platform.
+    pub(crate) platform_speed: f64,
+}
+
+/// Books the platform's work and the losses of one impact.
+pub(crate) fn book_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
+    let ImpactEnergy {
+        axial,
+        relative_velocity,
+        restitution,
+        platform_velocity,
+        rotary,
+        slip,
+        platform_speed,
+    } = energy;
+    let restitution_loss =
+        0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (relative_velocity * relative_velocity);
+    ledger.book_normal(axial * platform_velocity, restitution_loss);
+    // The friction impulse acts at the mean of the slip speeds before and after.
+    let friction_loss = -rotary * (slip + 0.5 * rotary);
+    let work = rotary * platform_speed;
+    ledger.book_friction(work, friction_loss, work.abs() + (rotary * slip).abs());
+}

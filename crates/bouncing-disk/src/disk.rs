@@ -1,0 +1,114 @@
+//! The disk: the dough, or the rotor.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, finite, not_negative, positive, restitution};
+
+/// The parameters of a [`Disk`], not yet checked.
+///
+/// The mass is not among them: it multiplies every equation. Energies come per unit mass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DiskParameters {
+    /// Effective contact radius a_e (m), positive: where the friction force acts.
+    pub contact_radius: f64,
+    /// Radius of gyration a_g (m), positive.
+    pub gyration_radius: f64,
+    /// Coefficient of friction mu, static and kinetic, not negative.
+    pub friction: f64,
+    /// Coefficient of restitution, in [0, 1).
+    pub restitution: f64,
+    /// Preload acceleration g (m/s^2), positive.
+    pub preload_acceleration: f64,
+    /// Angular deceleration by a constant load torque, T_L/(m a_g^2) (rad/s^2), any finite number; a positive
+    /// load decelerates a positive rotation. Zero if absent in a serialised form.
+    #[serde(default)]
+    pub load_acceleration: f64,
+}
+
+impl DiskParameters {
+    /// The same disk with a load `torque` (N m) on a disk of `mass` (kg).
+    #[must_use]
+    pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Self {
+        self.load_acceleration = torque / (mass * self.gyration_radius * self.gyration_radius);
+        self
+    }
+
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    pub fn build(self) -> Result<Disk, Error> {
+        positive("contact_radius", self.contact_radius)?;
+        positive("gyration_radius", self.gyration_radius)?;
+        not_negative("friction", self.friction)?;
+        restitution(self.restitution)?;
+        positive("preload_acceleration", self.preload_acceleration)?;
+        finite("load_acceleration", self.load_acceleration)?;
+        Ok(Disk { parameters: self })
+    }
+}
+
+/// A disk with legal parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "DiskParameters", into = "DiskParameters")]
+pub struct Disk {
+    parameters: DiskParameters,
+}
+
+impl Disk {
+    /// The parameters, to be changed and built again.
+    #[must_use]
+    pub const fn parameters(&self) -> DiskParameters {
+        self.parameters
+    }
+
+    /// Effective contact radius a_e (m).
+    #[must_use]
+    pub const fn contact_radius(&self) -> f64 {
+        self.parameters.contact_radius
+    }
+
+    /// Radius of gyration a_g (m).
+    #[must_use]
+    pub const fn gyration_radius(&self) -> f64 {
+        self.parameters.gyration_radius
+    }
+
+    /// Coefficient of friction mu.
+    #[must_use]
+    pub const fn friction(&self) -> f64 {
+        self.parameters.friction
+    }
+
+    /// Coefficient of restitution.
+    #[must_use]
+    pub const fn restitution(&self) -> f64 {
+        self.parameters.restitution
+    }
+
+    /// Preload acceleration g (m/s^2).
+    #[must_use]
+    pub const fn preload_acceleration(&self) -> f64 {
+        self.parameters.preload_acceleration
+    }
+
+    /// Angular deceleration by the load (rad/s^2).
+    #[must_use]
+    pub const fn load_acceleration(&self) -> f64 {
+        self.parameters.load_acceleration
+    }
+}
+
+impl TryFrom<DiskParameters> for Disk {
+    type Error = Error;
+
+    fn try_from(parameters: DiskParameters) -> Result<Self, Error> {
+        parameters.build()
+    }
+}
+
+impl From<Disk> for DiskParameters {
+    fn from(disk: Disk) -> Self {
+        disk.parameters
+    }
+}

@@ -1,0 +1,73 @@
+//! The errors of this crate.
+
+/// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A parameter or an argument lies outside its legal range.
+    #[error("{field} = {value} is outside its legal range {legal}")]
+    OutOfRange {
+        /// The name of the parameter.
+        field: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// The legal range, in words.
+        legal: &'static str,
+    },
+    /// The disk never leaves the platform, whose peak acceleration does not exceed the preload acceleration.
+    #[error(
+        "the disk never leaves the platform: its peak acceleration is {peak_acceleration} g, not above 1 g"
+    )]
+    NeverLeaves {
+        /// Peak acceleration of the platform in units of the preload acceleration.
+        peak_acceleration: f64,
+    },
+    /// A spell of sliding would last longer than its end can be resolved.
+    #[error("the disk slides for {duration} rad, more than the largest duration {limit} rad")]
+    SlipTooLong {
+        /// Estimated duration in radians.
+        duration: f64,
+        /// The largest duration in radians.
+        limit: f64,
+    },
+    /// An error of the math core.
+    #[error(transparent)]
+    Core(#[from] bouncing_disk_core::Error),
+}
+
+/// Largest size of a dimensionless rotary number: its square is far from overflow.
+const LARGEST: f64 = 1.0e100;
+
+/// Checks that `value` is finite and greater than zero.
+pub(crate) fn positive(field: &'static str, value: f64) -> Result<f64, Error> {
+    check(value > 0.0 && value.is_finite(), field, value, "(0, inf)")
+}
+
+/// Checks that `value` is finite and not negative.
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error> {
+    check(value >= 0.0 && value.is_finite(), field, value, "[0, inf)")
+}
+
+/// Checks that `value` is finite.
+pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
+    check(value.is_finite(), field, value, "finite")
+}
+
+/// Checks that a coefficient of restitution lies in [0, 1).
+pub(crate) fn restitution(value: f64) -> Result<f64, Error> {
+    check((0.0..1.0).contains(&value), "restitution", value, "[0, 1)")
+}
+
+/// Checks that a dimensionless number is not negative and can be squared.
+pub(crate) fn moderate_not_negative(field: &'static str, value: f64) -> Result<f64, Error> {
+    check((0.0..=LARGEST).contains(&value), field, value, "[0, 1e100] (dimensionless)")
+}
+
+/// Checks that a dimensionless number can be squared.
+pub(crate) fn moderate(field: &'static str, value: f64) -> Result<f64, Error> {
+    check(value.abs() <= LARGEST, field, value, "[-1e100, 1e100] (dimensionless)")
+}
+
+fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
+    if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
+}

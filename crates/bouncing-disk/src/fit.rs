@@ -1,0 +1,150 @@
+//! Least-squares fits of measured or computed curves.
+
+use bouncing_disk_core::elementary::{exp, ln};
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+
+/// Steps of the golden-section search: the interval shrinks by 0.618 each.
+const GOLDEN_STEPS: u32 = 80;
+
+/// Trial time constants that bracket the best one.
+const TRIALS: u32 = 60;
+
+/// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ExponentialFit {
+    /// Steady speed alpha_ss (rad/s).
+    pub steady_speed: f64,
+    /// Time constant t_c (s).
+    pub time_constant: f64,
+    /// Root mean square of the residuals (rad/s).
+    pub residual: f64,
+}
+
+impl ExponentialFit {
+    /// Fits times (s, not negative, rising) and speeds (rad/s): at least three points.
+    ///
+    /// The model is linear in the steady speed, so the search is over the time constant alone (variable
+    /// projection), in its logarithm, from a tenth of the shortest to a hundred times the longest time.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise or
+    /// numbers that are not finite.
+    pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
+        let n = times.len();
+        let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+        if n < 3 {
+            return illegal("number of points of the speed curve", n as f64, "[3, inf)");
+        }
+        if speeds.len() != n {
+            return illegal("number of speeds", speeds.len() as f64, "the number of times");
+        }
+        let rising = times.iter().zip(&times[1..]).all(|(a, b)| b > a);
+        if !(rising && times[0] >= 0.0 && times[n - 1].is_finite()) {
+            return illegal("times of the speed curve", times[0], "finite, not negative, rising (s)");
+        }
+        if let Some(&bad) = speeds.iter().find(|speed| !speed.is_finite()) {
+            return illegal("speed", bad, "finite (rad/s)");
+        }
+        let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
+        let (low, high) = (ln(0.1 * first), ln(100.0 * times[n - 1]));
+        let cost = |log: f64| Self::at(times, speeds, exp(log)).residual;
+        let step = (high - low) / f64::from(TRIALS);
+        let mut best = (f64::INFINITY, 0);
+        for trial in 0..=TRIALS {
+            let value = cost(low + step * f64::from(trial));
+            if value < best.0 {
+                best = (value, trial);
+            }
+        }
+        let centre = low + step * f64::from(best.1);
+        let log = golden_minimum((centre - step).max(low), (centre + step).min(high), cost);
+        Ok(Self::at(times, speeds, exp(log)))
+    }
+
+    /// The best steady speed for a given time constant, and its residual.
+    fn at(times: &[f64], speeds: &[f64], time_constant: f64) -> Self {
+        let shape = |time: f64| -bouncing_disk_core::elementary::exp_m1(-time / time_constant);
+        let (mut shapes, mut products) = (0.0, 0.0);
+        for (&time, &speed) in times.iter().zip(speeds) {
+            let y = shape(time);
+            shapes += y * y;
+            products += y * speed;
+        }
+        let steady_speed = if shapes > 0.0 { products / shapes } else { 0.0 };
+        let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
+            let difference = speed - steady_speed * shape(time);
+            sum + difference * difference
+        });
+        Self { steady_speed, time_constant, residual: (sum / times.len() as f64).sqrt() }
+    }
+
+    /// The fitted speed (rad/s) at `time` (s).
+    #[must_use]
+    pub fn speed(&self, time: f64) -> f64 {
+        self.steady_speed * -bouncing_disk_core::elementary::exp_m1(-time / self.time_constant)
+    }
+
+    /// Stall acceleration alpha_ss/t_c (rad/s^2): what the paper calls the stall torque.
+    #[must_use]
+    pub fn stall_acceleration(&self) -> f64 {
+        self.steady_speed / self.time_constant
+    }
+
+    /// Stall torque m a_g^2 alpha_ss/t_c (N m) of a disk of `mass` (kg) and `gyration_radius` (m).
+    #[must_use]
+    pub fn stall_torque(&self, mass: f64, gyration_radius: f64) -> f64 {
+        mass * gyration_radius * gyration_radius * self.stall_acceleration()
+    }
+}
+
+/// The minimum of a function with one minimum in [low, high], by golden section.
+fn golden_minimum(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
+    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut inner = [high - ratio * (high - low), low + ratio * (high - low)];
+    let mut values = [function(inner[0]), function(inner[1])];
+    for _ in 0..GOLDEN_STEPS {
+        if values[0] <= values[1] {
+            high = inner[1];
+            inner[1] = inner[0];
+            values[1] = values[0];
+            inner[0] = high - ratio * (high - low);
+            values[0] = function(inner[0]);
+        } else {
+            low = inner[0];
+            inner[0] = inner[1];
+            values[0] = values[1];
+            inner[1] = low + ratio * (high - low);
+            values[1] = function(inner[1]);
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_curve_is_recovered() {
+        for (steady, constant) in [(20.0, 0.6), (-3.0, 0.01), (1e-3, 40.0)] {
+            let times: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
+            let truth = ExponentialFit { steady_speed: steady, time_constant: constant, residual: 0.0 };
+            let speeds: Vec<f64> = times.iter().map(|&time| truth.speed(time)).collect();
+            let fit = ExponentialFit::new(&times, &speeds).expect("legal curve");
+            // The residual is flat at its minimum: half of the digits of the time constant are lost.
+            assert!((fit.time_constant / constant - 1.0).abs() < 1e-5, "{fit:?}");
+            assert!((fit.steady_speed / steady - 1.0).abs() < 1e-5, "{fit:?}");
+            assert!((fit.stall_acceleration() - fit.steady_speed / fit.time_constant).abs() <= 0.0);
+        }
+    }
+
+    #[test]
+    fn illegal_curves_are_named() {
+        assert!(ExponentialFit::new(&[0.0, 1.0], &[0.0, 1.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 1.0], &[0.0, 1.0, 2.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, 1.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, 1.0]).is_err());
+    }
+}

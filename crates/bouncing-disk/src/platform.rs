@@ -1,0 +1,167 @@
+//! The vibrating and twisting platform: the hand, or the stator.
+
+use std::f64::consts::FRAC_PI_2;
+
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::elementary::sin_cos;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, finite, not_negative, positive};
+
+/// The parameters of a [`Platform`], not yet checked.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlatformParameters {
+    /// Amplitude A of the height (m), not negative.
+    pub amplitude: f64,
+    /// Amplitude Phi of the angle (rad), not negative.
+    pub twist_amplitude: f64,
+    /// Angular frequency omega (rad/s), positive.
+    pub angular_frequency: f64,
+    /// Phase lag theta of the twist (rad), any finite number.
+    pub phase_lag: f64,
+}
+
+impl PlatformParameters {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    pub fn build(self) -> Result<Platform, Error> {
+        not_negative("amplitude", self.amplitude)?;
+        not_negative("twist_amplitude", self.twist_amplitude)?;
+        positive("angular_frequency", self.angular_frequency)?;
+        finite("phase_lag", self.phase_lag)?;
+        let (sin_lag, cos_lag) = sin_cos(self.phase_lag);
+        Ok(Platform { parameters: self, sin_lag, cos_lag })
+    }
+}
+
+/// A platform motion given by the length and the direction of its stroke; see [`Platform::from_stroke`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Stroke {
+    /// Stroke c (m), not negative: the half length of the helical path of a point at the contact radius.
+    pub stroke: f64,
+    /// Amplitude angle phi_L (rad) in [0, pi/2]: 0 is a purely vertical motion, pi/2 a purely rotary one.
+    pub amplitude_angle: f64,
+    /// Effective contact radius a_e (m), positive.
+    pub contact_radius: f64,
+    /// Angular frequency omega (rad/s), positive.
+    pub angular_frequency: f64,
+    /// Phase lag theta of the twist (rad), any finite number.
+    pub phase_lag: f64,
+}
+
+/// The platform's motion (Eq. 1): height s = A sin tau, angle beta = Phi sin(tau + theta), with tau = omega t.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "PlatformParameters", into = "PlatformParameters")]
+pub struct Platform {
+    parameters: PlatformParameters,
+    sin_lag: f64,
+    cos_lag: f64,
+}
+
+impl Platform {
+    /// The motion with a given stroke and amplitude angle, (a_e Phi, A) = c (sin phi_L, cos phi_L) (Eq. 13).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    pub fn from_stroke(stroke: Stroke) -> Result<Self, Error> {
+        not_negative("stroke", stroke.stroke)?;
+        positive("contact_radius", stroke.contact_radius)?;
+        if !(0.0..=FRAC_PI_2).contains(&stroke.amplitude_angle) {
+            return Err(Error::OutOfRange {
+                field: "amplitude_angle",
+                value: stroke.amplitude_angle,
+                legal: "[0, pi/2] (rad)",
+            });
+        }
+        let (sine, cosine) = sin_cos(stroke.amplitude_angle);
+        PlatformParameters {
+            amplitude: stroke.stroke * cosine,
+            twist_amplitude: stroke.stroke * sine / stroke.contact_radius,
+            angular_frequency: stroke.angular_frequency,
+            phase_lag: stroke.phase_lag,
+        }
+        .build()
+    }
+
+    /// The parameters, to be changed and built again.
+    #[must_use]
+    pub const fn parameters(&self) -> PlatformParameters {
+        self.parameters
+    }
+
+    /// Amplitude A of the height (m).
+    #[must_use]
+    pub const fn amplitude(&self) -> f64 {
+        self.parameters.amplitude
+    }
+
+    /// Amplitude Phi of the angle (rad).
+    #[must_use]
+    pub const fn twist_amplitude(&self) -> f64 {
+        self.parameters.twist_amplitude
+    }
+
+    /// Angular frequency omega (rad/s).
+    #[must_use]
+    pub const fn angular_frequency(&self) -> f64 {
+        self.parameters.angular_frequency
+    }
+
+    /// Phase lag theta of the twist (rad).
+    #[must_use]
+    pub const fn phase_lag(&self) -> f64 {
+        self.parameters.phase_lag
+    }
+
+    /// Height s (m).
+    #[must_use]
+    pub fn height(&self, phase: Phase) -> f64 {
+        self.amplitude() * phase.sin()
+    }
+
+    /// Vertical velocity ds/dt (m/s).
+    #[must_use]
+    pub fn velocity(&self, phase: Phase) -> f64 {
+        self.amplitude() * self.angular_frequency() * phase.cos()
+    }
+
+    /// Angle beta (rad).
+    #[must_use]
+    pub fn angle(&self, phase: Phase) -> f64 {
+        self.twist_amplitude() * (phase.sin() * self.cos_lag + phase.cos() * self.sin_lag)
+    }
+
+    /// Angular speed d beta/dt (rad/s).
+    #[must_use]
+    pub fn angular_speed(&self, phase: Phase) -> f64 {
+        self.peak_angular_speed() * (phase.cos() * self.cos_lag - phase.sin() * self.sin_lag)
+    }
+
+    /// Largest angular speed omega Phi (rad/s).
+    #[must_use]
+    pub fn peak_angular_speed(&self) -> f64 {
+        self.angular_frequency() * self.twist_amplitude()
+    }
+
+    /// Largest vertical acceleration A omega^2 (m/s^2).
+    #[must_use]
+    pub fn peak_acceleration(&self) -> f64 {
+        self.amplitude() * self.angular_frequency() * self.angular_frequency()
+    }
+}
+
+impl TryFrom<PlatformParameters> for Platform {
+    type Error = Error;
+
+    fn try_from(parameters: PlatformParameters) -> Result<Self, Error> {
+        parameters.build()
+    }
+}
+
+impl From<Platform> for PlatformParameters {
+    fn from(platform: Platform) -> Self {
+        platform.parameters
+    }
+}

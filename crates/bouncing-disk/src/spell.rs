@@ -1,0 +1,193 @@
+//! The closed-form motion between two events, and its energy balance.
+
+use bouncing_disk_core::Phase;
+use serde::Serialize;
+
+use crate::arc::{Arc, Term};
+use crate::chatter::Chatter;
+use crate::contact::Friction;
+use crate::dimensionless::Dimensionless;
+use crate::ledger::EnergyLedger;
+use crate::phase_time::{PhaseSpan, PhaseTime};
+use crate::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
+
+/// The motion of the disk between two events, open at its end: it holds until the next event.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Spell {
+    /// The instant of the event before.
+    pub start: PhaseTime,
+    /// The state just after that event.
+    pub state: DiskState,
+    /// Launch speed of a chattering sequence that fills the spell (mode flight), in units of g/omega.
+    pub chatter_speed: Option<f64>,
+}
+
+/// Change of the rotary state over a spell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turn {
+    /// Angular speed at the end.
+    pub(crate) speed: f64,
+    /// Change of the angle.
+    pub(crate) angle: f64,
+}
+
+impl Spell {
+    /// Disk and platform `fraction` of `span` after the start, `fraction` in [0, 1].
+    #[must_use]
+    pub fn evaluate(&self, system: &Dimensionless, span: PhaseSpan, fraction: f64) -> Snapshot {
+        if fraction >= 1.0 {
+            return self.state_after(system, span);
+        }
+        self.state_after(system, PhaseSpan::from_radians(fraction * span.radians()))
+    }
+
+    /// Disk and platform `span` after the start, on the assumption that no event comes before.
+    #[must_use]
+    pub fn state_after(&self, system: &Dimensionless, span: PhaseSpan) -> Snapshot {
+        let time = self.start.after(span);
+        let platform = PlatformState::at(system, time.phase);
+        let disk = match (self.state.mode, self.chatter_speed) {
+            (Mode::Flight, None) => self.flown(system, span),
+            (Mode::Flight, Some(speed)) => self.chattered(system, speed, span),
+            (Mode::Sticking | Mode::Sliding(_), _) => {
+                let turn = contact_turn(system, &self.state, self.start.phase, time.phase, span);
+                DiskState {
+                    mode: self.state.mode,
+                    height: platform.height,
+                    axial_velocity: platform.axial_velocity,
+                    angle: self.state.angle + turn.angle,
+                    angular_speed: turn.speed,
+                }
+            }
+        };
+        Snapshot { time, disk, platform }
+    }
+
+    fn flown(&self, system: &Dimensionless, span: PhaseSpan) -> DiskState {
+        let duration = span.radians();
+        let turn = flight_turn(system, self.state.angular_speed, duration);
+        DiskState {
+            mode: Mode::Flight,
+            height: self.state.height + duration * (self.state.axial_velocity - 0.5 * duration),
+            axial_velocity: self.state.axial_velocity - duration,
+            angle: self.state.angle + turn.angle,
+            angular_speed: turn.speed,
+        }
+    }
+
+    fn chattered(&self, system: &Dimensionless, speed: f64, span: PhaseSpan) -> DiskState {
+        let duration = span.radians();
+        let chatter = Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
+        let turn = flight_turn(system, chatter.angular_speed, duration - chatter.time);
+        let rest = duration - chatter.time;
+        DiskState {
+            mode: Mode::Flight,
+            height: system.peak_acceleration() * chatter.pair.0
+                + rest * (chatter.launch_velocity(system) - 0.5 * rest),
+            axial_velocity: chatter.launch_velocity(system) - rest,
+            angle: self.state.angle + (chatter.angle + turn.angle),
+            angular_speed: turn.speed,
+        }
+    }
+}
+
+/// The rotary motion of a flight: only the load acts.
+pub(crate) fn flight_turn(system: &Dimensionless, speed: f64, duration: f64) -> Turn {
+    let lost = system.load() * duration;
+    Turn { speed: speed - lost, angle: duration * (speed - 0.5 * lost) }
+}
+
+/// The rotary motion of a spell of contact that starts in `state`.
+pub(crate) fn contact_turn(
+    system: &Dimensionless,
+    state: &DiskState,
+    from: Phase,
+    to: Phase,
+    span: PhaseSpan,
+) -> Turn {
+    let arc = Arc::new(system.peak_acceleration(), from, span);
+    match state.mode {
+        Mode::Sliding(direction) => sliding_turn(system, direction, state.angular_speed, &arc),
+        Mode::Sticking | Mode::Flight => {
+            let (cosine, sine) = system.twist_components();
+            Turn {
+                speed: system.platform_angular_speed(to),
+                angle: cosine * arc.sine_change + sine * arc.cosine_change,
+            }
+        }
+    }
+}
+
+/// Sliding contact (Eq. 12): d(angular speed)/d tau = -s mu N - l with N = 1 - P sin tau, integrated.
+fn sliding_turn(system: &Dimensionless, direction: SlipDirection, speed: f64, arc: &Arc) -> Turn {
+    let t = arc.duration;
+    let grip = direction.sign() * system.friction();
+    let load = system.load();
+    Turn {
+        speed: speed - (grip * arc.force().value + load * t),
+        angle: t * (speed - 0.5 * load * t) - grip * arc.force_twice(),
+    }
+}
+
+/// Energy balance of a flight, or of the flights of a chatter, as far as the load goes.
+pub(crate) fn book_flight_load(ledger: &mut EnergyLedger, system: &Dimensionless, speed: f64, turn: &Turn) {
+    let work = system.load() * turn.angle;
+    ledger.book_rotary_change(speed, turn.speed);
+    ledger.book_load(work, work.abs());
+}
+
+/// Energy balance of a spell of contact from `state` at `from` to `to`, where the disk has turned by `turn`.
+pub(crate) fn contact_ledger(
+    system: &Dimensionless,
+    friction: &Friction,
+    state: &DiskState,
+    (from, to): (Phase, Phase),
+    span: PhaseSpan,
+    turn: &Turn,
+) -> EnergyLedger {
+    let mut ledger = EnergyLedger::default();
+    let arc = Arc::new(system.peak_acceleration(), from, span);
+    let peak = system.peak_acceleration();
+    let (start, end) = (PlatformState::at(system, from), PlatformState::at(system, to));
+    ledger.book_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
+    // Integral of N P cos tau.
+    ledger.book_normal(peak * arc.sine_change - peak * peak * arc.sine_cosine, 0.0);
+
+    let load = system.load();
+    ledger.book_rotary_change(state.angular_speed, turn.speed);
+    ledger.book_load(load * turn.angle, (load * turn.angle).abs());
+    let (cosine, sine) = system.twist_components();
+    match state.mode {
+        Mode::Sliding(direction) => {
+            let mu = system.friction();
+            // Work of the platform: integral of -s mu N Q cos(tau + theta).
+            let force = arc.force();
+            let (force_cosine, force_sine) = (arc.force_cosine(), arc.force_sine());
+            let platform: Term =
+                [force.times(start.angular_speed), force_cosine.times(cosine), force_sine.times(-sine)]
+                    .into_iter()
+                    .sum();
+            let work = -direction.sign() * mu * platform.value;
+            // Loss: integral of mu N U.
+            let (decay, own_cosine, own_sine) = friction.slip_law(direction);
+            let slip = direction.sign() * (state.angular_speed - start.angular_speed);
+            let slipped: Term = [
+                force.times(slip),
+                arc.force_moment().times(-decay),
+                force_cosine.times(-own_cosine),
+                force_sine.times(own_sine),
+            ]
+            .into_iter()
+            .sum();
+            ledger.book_friction(work, mu * slipped.value, mu * (platform.size + slipped.size));
+        }
+        Mode::Sticking | Mode::Flight => {
+            // The friction torque is l + d(platform angular speed)/d tau: integrated times the platform's speed.
+            let angle_change = cosine * arc.sine_change + sine * arc.cosine_change;
+            let (before, after) = (start.angular_speed, end.angular_speed);
+            let work = load * angle_change + 0.5 * (after - before) * (after + before);
+            ledger.book_friction(work, 0.0, 0.5 * (before * before + after * after));
+        }
+    }
+    ledger
+}

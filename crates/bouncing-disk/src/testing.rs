@@ -1,0 +1,82 @@
+//! Random systems and starts for property tests, biased to the legal limits.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk_core::elementary::exp;
+use bouncing_disk_core::{ChatterPolicy, Phase};
+use proptest::prelude::*;
+
+use crate::dimensionless::{Dimensionless, DimensionlessParameters};
+use crate::start::Start;
+
+/// A number whose logarithm is uniform between those of `low` and `high`.
+pub(crate) fn log_uniform(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    let (low, high) = (bouncing_disk_core::elementary::ln(low), bouncing_disk_core::elementary::ln(high));
+    (low..high).prop_map(exp)
+}
+
+pub(crate) fn phase() -> impl Strategy<Value = Phase> {
+    (0.0..TAU).prop_map(|angle| Phase::new(angle).unwrap())
+}
+
+pub(crate) fn policy() -> impl Strategy<Value = ChatterPolicy> {
+    prop_oneof![Just(ChatterPolicy::Complete), Just(ChatterPolicy::Paper)]
+}
+
+/// Systems of every kind: still, gentle, lively, violent; without twist, friction, rebound or load.
+pub(crate) fn system() -> impl Strategy<Value = Dimensionless> {
+    let peak = prop_oneof![
+        1 => Just(0.0),
+        1 => Just(1.0),
+        3 => 0.0..1.0_f64,
+        6 => 1.0..3.0_f64,
+        3 => log_uniform(1.0, 1e3),
+        1 => log_uniform(1e3, 1e6),
+    ];
+    system_with(peak.boxed())
+}
+
+pub(crate) fn system_with(peak: BoxedStrategy<f64>) -> impl Strategy<Value = Dimensionless> {
+    let twist = prop_oneof![1 => Just(0.0), 3 => 0.0..2.0_f64, 2 => log_uniform(1e-6, 1e6)];
+    let friction = prop_oneof![1 => Just(0.0), 5 => 0.01..1.5_f64];
+    let restitution = prop_oneof![1 => Just(0.0), 5 => 0.0..0.95_f64];
+    let load = prop_oneof![2 => Just(0.0), 2 => -0.5..0.5_f64, 1 => -3.0..3.0_f64];
+    (peak, twist, -PI..PI, friction, restitution, load).prop_map(
+        |(peak_acceleration, twist_speed, phase_lag, friction, restitution, load)| {
+            DimensionlessParameters { peak_acceleration, twist_speed, phase_lag, friction, restitution, load }
+                .build()
+                .unwrap()
+        },
+    )
+}
+
+/// Starts of every kind, with speeds in proportion to the platform's.
+pub(crate) fn start(system: Dimensionless) -> impl Strategy<Value = Start> {
+    let peak = system.peak_acceleration() + 1.0;
+    let twist = system.twist_speed() + 1.0;
+    let spin = prop_oneof![Just(None), (-2.0..2.0_f64).prop_map(Some)];
+    (phase(), spin, 0..4_u8, 0.001..2.0_f64, -2.0..2.0_f64).prop_map(
+        move |(phase, spin, kind, size, velocity)| {
+            let angular_speed =
+                spin.map_or_else(|| system.platform_angular_speed(phase), |spin| spin * twist);
+            match kind {
+                0 | 1 => Start::Contact { phase, angular_speed },
+                2 => Start::Launch { phase, relative_speed: size * peak, angular_speed },
+                _ => Start::Flight {
+                    phase,
+                    gap: size * peak,
+                    relative_velocity: velocity * peak,
+                    angular_speed,
+                },
+            }
+        },
+    )
+}
+
+/// A system, a start and a policy.
+pub(crate) fn motion() -> impl Strategy<Value = (Dimensionless, Start, ChatterPolicy)> {
+    (system(), policy()).prop_flat_map(|(system, policy)| {
+        // The paper's cut has no rule for a disk that hits hard and does not rebound: the core reports NoLiftOff.
+        (Just(system), start(system), Just(policy))
+    })
+}
