@@ -1,6 +1,6 @@
 //! Least-squares fits of measured or computed curves.
 
-use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -32,58 +32,14 @@ impl ExponentialFit {
     /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise or
     /// numbers that are not finite.
     pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
-        let n = times.len();
-        let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
-        if n < 3 {
-            return illegal("number of points of the speed curve", n as f64, "[3, inf)");
-        }
-        if speeds.len() != n {
-            return illegal("number of speeds", speeds.len() as f64, "the number of times");
-        }
-        let rising = times.iter().zip(&times[1..]).all(|(a, b)| b > a);
-        if !(rising && times[0] >= 0.0 && times[n - 1].is_finite()) {
-            return illegal("times of the speed curve", times[0], "finite, not negative, rising (s)");
-        }
-        if let Some(&bad) = speeds.iter().find(|speed| !speed.is_finite()) {
-            return illegal("speed", bad, "finite (rad/s)");
-        }
-        let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
-        let (low, high) = (ln(0.1 * first), ln(100.0 * times[n - 1]));
-        let cost = |log: f64| Self::at(times, speeds, exp(log)).residual;
-        let step = (high - low) / f64::from(TRIALS);
-        let mut best = (f64::INFINITY, 0);
-        for trial in 0..=TRIALS {
-            let value = cost(low + step * f64::from(trial));
-            if value < best.0 {
-                best = (value, trial);
-            }
-        }
-        let centre = low + step * f64::from(best.1);
-        let log = golden_minimum((centre - step).max(low), (centre + step).min(high), cost);
-        Ok(Self::at(times, speeds, exp(log)))
-    }
-
-    /// The best steady speed for a given time constant, and its residual.
-    fn at(times: &[f64], speeds: &[f64], time_constant: f64) -> Self {
-        let shape = |time: f64| -bouncing_disk_core::elementary::exp_m1(-time / time_constant);
-        let (mut shapes, mut products) = (0.0, 0.0);
-        for (&time, &speed) in times.iter().zip(speeds) {
-            let y = shape(time);
-            shapes += y * y;
-            products += y * speed;
-        }
-        let steady_speed = if shapes > 0.0 { products / shapes } else { 0.0 };
-        let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
-            let difference = speed - steady_speed * shape(time);
-            sum + difference * difference
-        });
-        Self { steady_speed, time_constant, residual: (sum / times.len() as f64).sqrt() }
+        let (time_constant, steady_speed, residual) = saturating_fit(times, speeds, exponential)?;
+        Ok(Self { steady_speed, time_constant, residual })
     }
 
     /// The fitted speed (rad/s) at `time` (s).
     #[must_use]
     pub fn speed(&self, time: f64) -> f64 {
-        self.steady_speed * -bouncing_disk_core::elementary::exp_m1(-time / self.time_constant)
+        self.steady_speed * exponential(time / self.time_constant)
     }
 
     /// Stall acceleration alpha_ss/t_c (rad/s^2): what the paper calls the stall torque.
@@ -97,6 +53,91 @@ impl ExponentialFit {
     pub fn stall_torque(&self, mass: f64, gyration_radius: f64) -> f64 {
         mass * gyration_radius * gyration_radius * self.stall_acceleration()
     }
+}
+
+/// The fit of alpha_ss min(t/t_r, 1): the piecewise linear rise of low-period chattering orbits (Fig. 12).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RampFit {
+    /// Steady speed alpha_ss (rad/s).
+    pub steady_speed: f64,
+    /// Time t_r (s) at which it is reached.
+    pub rise_time: f64,
+    /// Root mean square of the residuals (rad/s).
+    pub residual: f64,
+}
+
+impl RampFit {
+    /// As [`ExponentialFit::new`], with the ramp instead of the exponential.
+    ///
+    /// # Errors
+    /// As [`ExponentialFit::new`].
+    pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
+        let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0))?;
+        Ok(Self { steady_speed, rise_time, residual })
+    }
+
+    /// The fitted speed (rad/s) at `time` (s).
+    #[must_use]
+    pub fn speed(&self, time: f64) -> f64 {
+        self.steady_speed * (time / self.rise_time).min(1.0)
+    }
+}
+
+/// 1 - exp(-x).
+fn exponential(x: f64) -> f64 {
+    -exp_m1(-x)
+}
+
+/// The least-squares fit of steady * shape(time/constant): (constant, steady, root mean square residual).
+fn saturating_fit(
+    times: &[f64],
+    speeds: &[f64],
+    shape: impl Fn(f64) -> f64,
+) -> Result<(f64, f64, f64), Error> {
+    let n = times.len();
+    let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+    if n < 3 {
+        return illegal("number of points of the speed curve", n as f64, "[3, inf)");
+    }
+    if speeds.len() != n {
+        return illegal("number of speeds", speeds.len() as f64, "the number of times");
+    }
+    let rising = times.iter().zip(&times[1..]).all(|(a, b)| b > a);
+    if !(rising && times[0] >= 0.0 && times[n - 1].is_finite()) {
+        return illegal("times of the speed curve", times[0], "finite, not negative, rising (s)");
+    }
+    if let Some(&bad) = speeds.iter().find(|speed| !speed.is_finite()) {
+        return illegal("speed", bad, "finite (rad/s)");
+    }
+    // The best steady speed for a given constant, and the residual that it leaves.
+    let at = |constant: f64| {
+        let (mut shapes, mut products) = (0.0, 0.0);
+        for (&time, &speed) in times.iter().zip(speeds) {
+            let y = shape(time / constant);
+            shapes += y * y;
+            products += y * speed;
+        }
+        let steady = if shapes > 0.0 { products / shapes } else { 0.0 };
+        let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
+            let difference = speed - steady * shape(time / constant);
+            sum + difference * difference
+        });
+        (constant, steady, (sum / n as f64).sqrt())
+    };
+    let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
+    let (low, high) = (ln(0.1 * first), ln(100.0 * times[n - 1]));
+    let cost = |log: f64| at(exp(log)).2;
+    let step = (high - low) / f64::from(TRIALS);
+    let mut best = (f64::INFINITY, 0);
+    for trial in 0..=TRIALS {
+        let value = cost(low + step * f64::from(trial));
+        if value < best.0 {
+            best = (value, trial);
+        }
+    }
+    let centre = low + step * f64::from(best.1);
+    let log = golden_minimum((centre - step).max(low), (centre + step).min(high), cost);
+    Ok(at(exp(log)))
 }
 
 /// The minimum of a function with one minimum in [low, high], by golden section.
@@ -138,6 +179,17 @@ mod tests {
             assert!((fit.steady_speed / steady - 1.0).abs() < 1e-5, "{fit:?}");
             assert!((fit.stall_acceleration() - fit.steady_speed / fit.time_constant).abs() <= 0.0);
         }
+    }
+
+    #[test]
+    fn ramp_and_exponential_tell_each_other_apart() {
+        let times: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
+        let ramp = RampFit { steady_speed: 17.0, rise_time: 2.1, residual: 0.0 };
+        let speeds: Vec<f64> = times.iter().map(|&time| ramp.speed(time)).collect();
+        let fit = RampFit::new(&times, &speeds).expect("legal curve");
+        assert!((fit.rise_time - 2.1).abs() < 1e-4 && (fit.steady_speed - 17.0).abs() < 1e-4, "{fit:?}");
+        let other = ExponentialFit::new(&times, &speeds).expect("legal curve");
+        assert!(fit.residual < 1e-3 * other.residual);
     }
 
     #[test]

@@ -68,7 +68,7 @@ pub use disk::{Disk, DiskParameters};
 pub use engine::Engine;
 pub use error::Error;
 pub use event::{Event, EventRecord};
-pub use fit::ExponentialFit;
+pub use fit::{ExponentialFit, RampFit};
 pub use ledger::EnergyLedger;
 pub use motor::{Ensemble, SpeedCurve, Spread, TransientSettings, ensemble, transient};
 pub use multi_toss::{
