@@ -9,8 +9,10 @@ mod drop;
 pub mod elementary;
 mod error;
 mod flight;
+mod follow;
 mod gap;
 mod map;
+mod margin;
 mod periodic;
 mod phase;
 pub mod reference;
@@ -22,6 +24,7 @@ pub use chatter::{
 };
 pub use error::Error;
 pub use flight::{Impact, Launch, MAX_FLIGHT_DURATION};
+pub use follow::{Followed, Following, follow};
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use phase::Phase;

@@ -84,3 +84,8 @@ pub use state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use system::System;
 pub use toss::{InitialState, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 pub use trajectory::Trajectory;
+
+/// Compiles and runs the examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct ReadmeExamples;
