@@ -261,14 +261,14 @@ impl Claim {
 
 /// A printed number: its value, and half a unit of its last digit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct PrintedNumber {
-    value: f64,
-    half_unit: f64,
+pub(crate) struct PrintedNumber {
+    pub(crate) value: f64,
+    pub(crate) half_unit: f64,
 }
 
 impl PrintedNumber {
     /// Reads a number as the paper prints it; `None` when the text is none.
-    fn read(text: &str) -> Option<Self> {
+    pub(crate) fn read(text: &str) -> Option<Self> {
         let text = plain_ascii(text);
         let text = text.split("+-").next()?.trim();
         let text = text.trim_start_matches(['~', ' ']).trim_end_matches(['%', ' ']);

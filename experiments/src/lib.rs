@@ -17,6 +17,7 @@ mod finite;
 pub mod json;
 pub mod output;
 pub mod page;
+pub mod paper;
 pub mod product;
 pub mod progress;
 pub mod registry;

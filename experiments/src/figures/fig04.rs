@@ -1,0 +1,107 @@
+//! Fig. 4: the performance of single tosses.
+
+mod consistency;
+mod data;
+mod picture;
+mod statements;
+mod sweep;
+
+use bouncing_disk::InitialState;
+
+pub use self::data::Fig04Data;
+use super::toss_case::{TossCase, maximum};
+use crate::claim::Claim;
+use crate::draw::Figure;
+use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::paper;
+use crate::progress::Progress;
+
+/// Fig. 4.
+#[derive(Debug)]
+pub struct Fig04;
+
+/// The first index of the largest value.
+fn maximum_index(values: impl Iterator<Item = f64>) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (index, value) in values.enumerate() {
+        if value > best.1 {
+            best = (index, value);
+        }
+    }
+    best.0
+}
+
+impl Experiment for Fig04 {
+    type Data = Fig04Data;
+    const ID: &'static str = "fig04";
+    const TITLE: &'static str = "The performance of single tosses";
+
+    fn caption(data: &Fig04Data) -> String {
+        statements::caption(data)
+    }
+
+    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
+        let count = quality.choose(61, 481);
+        progress.start(7, "parts");
+        let done = || progress.advance(1);
+        let table_i = paper::table_one()?;
+        let printed = paper::section_three()?;
+        let table = TossCase::from(&table_i);
+        let angles = sweep::angles(&table, count);
+        let rest = InitialState::AbsoluteRest;
+        let families = sweep::INITIAL_STATES
+            .into_iter()
+            .map(|initial| sweep::family(&table, initial, &angles))
+            .collect::<Result<Vec<_>, _>>()?;
+        done();
+        let separation = sweep::separation(&table, count)?;
+        done();
+        let friction_curves = printed
+            .frictions_of_fig4e
+            .iter()
+            .map(|friction| sweep::friction_curve(&table, *friction, &angles))
+            .collect::<Result<Vec<_>, _>>()?;
+        let low_friction = sweep::low_friction(&table)?;
+        done();
+        let best = sweep::INITIAL_STATES
+            .into_iter()
+            .map(|initial| sweep::best(&table, initial))
+            .collect::<Result<Vec<_>, _>>()?;
+        done();
+        let symmetry = sweep::symmetry(&table, &angles)?;
+        done();
+        let fastest = sweep::best_angle(&table, rest, sweep::speed)?;
+        let toss = table.at_angle(fastest.amplitude_angle_rad).toss(rest)?;
+        let kept = toss.energy.platform_work() - toss.energy.friction_loss;
+        done();
+        let consistency = consistency::consistency(&table_i, &printed, count)?;
+        done();
+        Ok(Fig04Data {
+            largest_amplitude_angle_rad: table.largest_angle(),
+            table_i_toss: data::TossPoint::new(&table, &table.toss(rest)?),
+            lossless_efficiency_of_fastest: toss.rotary_energy_gain / kept,
+            amplitude_angle_rad: angles,
+            families,
+            separation,
+            friction_curves,
+            low_friction,
+            best,
+            symmetry,
+            consistency,
+            table_i,
+            printed,
+        })
+    }
+
+    fn draw(data: &Fig04Data) -> Result<Figure, ExperimentError> {
+        Ok(picture::figure(data))
+    }
+
+    fn claims(data: &Fig04Data) -> Vec<Claim> {
+        statements::claims(data)
+    }
+
+    fn parameters(data: &Fig04Data) -> Vec<(String, String)> {
+        statements::parameters(data)
+    }
+}

@@ -1,0 +1,458 @@
+//! Which parameters give the numbers that Sec. III B prints for the best toss.
+//!
+//! Table I as printed does not give all of them. Two questions are answered: what is the nearest set of parameters
+//! whose true maxima have the printed numbers, and can the printed maxima be points of an even grid of amplitude
+//! angles?
+
+use bouncing_disk::InitialState;
+use bouncing_disk::core::elementary::{atan, cos};
+
+use super::data::{CoarseGrid, Comparison, Conflict, Consistency, Reading, TossPoint};
+use super::sweep::{best_angle, ratio, speed, speed_curve, speeds};
+use super::{TossCase, maximum_index};
+use crate::claim::PrintedNumber;
+use crate::experiment::ExperimentError;
+use crate::paper::{Measured, SectionThree, TableOne};
+
+/// Numbers that the paper prints about tosses with θ = 0.
+const NUMBERS: usize = 7;
+/// Parameters that are varied: c, ω, a_e, a_g, μ.
+const PARAMETERS: usize = 5;
+/// The names of the parameters.
+pub(super) const PARAMETER_NAMES: [&str; PARAMETERS] = ["c", "ω", "a_e", "a_g", "μ"];
+
+/// The printed numbers as intervals.
+struct Printed {
+    texts: [(&'static str, String); NUMBERS],
+    centres: [f64; NUMBERS],
+    half_units: [f64; NUMBERS],
+}
+
+impl Printed {
+    /// The last number is the angle of the largest speed ratio.
+    fn new(section: &SectionThree) -> Option<Self> {
+        let texts = [
+            ("airborne speed of Table I's toss (rad/s)", &section.predicted_airborne_speed_rad_per_s),
+            ("φ_L of the fastest toss (rad)", &section.optimal_amplitude_angle_rad),
+            ("airborne speed of the fastest toss (rad/s)", &section.largest_airborne_speed_rad_per_s),
+            ("efficiency of the fastest toss", &section.largest_efficiency),
+            ("speed ratio of the fastest toss", &section.speed_ratio_at_optimum),
+            ("largest speed ratio", &section.largest_speed_ratio),
+            ("φ_L of the largest speed ratio (rad)", &section.amplitude_angle_of_largest_speed_ratio_rad),
+        ]
+        .map(|(name, text)| (name, text.clone()));
+        let mut centres = [0.0; NUMBERS];
+        let mut half_units = [0.0; NUMBERS];
+        for (index, (_, text)) in texts.iter().enumerate() {
+            let number = PrintedNumber::read(text)?;
+            (centres[index], half_units[index]) = (number.value, number.half_unit);
+        }
+        Some(Self { texts, centres, half_units })
+    }
+
+    /// Distance from the printed value in half units of its last digit.
+    fn misses(&self, numbers: &[f64; NUMBERS]) -> [f64; NUMBERS] {
+        std::array::from_fn(|index| (numbers[index] - self.centres[index]) / self.half_units[index])
+    }
+
+    fn reading(&self, search: &Search<'_>, parameters: TossCase, numbers: &[f64; NUMBERS]) -> Reading {
+        let misses = self.misses(numbers);
+        let shifts = search.shifts(&parameters);
+        let compare = |index: usize| Comparison {
+            quantity: self.texts[index].0.to_owned(),
+            printed: self.texts[index].1.clone(),
+            computed: numbers[index],
+            reproduced: misses[index].abs() <= 1.0,
+        };
+        Reading {
+            parameters,
+            shifts: shifts.to_vec(),
+            distance: dot(&shifts, &shifts).sqrt(),
+            numbers: (0..NUMBERS).map(compare).collect(),
+        }
+    }
+}
+
+fn in_order(table_speed: f64, fastest: &TossPoint, largest_ratio: &TossPoint) -> [f64; NUMBERS] {
+    [
+        table_speed,
+        fastest.amplitude_angle_rad,
+        fastest.airborne_speed_rad_per_s,
+        fastest.efficiency,
+        fastest.speed_ratio.unwrap_or(0.0),
+        largest_ratio.speed_ratio.unwrap_or(0.0),
+        largest_ratio.amplitude_angle_rad,
+    ]
+}
+
+/// The numbers with maxima found to full precision.
+fn smooth_numbers(case: &TossCase) -> Result<[f64; NUMBERS], ExperimentError> {
+    let initial = InitialState::AbsoluteRest;
+    let fastest = best_angle(case, initial, speed)?;
+    Ok(in_order(case.airborne_speed()?, &fastest, &best_angle(case, initial, ratio)?))
+}
+
+/// A search in units of the uncertainties of Table I.
+struct Search<'a> {
+    table: &'a TableOne,
+}
+
+impl Search<'_> {
+    fn inputs(&self) -> [&Measured; PARAMETERS] {
+        let table = self.table;
+        [
+            &table.stroke_m,
+            &table.angular_frequency_rad_per_s,
+            &table.contact_radius_m,
+            &table.gyration_radius_m,
+            &table.friction,
+        ]
+    }
+
+    fn case(&self, shifts: &[f64; PARAMETERS]) -> TossCase {
+        let inputs = self.inputs();
+        let value = |index: usize| inputs[index].value + shifts[index] * inputs[index].uncertainty;
+        TossCase {
+            stroke_m: value(0),
+            angular_frequency_rad_per_s: value(1),
+            contact_radius_m: value(2),
+            gyration_radius_m: value(3),
+            friction: value(4),
+            ..TossCase::from(self.table)
+        }
+    }
+
+    fn shifts(&self, case: &TossCase) -> [f64; PARAMETERS] {
+        let values = [
+            case.stroke_m,
+            case.angular_frequency_rad_per_s,
+            case.contact_radius_m,
+            case.gyration_radius_m,
+            case.friction,
+        ];
+        let inputs = self.inputs();
+        std::array::from_fn(|index| (values[index] - inputs[index].value) / inputs[index].uncertainty)
+    }
+
+    /// The set of parameters nearest to Table I, within its uncertainties, that has the first `count` printed
+    /// numbers: the shortest vector of shifts in a region with smooth bounds, by successive linearisation.
+    fn nearest(&self, printed: &Printed, count: usize) -> Result<Reading, ExperimentError> {
+        /// Steps of the linearisation; it needs about ten.
+        const STEPS: u32 = 40;
+        /// Shift for the difference quotients, far above the 1e-8 of the place of a maximum.
+        const DIFFERENCE: f64 = 1e-3;
+        /// Largest change of a shift in one step, within which the linearisation is fair.
+        const REACH: f64 = 0.25;
+        /// Change of the shifts, in uncertainties, at which the search ends.
+        const END: f64 = 1e-9;
+        /// Keeps a number that lies on its bound from falling outside by rounding.
+        const MARGIN: f64 = 1e-4;
+        let mut shifts = [0.0; PARAMETERS];
+        for _ in 0..STEPS {
+            let misses = printed.misses(&smooth_numbers(&self.case(&shifts))?);
+            let mut slopes = [[0.0; PARAMETERS]; NUMBERS];
+            for parameter in 0..PARAMETERS {
+                let at = |difference: f64| {
+                    let mut moved = shifts;
+                    moved[parameter] += difference;
+                    Ok::<_, ExperimentError>(printed.misses(&smooth_numbers(&self.case(&moved))?))
+                };
+                let (above, below) = (at(DIFFERENCE)?, at(-DIFFERENCE)?);
+                for number in 0..NUMBERS {
+                    slopes[number][parameter] = (above[number] - below[number]) / (2.0 * DIFFERENCE);
+                }
+            }
+            let mut bounds = Vec::new();
+            for (slope, miss) in slopes.iter().zip(misses).take(count) {
+                // |miss + slope (new - old)| <= 1 - MARGIN.
+                let offset = dot(slope, &shifts) - miss;
+                bounds.push(Bound { normal: *slope, limit: 1.0 - MARGIN + offset });
+                bounds.push(Bound { normal: slope.map(|part| -part), limit: 1.0 - MARGIN - offset });
+            }
+            for parameter in 0..PARAMETERS {
+                let mut normal = [0.0; PARAMETERS];
+                normal[parameter] = 1.0;
+                bounds.push(Bound { normal, limit: 1.0 });
+                bounds.push(Bound { normal: normal.map(|part| -part), limit: 1.0 });
+            }
+            let target = shortest(&bounds);
+            let steps: [f64; PARAMETERS] = std::array::from_fn(|index| target[index] - shifts[index]);
+            let longest = steps.iter().fold(0.0_f64, |longest, step| longest.max(step.abs()));
+            let share = if longest > REACH { REACH / longest } else { 1.0 };
+            for (shift, step) in shifts.iter_mut().zip(steps) {
+                *shift = (*shift + share * step).clamp(-1.0, 1.0);
+            }
+            if longest < END {
+                break;
+            }
+        }
+        let case = self.case(&shifts);
+        Ok(printed.reading(self, case, &smooth_numbers(&case)?))
+    }
+}
+
+/// normal · x <= limit.
+struct Bound {
+    normal: [f64; PARAMETERS],
+    limit: f64,
+}
+
+fn dot(one: &[f64; PARAMETERS], other: &[f64; PARAMETERS]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+/// The shortest vector within all bounds (Hildreth's method: each bound in turn gets the multiplier that it needs).
+fn shortest(bounds: &[Bound]) -> [f64; PARAMETERS] {
+    /// Rounds over all bounds; where no vector satisfies them the multipliers would grow for ever.
+    const ROUNDS: u32 = 5000;
+    let mut vector = [0.0; PARAMETERS];
+    let mut multipliers = vec![0.0_f64; bounds.len()];
+    for _ in 0..ROUNDS {
+        let mut change = 0.0_f64;
+        for (bound, multiplier) in bounds.iter().zip(&mut multipliers) {
+            let size = dot(&bound.normal, &bound.normal);
+            if size == 0.0 {
+                continue;
+            }
+            let needed = (*multiplier + (dot(&bound.normal, &vector) - bound.limit) / size).max(0.0);
+            let step = needed - *multiplier;
+            *multiplier = needed;
+            for (part, normal) in vector.iter_mut().zip(bound.normal) {
+                *part -= step * normal;
+            }
+            change = change.max(step.abs() * size.sqrt());
+        }
+        if change < 1e-13 {
+            break;
+        }
+    }
+    vector
+}
+
+/// A zero of a rising function between `low` and `high`.
+fn bisect(
+    (mut low, mut high): (f64, f64),
+    function: impl Fn(f64) -> Result<f64, ExperimentError>,
+) -> Result<f64, ExperimentError> {
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if function(middle)? > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    Ok(0.5 * (low + high))
+}
+
+/// See [`Conflict`]. The two numbers are moved by ω and a_g.
+fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentError> {
+    let lowest = |number: usize| printed.centres[number] - printed.half_units[number];
+    let (lowest_ratio, lowest_angle) = (lowest(5), lowest(6));
+    let omega = table.angular_frequency_rad_per_s;
+    let largest_ratio = |case: &TossCase| best_angle(case, InitialState::AbsoluteRest, ratio);
+    // The largest ratio rises with ω, its angle with a_g.
+    let with_radius = |gyration_radius_m: f64| {
+        let at = |omega: f64| TossCase { gyration_radius_m, angular_frequency_rad_per_s: omega, ..*table };
+        let omega = bisect((0.7 * omega, 1.3 * omega), |omega| {
+            Ok(largest_ratio(&at(omega))?.speed_ratio.unwrap_or(0.0) - lowest_ratio)
+        })?;
+        Ok::<_, ExperimentError>(at(omega))
+    };
+    let radius = table.gyration_radius_m;
+    let radius = bisect((0.8 * radius, 1.2 * radius), |radius| {
+        Ok(largest_ratio(&with_radius(radius)?)?.amplitude_angle_rad - lowest_angle)
+    })?;
+    let case = with_radius(radius)?;
+    let reach = case.contact_radius_m / case.gyration_radius_m;
+    let largest = largest_ratio(&case)?;
+    Ok(Conflict {
+        stroke_acceleration: case.stroke_acceleration(),
+        grip: case.friction * reach * reach,
+        largest_speed_ratio: largest.speed_ratio.unwrap_or(0.0),
+        amplitude_angle_of_largest_speed_ratio_rad: largest.amplitude_angle_rad,
+        optimal_amplitude_angle_rad: best_angle(&case, InitialState::AbsoluteRest, speed)?
+            .amplitude_angle_rad,
+    })
+}
+
+/// See [`Consistency::radius_alone`].
+fn radius_alone(search: &Search<'_>, printed: &Printed) -> Result<Reading, ExperimentError> {
+    let table = TossCase::from(search.table);
+    let at = |gyration_radius_m: f64| TossCase { gyration_radius_m, ..table };
+    let radius = table.gyration_radius_m;
+    // The angle falls as the radius grows.
+    let radius = bisect((0.8 * radius, 1.2 * radius), |radius| {
+        let fastest = best_angle(&at(radius), InitialState::AbsoluteRest, speed)?;
+        Ok(printed.centres[1] - fastest.amplitude_angle_rad)
+    })?;
+    Ok(printed.reading(search, at(radius), &smooth_numbers(&at(radius))?))
+}
+
+/// The angle of a point of an even grid.
+fn grid_angle(largest: f64, index: u32, intervals: u32) -> f64 {
+    largest * f64::from(index) / f64::from(intervals)
+}
+
+/// The smallest number of intervals of [0, largest] whose points have all printed angles, and their indices.
+fn grid_with(largest: f64, angles: &[PrintedNumber], most: u32) -> Option<(u32, Vec<u32>)> {
+    (angles.len() as u32..=most).find_map(|intervals| {
+        let indices: Option<Vec<u32>> = angles
+            .iter()
+            .map(|angle| {
+                let index = (angle.value / largest * f64::from(intervals)).round() as u32;
+                let miss = (grid_angle(largest, index, intervals) - angle.value).abs();
+                (index <= intervals && miss <= angle.half_unit).then_some(index)
+            })
+            .collect();
+        indices.map(|indices| (intervals, indices))
+    })
+}
+
+/// The printed numbers with maxima picked from a grid.
+fn grid_numbers(case: &TossCase, intervals: u32) -> Result<[f64; NUMBERS], ExperimentError> {
+    // At the largest angle itself the dough does not leave the hand.
+    let tosses = (1..intervals)
+        .map(|index| {
+            let case = case.at_angle(grid_angle(case.largest_angle(), index, intervals));
+            Ok((TossPoint::new(&case, &case.toss(InitialState::AbsoluteRest)?), case))
+        })
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let fastest = maximum_index(tosses.iter().map(|(toss, _)| toss.airborne_speed_rad_per_s));
+    let largest_ratio = maximum_index(tosses.iter().map(|(toss, _)| toss.speed_ratio.unwrap_or(0.0)));
+    Ok(in_order(case.airborne_speed()?, &tosses[fastest].0, &tosses[largest_ratio].0))
+}
+
+fn coarse_grid(
+    search: &Search<'_>,
+    printed: &Printed,
+    section: &SectionThree,
+) -> Result<Option<CoarseGrid>, ExperimentError> {
+    /// Intervals beyond which a grid holds any three angles of three digits.
+    const MOST_INTERVALS: u32 = 50;
+    /// Samples of the largest angle for the share by chance.
+    const SAMPLES: u32 = 20_000;
+    /// Radii of gyration are tried in steps of 0.1 mm over the uncertainty of Table I.
+    const RADIUS_STEPS: i32 = 100;
+    let table = TossCase::from(search.table);
+    let (axial, rotary) = (section.launch_speed_m_per_s.value, section.launch_angular_speed_rad_per_s.value);
+    let rim = table.contact_radius_m * rotary;
+    // Eq. (14).
+    let case = TossCase {
+        angular_frequency_rad_per_s: (axial * axial + rim * rim).sqrt() / table.stroke_m,
+        amplitude_angle_rad: atan(rim / axial),
+        ..table
+    };
+    let angles = [
+        &section.amplitude_angle_of_largest_speed_ratio_rad,
+        &section.optimal_amplitude_angle_rad,
+        &section.amplitude_angle_of_fig5c_rad,
+    ];
+    let angles: Option<Vec<_>> = angles.iter().map(|text| PrintedNumber::read(text)).collect();
+    let Some(angles) = angles else { return Ok(None) };
+    let largest = case.largest_angle();
+    let Some((intervals, indices)) = grid_with(largest, &angles, MOST_INTERVALS) else { return Ok(None) };
+    let by_chance = (0..SAMPLES)
+        .filter(|sample| {
+            let share = (f64::from(*sample) + 0.5) / f64::from(SAMPLES);
+            grid_with(std::f64::consts::PI * (0.40 + 0.08 * share), &angles, intervals).is_some()
+        })
+        .count();
+    // The largest angle may lie where all printed angles are the points of the grid.
+    let mut range = (0.0_f64, f64::INFINITY);
+    for (angle, index) in angles.iter().zip(&indices) {
+        let stretch = f64::from(intervals) / f64::from(*index);
+        range.0 = range.0.max((angle.value - angle.half_unit) * stretch);
+        range.1 = range.1.min((angle.value + angle.half_unit) * stretch);
+    }
+    let frequency =
+        |largest: f64| (table.preload_acceleration_m_per_s2 / (table.stroke_m * cos(largest))).sqrt();
+    let radius = &search.table.gyration_radius_m;
+    let mut fitting = Vec::new();
+    for step in -RADIUS_STEPS..=RADIUS_STEPS {
+        let gyration_radius_m = radius.value + radius.uncertainty * f64::from(step) / f64::from(RADIUS_STEPS);
+        let case = TossCase { gyration_radius_m, ..case };
+        let numbers = grid_numbers(&case, intervals)?;
+        if printed.misses(&numbers).iter().all(|miss| miss.abs() <= 1.0) {
+            fitting.push((case, numbers));
+        }
+    }
+    let off = |case: &TossCase| (case.gyration_radius_m - radius.value).abs();
+    let nearest = fitting.iter().min_by(|one, other| off(&one.0).total_cmp(&off(&other.0)));
+    let (chosen, numbers) = match nearest {
+        Some(nearest) => *nearest,
+        None => (case, grid_numbers(&case, intervals)?),
+    };
+    let grid_angle_rad: Vec<_> =
+        (0..intervals).map(|index| grid_angle(chosen.largest_angle(), index, intervals)).collect();
+    Ok(Some(CoarseGrid {
+        angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+        amplitude_angle_rad: case.amplitude_angle_rad,
+        largest_amplitude_angle_rad: largest,
+        intervals,
+        indices,
+        intervals_with_printed_frequency: grid_with(table.largest_angle(), &angles, MOST_INTERVALS)
+            .map(|(intervals, _)| intervals),
+        most_intervals: MOST_INTERVALS,
+        share_by_chance: by_chance as f64 / f64::from(SAMPLES),
+        frequency_range_rad_per_s: (frequency(range.0), frequency(range.1)),
+        gyration_radius_range_m: fitting
+            .first()
+            .zip(fitting.last())
+            .map(|(first, last)| (first.0.gyration_radius_m, last.0.gyration_radius_m)),
+        reading: printed.reading(search, chosen, &numbers),
+        grid_speed_rad_per_s: speeds(&chosen, &grid_angle_rad)?,
+        grid_angle_rad,
+    }))
+}
+
+/// Answers both questions; `count` is the number of points of the curves.
+pub(super) fn consistency(
+    table: &TableOne,
+    section: &SectionThree,
+    count: u32,
+) -> Result<Consistency, ExperimentError> {
+    let unreadable = || ExperimentError::Input {
+        path: "data/paper/section3.json".into(),
+        source: "a printed number cannot be read, or the printed angles lie on no grid".into(),
+    };
+    let printed = Printed::new(section).ok_or_else(unreadable)?;
+    let search = Search { table };
+    let case = TossCase::from(table);
+    let nearest = search.nearest(&printed, NUMBERS - 1)?;
+    let coarse_grid = coarse_grid(&search, &printed, section)?.ok_or_else(unreadable)?;
+    Ok(Consistency {
+        as_printed: printed.reading(&search, case, &smooth_numbers(&case)?),
+        nearest_curve: speed_curve(&nearest.parameters, count)?,
+        coarse_grid_curve: speed_curve(&coarse_grid.reading.parameters, count)?,
+        nearest,
+        conflict: conflict(&printed, &case)?,
+        radius_alone: radius_alone(&search, &printed)?,
+        coarse_grid,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_vector_lies_on_the_bounds_that_exclude_the_origin() {
+        let bounds = [
+            Bound { normal: [-1.0, -1.0, 0.0, 0.0, 0.0], limit: -2.0 },
+            Bound { normal: [-1.0, 0.0, 0.0, 0.0, 0.0], limit: -1.5 },
+            Bound { normal: [0.0, 0.0, 1.0, 0.0, 0.0], limit: 7.0 },
+        ];
+        let vector = shortest(&bounds);
+        let expected = [1.5, 0.5, 0.0, 0.0, 0.0];
+        assert!(vector.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-9), "{vector:?}");
+    }
+
+    #[test]
+    fn a_grid_is_found_by_its_angles() {
+        let angles: Vec<_> =
+            ["0.25", "0.50", "0.75"].iter().filter_map(|text| PrintedNumber::read(text)).collect();
+        assert_eq!(grid_with(1.0, &angles, 9), Some((4, vec![1, 2, 3])));
+        assert_eq!(grid_with(1.1, &angles, 9), None);
+    }
+}

@@ -1,0 +1,475 @@
+//! Table II: the effects of the uncertainties of the inputs on the airborne speed.
+
+use bouncing_disk::core::elementary::atan;
+use serde::{Deserialize, Serialize};
+
+use super::toss_case::TossCase;
+use crate::claim::Claim;
+use crate::draw::{Figure, Label, ruled_table};
+use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
+use crate::progress::Progress;
+use crate::table::{Cell, Table};
+
+/// Table II.
+#[derive(Debug)]
+pub struct Table2;
+
+/// The data of Table II.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Table2Data {
+    table_i: TableOne,
+    section: SectionThree,
+    airborne_speed_rad_per_s: f64,
+    printed_airborne_speed_rad_per_s: f64,
+    effects: Vec<Effect>,
+    combined: Combined,
+    from_launch_speeds: FromLaunchSpeeds,
+}
+
+/// The effect of one input's uncertainty on the airborne speed, in rad/s.
+#[derive(Debug, Serialize, Deserialize)]
+struct Effect {
+    input: String,
+    unit: String,
+    value: f64,
+    uncertainty: f64,
+    /// Change of the speed if the input is larger by its uncertainty.
+    upper_rad_per_s: f64,
+    /// Change of the speed if it is smaller.
+    lower_rad_per_s: f64,
+    /// Half the difference of the two.
+    central_rad_per_s: f64,
+    /// Slope times uncertainty.
+    linear_rad_per_s: f64,
+    printed_rad_per_s: f64,
+    /// The symbol as it is set in print.
+    label: String,
+}
+
+/// The effects of all inputs together, in rad/s, from central effects.
+#[derive(Debug, Serialize, Deserialize)]
+struct Combined {
+    root_sum_of_squares_rad_per_s: f64,
+    sum_rad_per_s: f64,
+    largest_rad_per_s: f64,
+    /// Root sum of squares without the largest.
+    without_largest_rad_per_s: f64,
+}
+
+/// ω and φ_L are not measured: Eq. (14) computes them from c, a_e and the launch speeds.
+#[derive(Debug, Serialize, Deserialize)]
+struct FromLaunchSpeeds {
+    angular_frequency_rad_per_s: f64,
+    amplitude_angle_rad: f64,
+    /// Sums of the effects of c, a_e and both launch speeds.
+    angular_frequency_uncertainty_rad_per_s: f64,
+    amplitude_angle_uncertainty_rad: f64,
+    /// Effect on the airborne speed of c, a_e, a_g, μ and both launch speeds, as a root sum of squares.
+    airborne_speed_uncertainty_rad_per_s: f64,
+}
+
+/// Share of an uncertainty over which a slope is taken.
+const SLOPE_STEP: f64 = 1e-4;
+
+/// An input of the toss: how the paper names it and how it is changed.
+struct Input {
+    symbol: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    measured: Measured,
+    printed: f64,
+    set: fn(&mut TossCase, f64),
+}
+
+fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
+    [
+        Input {
+            symbol: "c",
+            label: "$c$",
+            unit: "m",
+            measured: table.stroke_m,
+            printed: printed.stroke_effect_rad_per_s,
+            set: |case, value| case.stroke_m = value,
+        },
+        Input {
+            symbol: "ω",
+            label: r"$\omega$",
+            unit: "rad/s",
+            measured: table.angular_frequency_rad_per_s,
+            printed: printed.angular_frequency_effect_rad_per_s,
+            set: |case, value| case.angular_frequency_rad_per_s = value,
+        },
+        Input {
+            symbol: "a_e",
+            label: "$a_e$",
+            unit: "m",
+            measured: table.contact_radius_m,
+            printed: printed.contact_radius_effect_rad_per_s,
+            set: |case, value| case.contact_radius_m = value,
+        },
+        Input {
+            symbol: "a_g",
+            label: "$a_g$",
+            unit: "m",
+            measured: table.gyration_radius_m,
+            printed: printed.gyration_radius_effect_rad_per_s,
+            set: |case, value| case.gyration_radius_m = value,
+        },
+        Input {
+            symbol: "μ",
+            label: r"$\mu$",
+            unit: "",
+            measured: table.friction,
+            printed: printed.friction_effect_rad_per_s,
+            set: |case, value| case.friction = value,
+        },
+        Input {
+            symbol: "φ_L",
+            label: r"$\phi_L$",
+            unit: "rad",
+            measured: table.amplitude_angle_rad,
+            printed: printed.amplitude_angle_effect_rad_per_s,
+            set: |case, value| case.amplitude_angle_rad = value,
+        },
+    ]
+}
+
+fn effect(table: &TossCase, input: &Input) -> Result<Effect, ExperimentError> {
+    let Measured { value, uncertainty } = input.measured;
+    let speed = |share: f64| {
+        let mut case = *table;
+        (input.set)(&mut case, value + share * uncertainty);
+        case.airborne_speed()
+    };
+    let middle = speed(0.0)?;
+    let (upper, lower) = (speed(1.0)? - middle, speed(-1.0)? - middle);
+    Ok(Effect {
+        input: input.symbol.to_owned(),
+        unit: input.unit.to_owned(),
+        value,
+        uncertainty,
+        upper_rad_per_s: upper,
+        lower_rad_per_s: lower,
+        central_rad_per_s: 0.5 * (upper - lower),
+        linear_rad_per_s: (speed(SLOPE_STEP)? - speed(-SLOPE_STEP)?) / (2.0 * SLOPE_STEP),
+        printed_rad_per_s: input.printed,
+        label: input.label.to_owned(),
+    })
+}
+
+fn root_sum_of_squares(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(|value| value * value).sum::<f64>().sqrt()
+}
+
+fn combined(effects: &[Effect]) -> Combined {
+    let sizes: Vec<_> = effects.iter().map(|effect| effect.central_rad_per_s.abs()).collect();
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    let total = root_sum_of_squares(sizes.iter().copied());
+    Combined {
+        root_sum_of_squares_rad_per_s: total,
+        sum_rad_per_s: sizes.iter().sum(),
+        largest_rad_per_s: largest,
+        without_largest_rad_per_s: root_sum_of_squares(sizes.into_iter().filter(|size| *size < largest)),
+    }
+}
+
+/// The toss with ω and φ_L from Eq. (14).
+fn by_launch_speeds(case: &TossCase, axial: f64, rotary: f64) -> TossCase {
+    let rim = case.contact_radius_m * rotary;
+    TossCase {
+        angular_frequency_rad_per_s: (axial * axial + rim * rim).sqrt() / case.stroke_m,
+        amplitude_angle_rad: atan(rim / axial),
+        ..*case
+    }
+}
+
+fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<FromLaunchSpeeds, ExperimentError> {
+    let measured = [
+        table.stroke_m,
+        table.contact_radius_m,
+        section.launch_speed_m_per_s,
+        section.launch_angular_speed_rad_per_s,
+        table.gyration_radius_m,
+        table.friction,
+    ];
+    let case = |shares: [f64; 6]| {
+        let at = |index: usize| measured[index].value + shares[index] * measured[index].uncertainty;
+        let case = TossCase {
+            stroke_m: at(0),
+            contact_radius_m: at(1),
+            gyration_radius_m: at(4),
+            friction: at(5),
+            ..TossCase::from(table)
+        };
+        by_launch_speeds(&case, at(2), at(3))
+    };
+    let middle = case([0.0; 6]);
+    let (mut frequency, mut angle, mut speeds) = (0.0, 0.0, Vec::new());
+    for index in 0..measured.len() {
+        let moved = |share: f64| {
+            let mut shares = [0.0; 6];
+            shares[index] = share;
+            case(shares)
+        };
+        let (upper, lower) = (moved(1.0), moved(-1.0));
+        frequency += 0.5 * (upper.angular_frequency_rad_per_s - lower.angular_frequency_rad_per_s).abs();
+        angle += 0.5 * (upper.amplitude_angle_rad - lower.amplitude_angle_rad).abs();
+        speeds.push(0.5 * (upper.airborne_speed()? - lower.airborne_speed()?));
+    }
+    Ok(FromLaunchSpeeds {
+        angular_frequency_rad_per_s: middle.angular_frequency_rad_per_s,
+        amplitude_angle_rad: middle.amplitude_angle_rad,
+        angular_frequency_uncertainty_rad_per_s: frequency,
+        amplitude_angle_uncertainty_rad: angle,
+        airborne_speed_uncertainty_rad_per_s: root_sum_of_squares(speeds.into_iter()),
+    })
+}
+
+/// The change of the airborne speed that a reading of the table takes for an entry.
+type Read = fn(&Effect) -> f64;
+
+/// The ways to read "uncertainty due to an input".
+const READINGS: [(&str, Read); 5] = [
+    ("half the difference of both ends", |effect| effect.central_rad_per_s),
+    ("slope times uncertainty", |effect| effect.linear_rad_per_s),
+    ("lower end only", |effect| effect.lower_rad_per_s),
+    ("upper end only", |effect| effect.upper_rad_per_s),
+    ("larger of both ends", |effect| effect.upper_rad_per_s.abs().max(effect.lower_rad_per_s.abs())),
+];
+
+impl Experiment for Table2 {
+    type Data = Table2Data;
+    const ID: &'static str = "table2";
+    const TITLE: &'static str = "Effects of input parameter uncertainties";
+
+    fn caption(data: &Table2Data) -> String {
+        format!(
+            "Airborne rotation speed of the toss of Table I and its uncertainties due to each input: half the \
+             difference of the speeds at both ends of the input's range, the changes at the ends, and the printed \
+             value. Together {:.1} rad/s as a root sum of squares.",
+            data.combined.root_sum_of_squares_rad_per_s
+        )
+    }
+
+    fn run(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
+        let table_i = paper::table_one()?;
+        let printed = paper::table_two()?;
+        let section = paper::section_three()?;
+        let table = TossCase::from(&table_i);
+        let inputs = inputs(&table_i, &printed);
+        progress.start(inputs.len() as u64, "inputs");
+        let mut effects = Vec::new();
+        for input in &inputs {
+            effects.push(effect(&table, input)?);
+            progress.advance(1);
+        }
+        Ok(Table2Data {
+            airborne_speed_rad_per_s: table.airborne_speed()?,
+            printed_airborne_speed_rad_per_s: printed.airborne_speed_rad_per_s,
+            combined: combined(&effects),
+            from_launch_speeds: from_launch_speeds(&table_i, &section)?,
+            effects,
+            table_i,
+            section,
+        })
+    }
+
+    fn draw(data: &Table2Data) -> Result<Figure, ExperimentError> {
+        let header = [
+            "input",
+            "value",
+            r"effect on $\dot{\alpha}_f$ (rad/s)",
+            "at the upper end",
+            "at the lower end",
+            "printed",
+        ]
+        .map(Label::new);
+        let mut rows: Vec<Vec<Label>> = Vec::new();
+        for effect in &data.effects {
+            // As many decimals as the printed entry, and one or two more.
+            let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
+            let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
+            rows.push(vec![
+                Label::new(&effect.label),
+                Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
+                Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
+                Label::plain(&signed(effect.upper_rad_per_s, decimals)),
+                Label::plain(&signed(effect.lower_rad_per_s, decimals)),
+                Label::plain(&format!("± {}", effect.printed_rad_per_s)),
+            ]);
+        }
+        rows.push(vec![
+            Label::new(r"$\dot{\alpha}_f$"),
+            Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
+            Label::plain(&format!(
+                "± {:.2} (root sum of squares)",
+                data.combined.root_sum_of_squares_rad_per_s
+            )),
+            Label::plain(""),
+            Label::plain(""),
+            Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
+        ]);
+        Ok(ruled_table(&header, &rows))
+    }
+
+    fn claims(data: &Table2Data) -> Vec<Claim> {
+        let id = Self::ID;
+        let mut claims = vec![Claim::number(
+            id,
+            "Table II",
+            "airborne speed",
+            "rad/s",
+            data.printed_airborne_speed_rad_per_s.to_string(),
+            data.airborne_speed_rad_per_s,
+        )];
+        for effect in &data.effects {
+            claims.push(
+                Claim::number(
+                    id,
+                    "Table II",
+                    format!("uncertainty of the airborne speed due to {}", effect.input),
+                    "rad/s",
+                    effect.printed_rad_per_s.to_string(),
+                    effect.central_rad_per_s.abs(),
+                )
+                .note(format!(
+                    "half the difference of the speeds at both ends; changes at the upper end {:+.4}, at the lower \
+                     end {:+.4}, slope times uncertainty {:+.4}",
+                    effect.upper_rad_per_s, effect.lower_rad_per_s, effect.linear_rad_per_s
+                )),
+            );
+        }
+        claims.push(readings(data));
+        claims.push(together(data));
+        claims.extend(launch_speeds(data));
+        claims
+    }
+
+    fn parameters(data: &Table2Data) -> Vec<(String, String)> {
+        let mut parameters = vec![("phase lag θ".to_owned(), format!("{} rad", data.table_i.phase_lag_rad))];
+        parameters.extend(data.effects.iter().map(|effect| {
+            let value = format!("{} ± {} {}", effect.value, effect.uncertainty, effect.unit);
+            (effect.input.clone(), value.trim_end().to_owned())
+        }));
+        parameters.push(("g".to_owned(), format!("{} m/s²", data.table_i.preload_acceleration_m_per_s2)));
+        parameters
+    }
+
+    fn table(data: &Table2Data) -> Option<Table> {
+        let mut table = Table::new([
+            "input",
+            "unit",
+            "value",
+            "uncertainty",
+            "half difference (rad/s)",
+            "upper end (rad/s)",
+            "lower end (rad/s)",
+            "slope times uncertainty (rad/s)",
+            "printed (rad/s)",
+        ]);
+        for effect in &data.effects {
+            table.push([
+                Cell::from(effect.input.as_str()),
+                Cell::from(effect.unit.as_str()),
+                effect.value.into(),
+                effect.uncertainty.into(),
+                effect.central_rad_per_s.abs().into(),
+                effect.upper_rad_per_s.into(),
+                effect.lower_rad_per_s.into(),
+                effect.linear_rad_per_s.into(),
+                effect.printed_rad_per_s.into(),
+            ]);
+        }
+        Some(table)
+    }
+}
+
+fn signed(value: f64, decimals: usize) -> String {
+    format!("{value:+.decimals$}").replace('-', "−")
+}
+
+/// Whether a computed size rounds to the printed entry.
+fn rounds_to(computed: f64, printed: f64) -> bool {
+    let claim = Claim::number("", "", "", "", printed.to_string(), computed.abs());
+    claim.verdict() == crate::claim::Verdict::Reproduced
+}
+
+/// Which readings of the table give all its entries.
+fn readings(data: &Table2Data) -> Claim {
+    let mut complete = 0;
+    let mut parts = Vec::new();
+    for (name, read) in READINGS {
+        let missed: Vec<_> = data
+            .effects
+            .iter()
+            .filter(|effect| !rounds_to(read(effect), effect.printed_rad_per_s))
+            .map(|effect| format!("{} ({:.3})", effect.input, read(effect).abs()))
+            .collect();
+        complete += usize::from(missed.is_empty());
+        parts.push(match missed.is_empty() {
+            true => format!("{name}: all"),
+            false => format!("{name}: not {}", missed.join(", ")),
+        });
+    }
+    Claim::statement(
+        Table2::ID,
+        "Table II",
+        "all six entries come out of Table I to the printed digits in one reading",
+        complete > 0,
+        parts.join("; "),
+    )
+}
+
+/// The uncertainty of all inputs together.
+fn together(data: &Table2Data) -> Claim {
+    let combined = &data.combined;
+    // The text prints "14 ± 5".
+    let text = &data.section.predicted_airborne_speed_rad_per_s;
+    let printed = text.split('±').nth(1).unwrap_or_default().trim();
+    Claim::number(
+        Table2::ID,
+        "Sec. III B",
+        "uncertainty of the airborne speed due to all inputs",
+        "rad/s",
+        printed,
+        combined.root_sum_of_squares_rad_per_s,
+    )
+    .note(format!(
+        "root sum of squares; the sum is {:.1}; the printed number is the largest single effect ({:.1}) and also the \
+         root sum of squares of the others ({:.1}); ω and φ_L are not independent of c and a_e: with both launch \
+         speeds, c, a_e, a_g and μ as independent inputs it is {:.1}",
+        combined.sum_rad_per_s,
+        combined.largest_rad_per_s,
+        combined.without_largest_rad_per_s,
+        data.from_launch_speeds.airborne_speed_uncertainty_rad_per_s
+    ))
+}
+
+/// Table I's ω and φ_L by Eq. (14).
+fn launch_speeds(data: &Table2Data) -> Vec<Claim> {
+    let launch = &data.from_launch_speeds;
+    let (frequency, angle) = (&data.table_i.angular_frequency_rad_per_s, &data.table_i.amplitude_angle_rad);
+    let entries = [
+        ("ω by Eq. (14)", "rad/s", frequency.value, launch.angular_frequency_rad_per_s),
+        ("φ_L by Eq. (14)", "rad", angle.value, launch.amplitude_angle_rad),
+        (
+            "uncertainty of ω: sum of the effects of c, a_e and the launch speeds",
+            "rad/s",
+            frequency.uncertainty,
+            launch.angular_frequency_uncertainty_rad_per_s,
+        ),
+        (
+            "uncertainty of φ_L: sum of the effects of a_e and the launch speeds",
+            "rad",
+            angle.uncertainty,
+            launch.amplitude_angle_uncertainty_rad,
+        ),
+    ];
+    entries
+        .into_iter()
+        .map(|(quantity, unit, printed, computed)| {
+            Claim::number(Table2::ID, "Table I", quantity, unit, printed.to_string(), computed)
+        })
+        .collect()
+}

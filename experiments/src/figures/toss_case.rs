@@ -1,0 +1,181 @@
+//! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
+
+use bouncing_disk::core::elementary::{acos, sin};
+use bouncing_disk::{DiskParameters, InitialState, Platform, Stroke, System, TossPerformance, single_toss};
+use serde::{Deserialize, Serialize};
+
+use crate::experiment::ExperimentError;
+use crate::paper::TableOne;
+
+/// The parameters of a single toss, in the paper's order.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct TossCase {
+    pub(crate) phase_lag_rad: f64,
+    pub(crate) amplitude_angle_rad: f64,
+    pub(crate) stroke_m: f64,
+    pub(crate) angular_frequency_rad_per_s: f64,
+    pub(crate) contact_radius_m: f64,
+    pub(crate) gyration_radius_m: f64,
+    pub(crate) friction: f64,
+    pub(crate) preload_acceleration_m_per_s2: f64,
+}
+
+impl From<&TableOne> for TossCase {
+    fn from(table: &TableOne) -> Self {
+        Self {
+            phase_lag_rad: table.phase_lag_rad,
+            amplitude_angle_rad: table.amplitude_angle_rad.value,
+            stroke_m: table.stroke_m.value,
+            angular_frequency_rad_per_s: table.angular_frequency_rad_per_s.value,
+            contact_radius_m: table.contact_radius_m.value,
+            gyration_radius_m: table.gyration_radius_m.value,
+            friction: table.friction.value,
+            preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2,
+        }
+    }
+}
+
+impl TossCase {
+    /// The same toss with another amplitude angle.
+    pub(crate) fn at_angle(self, amplitude_angle_rad: f64) -> Self {
+        Self { amplitude_angle_rad, ..self }
+    }
+
+    /// The same toss with another phase lag.
+    pub(crate) fn at_lag(self, phase_lag_rad: f64) -> Self {
+        Self { phase_lag_rad, ..self }
+    }
+
+    /// c ω²/g: the hand's peak acceleration for a purely vertical stroke.
+    pub(crate) fn stroke_acceleration(&self) -> f64 {
+        let omega = self.angular_frequency_rad_per_s;
+        self.stroke_m * omega * omega / self.preload_acceleration_m_per_s2
+    }
+
+    /// acos(g/(c ω²)): a hand that moves more horizontally never lets go of the dough. NaN if it never does.
+    pub(crate) fn largest_angle(&self) -> f64 {
+        acos(1.0 / self.stroke_acceleration())
+    }
+
+    /// The largest angle at which the dough still leaves in floating-point arithmetic, to within rounding.
+    pub(crate) fn last_angle(&self) -> f64 {
+        (1.0 - 1e-12) * self.largest_angle()
+    }
+
+    /// The dough and the hand. What happens after the separation does not matter, so neither does the restitution.
+    pub(crate) fn system(&self) -> Result<System, ExperimentError> {
+        let stroke = Stroke {
+            stroke: self.stroke_m,
+            amplitude_angle: self.amplitude_angle_rad,
+            contact_radius: self.contact_radius_m,
+            angular_frequency: self.angular_frequency_rad_per_s,
+            phase_lag: self.phase_lag_rad,
+        };
+        let disk = DiskParameters {
+            contact_radius: self.contact_radius_m,
+            gyration_radius: self.gyration_radius_m,
+            friction: self.friction,
+            restitution: 0.0,
+            preload_acceleration: self.preload_acceleration_m_per_s2,
+            load_acceleration: 0.0,
+        };
+        let platform = Platform::from_stroke(stroke).map_err(ExperimentError::model)?;
+        let disk = disk.build().map_err(ExperimentError::model)?;
+        System::new(platform, disk).map_err(ExperimentError::model)
+    }
+
+    /// The performance of the toss. Its efficiency counts the spin of a dough that starts with the hand as put in
+    /// by the hand and gained by the dough. Without that the energy put in after the start may be zero or negative.
+    pub(crate) fn toss(&self, initial: InitialState) -> Result<TossPerformance, ExperimentError> {
+        let system = self.system()?;
+        let mut toss = single_toss(&system, initial).map_err(ExperimentError::model)?;
+        if initial == InitialState::RestRelativeToHand {
+            let speed =
+                self.gyration_radius_m * system.platform().peak_angular_speed() * sin(self.phase_lag_rad);
+            let spin = 0.5 * speed * speed;
+            toss.efficiency = (toss.rotary_energy_gain + spin) / (toss.energy.platform_work() + spin);
+        }
+        Ok(toss)
+    }
+
+    /// The airborne speed in rad/s; the dough starts at rest.
+    pub(crate) fn airborne_speed(&self) -> Result<f64, ExperimentError> {
+        Ok(self.toss(InitialState::AbsoluteRest)?.airborne_speed)
+    }
+}
+
+/// Where a function is largest, and its value there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Maximum {
+    pub(crate) place: f64,
+    pub(crate) value: f64,
+}
+
+/// Steps of the golden section: they narrow the bracket by a factor of 3e12.
+const GOLDEN_STEPS: u32 = 60;
+
+/// The largest value of a function that has one maximum between neighbours of its best sample; `intervals` + 1
+/// samples are taken. The golden section then finds the value to rounding. The place of a smooth maximum is known
+/// to the square root of that, about 1e-8: more is not in the values of a function.
+pub(crate) fn maximum<E>(
+    (low, high): (f64, f64),
+    intervals: u32,
+    mut function: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Maximum, E> {
+    let sample = |index: u32| low + (high - low) * f64::from(index) / f64::from(intervals);
+    let mut best = Maximum { place: low, value: f64::NEG_INFINITY };
+    let mut best_index = 0;
+    for index in 0..=intervals {
+        let value = function(sample(index))?;
+        if value > best.value {
+            (best, best_index) = (Maximum { place: sample(index), value }, index);
+        }
+    }
+    let mut left = sample(best_index.saturating_sub(1));
+    let mut right = sample((best_index + 1).min(intervals));
+    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut inner_left = right - share * (right - left);
+    let mut inner_right = left + share * (right - left);
+    let (mut value_left, mut value_right) = (function(inner_left)?, function(inner_right)?);
+    for _ in 0..GOLDEN_STEPS {
+        if value_left >= value_right {
+            (right, inner_right, value_right) = (inner_right, inner_left, value_left);
+            inner_left = right - share * (right - left);
+            value_left = function(inner_left)?;
+        } else {
+            (left, inner_left, value_left) = (inner_left, inner_right, value_right);
+            inner_right = left + share * (right - left);
+            value_right = function(inner_right)?;
+        }
+        for (place, value) in [(inner_left, value_left), (inner_right, value_right)] {
+            if value > best.value {
+                best = Maximum { place, value };
+            }
+        }
+    }
+    Ok(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smooth_maximum_is_found_to_the_root_of_the_rounding() {
+        let parabola = |x: f64| Ok::<_, std::convert::Infallible>(3.0 - (x - 0.4321) * (x - 0.4321));
+        let found = maximum((0.0, 1.0), 7, parabola).expect("never fails");
+        assert!((found.place - 0.4321).abs() < 3e-8, "{found:?}");
+        assert!((found.value - 3.0).abs() < 1e-15);
+        let edge = maximum((0.0, 1.0), 5, Ok::<_, std::convert::Infallible>).expect("never fails");
+        assert!((edge.place - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_dough_still_leaves_at_the_last_angle() {
+        let case = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let last = case.at_angle(case.last_angle()).toss(InitialState::AbsoluteRest).expect("leaves");
+        let early = std::f64::consts::FRAC_PI_2 - last.separation_phase;
+        assert!((0.0..1e-5).contains(&early), "{early}");
+        assert!(case.at_angle(1.000_000_1 * case.largest_angle()).toss(InitialState::AbsoluteRest).is_err());
+    }
+}
