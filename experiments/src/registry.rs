@@ -1,11 +1,18 @@
 //! The list of all experiments.
 
-use crate::experiment::Entry;
+use crate::experiment::{Entry, entry};
+use crate::figures::{fig04, fig06, fig07, fig10, table2};
 
 /// All experiments, in the order of the paper.
 pub fn all() -> Vec<Box<dyn Entry>> {
     // One line per module of `figures`: `entry::<fig06::Fig06>(),`
-    vec![]
+    vec![
+        entry::<fig04::Fig04>(),
+        entry::<fig06::Fig06>(),
+        entry::<fig07::Fig07>(),
+        entry::<fig10::Fig10>(),
+        entry::<table2::Table2>(),
+    ]
 }
 
 /// An identifier that no experiment has.

@@ -406,7 +406,7 @@ fn drawn(area: Rect, letter: &str, reading: &Reading, panel: &Transient) -> Pane
         .x(Axis::linear(0.0, reading.duration_s)
             .ticks(Ticks::every(if reading.duration_s > 2.0 { 2.0 } else { 0.3 }))
             .label(r"$t$ (s)"))
-        .y(Axis::linear(0.0, 32.0).ticks(Ticks::every(10.0)).label(r"$\dot{\alpha}$ (rad/s)"))
+        .y(Axis::linear(0.0, 44.0).ticks(Ticks::every(10.0)).label(r"$\dot{\alpha}$ (rad/s)"))
         .layer(Line::new(member).colour(Colour::GREY).width(0.6).name("one member"))
         .layer(Band::new(band).colour(Colour::BLUE).opacity(0.30).name("ensemble"))
         .layer(Line::new(smooth).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed).name("fit"))

@@ -1,0 +1,50 @@
+//! Fig. 6: bifurcation diagrams of the bouncing disk.
+
+mod chattering;
+mod data;
+mod merging;
+mod picture;
+mod scan;
+mod statements;
+
+pub use self::data::Fig06Data;
+use crate::claim::Claim;
+use crate::draw::Figure;
+use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::progress::Progress;
+
+/// Coefficient of restitution of Sec. IV.
+const RESTITUTION: f64 = 0.5;
+
+/// Γ from which the period-1 attractor is followed (Sec. IV A).
+const FOLLOWED_FROM: f64 = 0.335;
+
+/// Fig. 6.
+#[derive(Debug)]
+pub struct Fig06;
+
+impl Experiment for Fig06 {
+    type Data = Fig06Data;
+    const ID: &'static str = "fig06";
+    const TITLE: &'static str = "Bifurcation diagrams";
+
+    fn caption(data: &Fig06Data) -> String {
+        statements::caption(data)
+    }
+
+    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data, ExperimentError> {
+        scan::run(quality, progress)
+    }
+
+    fn draw(data: &Fig06Data) -> Result<Figure, ExperimentError> {
+        Ok(picture::draw(data))
+    }
+
+    fn claims(data: &Fig06Data) -> Vec<Claim> {
+        statements::claims(data)
+    }
+
+    fn parameters(data: &Fig06Data) -> Vec<(String, String)> {
+        statements::parameters(data)
+    }
+}

@@ -1,0 +1,177 @@
+//! The chattering orbit: its cycle, the end of the single tosses, and the two ways to end a chattering sequence.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, OrbitEvent, Phase, Vibration};
+use bouncing_disk::{Dimensionless, MultiTossSettings, OrbitClass, Start, TossOrbit, multi_toss};
+use rayon::prelude::*;
+
+use super::RESTITUTION;
+use super::data::{Policies, SingleTosses, Slice};
+use super::scan::{Systems, slice};
+use crate::experiment::ExperimentError;
+
+/// An orbit that has not attached after so many impacts does not chatter.
+const LONGEST_CYCLE: usize = 20_000;
+
+/// Sec. IV A: below, the chattering orbits follow the pattern of single tosses.
+const PRINTED_END: f64 = 0.52;
+
+/// From one separation to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cycle {
+    pub(super) impacts: usize,
+    pub(super) platform_periods: u64,
+    pub(super) long_flights: usize,
+}
+
+impl Cycle {
+    /// A long toss, chattering, rest: one flight of any length to speak of in one period of the platform.
+    fn is_single_toss(&self) -> bool {
+        self.platform_periods == 1
+    }
+}
+
+/// The cycle of a disk that has been at rest; `None` if it never leaves or does not come to rest again.
+pub(super) fn cycle(axial_forcing: f64, policy: ChatterPolicy) -> Result<Option<Cycle>, Error> {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, RESTITUTION)?;
+    let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
+    let (mut impacts, mut turns, mut long_flights) = (0, 0, 0);
+    for event in map.orbit_from_launch(leaves, 0.0, policy)? {
+        match event? {
+            OrbitEvent::Impact(impact) => {
+                impacts += 1;
+                turns += impact.turns;
+                long_flights += usize::from(impact.duration() > 0.5 * TAU);
+            }
+            OrbitEvent::Stick(stick) => {
+                let platform_periods =
+                    turns + stick.attachment.turns + stick.separation.map_or(0, |(_, turns)| turns);
+                return Ok(Some(Cycle { impacts, platform_periods, long_flights }));
+            }
+            _ => break,
+        }
+        if impacts == LONGEST_CYCLE {
+            break;
+        }
+    }
+    Ok(None)
+}
+
+/// Rest on the platform at its lowest point, turning with it.
+fn from_rest(system: &Dimensionless) -> Result<Start, ExperimentError> {
+    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    Ok(Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
+}
+
+fn tosses(system: &Dimensionless, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
+    multi_toss(*system, from_rest(system)?, settings).map_err(ExperimentError::model)
+}
+
+/// The impacts of the chattering orbit, if the disk chatters at this forcing.
+pub(super) fn chattering_slice(
+    axial_forcing: f64,
+    settings: MultiTossSettings,
+) -> Result<Option<Slice>, ExperimentError> {
+    let Some(cycle) = cycle(axial_forcing, settings.policy).map_err(ExperimentError::model)? else {
+        return Ok(None);
+    };
+    let systems = Systems::at(axial_forcing)?;
+    let linear = tosses(&systems.linear, settings)?;
+    let semielliptical = tosses(&systems.semielliptical, settings)?;
+    let slice = slice(axial_forcing, &linear, &semielliptical);
+    Ok(Some(Slice { period: Some(cycle.impacts), ..slice }))
+}
+
+/// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` and bisected.
+pub(super) fn single_tosses(
+    forcings: &[f64],
+    policy: ChatterPolicy,
+) -> Result<SingleTosses, ExperimentError> {
+    let single = |forcing: f64| -> Result<bool, ExperimentError> {
+        Ok(cycle(forcing, policy)
+            .map_err(ExperimentError::model)?
+            .is_some_and(|cycle| cycle.is_single_toss()))
+    };
+    let (mut last, mut first_other) = (f64::NAN, PRINTED_END);
+    for &forcing in forcings.iter().filter(|forcing| **forcing * PI > 1.0 && **forcing < PRINTED_END) {
+        if single(forcing)? {
+            last = forcing;
+        } else {
+            first_other = forcing;
+            break;
+        }
+    }
+    // A NaN (no Γ at all) ends the loop at once.
+    while first_other - last > 1.0e-9 {
+        let middle = 0.5 * (last + first_other);
+        if single(middle)? { last = middle } else { first_other = middle }
+    }
+    let beyond: Vec<Option<Cycle>> = (0..200)
+        .into_par_iter()
+        .map(|i| {
+            let forcing = first_other + (PRINTED_END - first_other) * (f64::from(i) + 0.5) / 200.0;
+            cycle(forcing, policy).map_err(ExperimentError::model)
+        })
+        .collect::<Result<_, _>>()?;
+    let periods: Vec<u64> = beyond.iter().flatten().map(|cycle| cycle.platform_periods).collect();
+    let singles = beyond.iter().flatten().filter(|cycle| cycle.is_single_toss()).count();
+    Ok(SingleTosses {
+        last,
+        first_other,
+        share_beyond: singles as f64 / beyond.len() as f64,
+        periods_beyond: periods.iter().copied().min().zip(periods.iter().copied().max()),
+    })
+}
+
+/// The chattering orbits under the paper's cut and complete.
+pub(super) fn policies(forcings: &[f64], settings: MultiTossSettings) -> Result<Policies, ExperimentError> {
+    let complete = MultiTossSettings { policy: ChatterPolicy::Complete, ..settings };
+    let pairs: Vec<Option<Pair>> = forcings
+        .par_iter()
+        .map(|&forcing| {
+            let cycle_of = |policy| cycle(forcing, policy).map_err(ExperimentError::model);
+            let (Some(cut), Some(summed)) = (cycle_of(settings.policy)?, cycle_of(complete.policy)?) else {
+                return Ok(None);
+            };
+            let same =
+                cut.platform_periods == summed.platform_periods && cut.long_flights == summed.long_flights;
+            let systems = Systems::at(forcing)?;
+            let difference = |system: &Dimensionless| -> Result<Option<f64>, ExperimentError> {
+                let (cut, summed) = (tosses(system, settings)?, tosses(system, complete)?);
+                let settled = |orbit: &TossOrbit| {
+                    matches!(orbit.class, OrbitClass::Chattering { .. })
+                        && orbit.rotation_repeats == Some(true)
+                };
+                let apart = cut.mean_angular_speed.zip(summed.mean_angular_speed);
+                let both = settled(&cut) && settled(&summed);
+                Ok(apart.filter(|_| both).map(|(a, b)| (a - b).abs() / system.twist_speed()))
+            };
+            let [linear, semielliptical] = if same {
+                [difference(&systems.linear)?, difference(&systems.semielliptical)?]
+            } else {
+                [None; 2]
+            };
+            Ok(Some(Pair { forcing, same, linear, semielliptical }))
+        })
+        .collect::<Result<_, ExperimentError>>()?;
+    let pairs: Vec<Pair> = pairs.into_iter().flatten().collect();
+    let largest = |of: fn(&Pair) -> Option<f64>| pairs.iter().filter_map(of).fold(0.0_f64, f64::max);
+    let settled = |of: fn(&Pair) -> Option<f64>| pairs.iter().filter_map(of).count();
+    Ok(Policies {
+        compared: pairs.len(),
+        different_cycles: pairs.iter().filter(|pair| !pair.same).count(),
+        first_different: pairs.iter().find(|pair| !pair.same).map(|pair| pair.forcing),
+        settled_linear: settled(|pair| pair.linear),
+        settled_semielliptical: settled(|pair| pair.semielliptical),
+        largest_difference_linear: largest(|pair| pair.linear),
+        largest_difference_semielliptical: largest(|pair| pair.semielliptical),
+    })
+}
+
+struct Pair {
+    forcing: f64,
+    same: bool,
+    linear: Option<f64>,
+    semielliptical: Option<f64>,
+}

@@ -1,0 +1,96 @@
+//! The crisis in which the followed attractor is lost to chattering, by bisection on survival.
+
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Vibration, follow};
+use rayon::prelude::*;
+
+use super::data::Merging;
+use super::{FOLLOWED_FROM, RESTITUTION};
+use crate::experiment::ExperimentError;
+
+/// Γ inside the chaotic range, where the starts of all trials lie on the attractor.
+const SAFE_FORCING: f64 = 0.5555;
+/// Γ at which the attractor is long gone.
+const LOST_FORCING: f64 = 0.567;
+/// Orbits tried.
+const STARTS: usize = 8;
+/// Width at which the bisection ends.
+const BRACKET: f64 = 1.0e-7;
+
+fn map(axial_forcing: f64) -> Result<ImpactMap, ExperimentError> {
+    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
+    ImpactMap::new(vibration, RESTITUTION).map_err(ExperimentError::model)
+}
+
+/// States on the followed attractor at [`SAFE_FORCING`].
+fn starts(first: ImpactState) -> Result<Vec<ImpactState>, ExperimentError> {
+    let forcings = (0..).map(|i| FOLLOWED_FROM + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
+    let mut state = first;
+    for followed in follow(RESTITUTION, forcings, first, 300, ChatterPolicy::Complete) {
+        state = followed.map_err(ExperimentError::model)?.state;
+    }
+    let map = map(SAFE_FORCING)?;
+    let mut states = Vec::new();
+    while states.len() < STARTS {
+        match map.survivor(state, 1_000, ChatterPolicy::Complete).map_err(ExperimentError::model)? {
+            Some(next) => states.push(next),
+            None => break,
+        }
+        state = states[states.len() - 1];
+    }
+    Ok(states)
+}
+
+/// How many impacts each start lives, up to `impacts`.
+fn lives(forcing: f64, starts: &[ImpactState], impacts: usize) -> Result<Vec<usize>, ExperimentError> {
+    let map = map(forcing)?;
+    starts
+        .par_iter()
+        .map(|start| {
+            let mut orbit = map.orbit(*start, ChatterPolicy::Complete);
+            for lived in 0..impacts {
+                match orbit.advance().map_err(ExperimentError::model)? {
+                    Some(OrbitEvent::Impact(_)) => {}
+                    Some(_) | None => return Ok(lived),
+                }
+            }
+            Ok(impacts)
+        })
+        .collect()
+}
+
+/// The last bracket (survived, lost).
+fn bracket(starts: &[ImpactState], impacts: usize) -> Result<(f64, f64), ExperimentError> {
+    let (mut survived, mut lost) = (SAFE_FORCING, LOST_FORCING);
+    while lost - survived > BRACKET {
+        let middle = 0.5 * (survived + lost);
+        if lives(middle, starts, impacts)?.iter().all(|lived| *lived == impacts) {
+            survived = middle;
+        } else {
+            lost = middle;
+        }
+    }
+    Ok((survived, lost))
+}
+
+/// Locates the crisis of the attractor that is followed from `first`.
+pub(super) fn merging(first: ImpactState, impacts: usize) -> Result<Merging, ExperimentError> {
+    let starts = starts(first)?;
+    let (survived, lost) = bracket(&starts, impacts)?;
+    let (survived_in_a_tenth, lost_in_a_tenth) = bracket(&starts, impacts / 10)?;
+    let mean_life_impacts = (0..16)
+        .map(|i| {
+            let forcing = 0.5600 + 0.0001 * f64::from(i);
+            let lives = lives(forcing, &starts, impacts / 10)?;
+            Ok((forcing, lives.iter().sum::<usize>() as f64 / lives.len() as f64))
+        })
+        .collect::<Result<_, ExperimentError>>()?;
+    Ok(Merging {
+        impacts,
+        starts: starts.len(),
+        survived,
+        lost,
+        survived_in_a_tenth,
+        lost_in_a_tenth,
+        mean_life_impacts,
+    })
+}

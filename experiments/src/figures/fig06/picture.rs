@@ -1,0 +1,88 @@
+//! The drawing of Fig. 6.
+
+use super::data::{Fig06Data, Slice};
+use crate::draw::{
+    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel,
+    Rule, Stroke, Text, Ticks,
+};
+
+/// Γ of the five panels of Fig. 7.
+pub(super) const BASIN_FORCINGS: [(f64, &str); 5] =
+    [(0.34, "a"), (0.486, "b"), (0.50, "c"), (0.55, "d"), (0.60, "e")];
+
+/// A column of the data.
+type Column = fn(&Slice) -> &[f64];
+
+pub(super) fn draw(data: &Fig06Data) -> Figure {
+    const HEIGHT: f64 = 400.0;
+    let margins = Margins { left: 46.0, right: 10.0, top: 22.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 2).margins(margins).gaps(52.0, 12.0);
+    let (low, high) = data.axial_forcing_range;
+    let panel = |row: usize, column: usize, letter: &str, y: Axis, of: Column| {
+        let x = Axis::linear(low, high).ticks(Ticks::every(0.05).minor(5));
+        let x = if row == 0 { x.without_numbers() } else { x.label(r"$\Gamma$") };
+        let dots = |slices: &[Slice]| -> Vec<(f64, f64)> {
+            slices
+                .iter()
+                .flat_map(|slice| of(slice).iter().map(|value| (slice.axial_forcing, *value)))
+                .collect()
+        };
+        let mut panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
+        for (forcing, name) in BASIN_FORCINGS {
+            let stroke = Stroke::new(Colour::VERMILION, 0.5).dashed(Dash::Dotted);
+            panel = panel.layer(Rule::vertical(forcing).stroke(stroke));
+            if row == 0 {
+                let place = (forcing - low) / (high - low);
+                // (b) and (c) are neighbours.
+                let (shift, anchor) = match name {
+                    "b" => (0.006, Anchor::Right),
+                    "c" => (-0.006, Anchor::Left),
+                    _ => (0.0, Anchor::Middle),
+                };
+                let text = Text::at_axes(place + shift, 1.035, format!("({name})"));
+                panel = panel.layer(text.anchor(anchor).size(8.0).colour(Colour::VERMILION));
+            }
+        }
+        panel
+            .layer(
+                DensePoints::new(dots(&data.chattering))
+                    .colour(Colour::LIGHT_GREY)
+                    .radius(0.3)
+                    .name("chattering"),
+            )
+            .layer(
+                DensePoints::new(dots(&data.followed))
+                    .colour(Colour::rgb(40, 40, 40))
+                    .radius(0.3)
+                    .name("followed from period 1"),
+            )
+    };
+    let speed = || Axis::linear(-1.1, 1.1).ticks(Ticks::every(0.5).minor(5));
+    let fastest = data
+        .followed
+        .iter()
+        .chain(&data.chattering)
+        .flat_map(|slice| slice.normalised_impact_speed.iter())
+        .fold(0.0_f64, |most, speed| most.max(*speed));
+    Figure::new(DOUBLE_COLUMN, HEIGHT).panels([
+        panel(
+            0,
+            0,
+            "a",
+            Axis::linear(0.0, 1.0).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(0.2).minor(4)),
+            |slice| &slice.impact_phase_cycles,
+        ),
+        panel(
+            0,
+            1,
+            "b",
+            Axis::linear(0.0, 1.08 * fastest)
+                .label(r"$|w_A\Gamma/(\omega A)|$")
+                .ticks(Ticks::every(0.5).minor(5)),
+            |slice| &slice.normalised_impact_speed,
+        ),
+        panel(1, 0, "c", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.linear)
+            .legend(Legend::at(Corner::BottomLeft)),
+        panel(1, 1, "d", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.semielliptical),
+    ])
+}

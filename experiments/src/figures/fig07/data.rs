@@ -1,0 +1,129 @@
+//! The numbers of Fig. 7.
+
+use serde::{Deserialize, Serialize};
+
+/// Data of Fig. 7.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fig07Data {
+    /// Coefficient of restitution ε.
+    pub restitution: f64,
+    /// Top of the window of |w_A Γ/(ωA)|; it starts at 0, and τ_imp/2π runs from 0 to 1.
+    pub window_top: f64,
+    /// Cells along each side of a panel.
+    pub cells: usize,
+    /// (a) to (e).
+    pub panels: Vec<Panel>,
+    /// Fractions against the window.
+    pub windows: Windows,
+    /// At Γ = 0.55: impacts N, and the share of the window that has not come to rest after N of them.
+    pub decay: Vec<(u32, f64)>,
+}
+
+/// The basins at one Γ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Panel {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Impacts after which a start that has neither come to rest nor reached a known orbit counts as undecided.
+    pub max_impacts: u32,
+    /// Rows of cells by rising speed, in a row by phase: runs of equal cells, as `512w33b455w` (w chattering, b the
+    /// attractor of the period-doubling route, o another attractor, u undecided).
+    pub rows: Vec<String>,
+    /// Shares of the cells.
+    pub shares: Shares,
+    /// Share of the cells that have a neighbour of another kind, with the cells grouped 1, 2, 4, 8 a side.
+    pub boundary_shares: Vec<(usize, f64)>,
+    /// Lowest |w_A Γ/(ωA)| of a cell that does not chatter; `None` if all do.
+    pub lowest_not_chattering: Option<f64>,
+    /// Impacts of the attractor of the period-doubling route.
+    pub attractor: Vec<Spot>,
+    /// Impacts of the chattering orbit from rest; empty if the disk does not come to rest again.
+    pub chattering: Vec<Spot>,
+    /// Attractors that the paper does not mention.
+    pub others: Vec<Other>,
+}
+
+/// Shares of the cells of a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shares {
+    /// Come to rest.
+    pub chattering: f64,
+    /// End on the attractor of the period-doubling route.
+    pub attractor: f64,
+    /// End on another attractor.
+    pub other: f64,
+    /// Undecided.
+    pub undecided: f64,
+}
+
+impl Shares {
+    /// Everything that does not chatter.
+    pub fn not_chattering(&self) -> f64 {
+        self.attractor + self.other + self.undecided
+    }
+}
+
+/// An impact: τ_imp/2π and |w_A Γ/(ωA)|.
+pub(super) type Spot = (f64, f64);
+
+/// A periodic attractor outside the period-doubling route.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Other {
+    /// Its impacts.
+    pub impacts: Vec<Spot>,
+    /// Periods of the platform in one round.
+    pub platform_periods: u64,
+    /// The larger modulus of its Floquet multipliers.
+    pub spectral_radius: f64,
+}
+
+/// Fractions against the window, at the Γ of (a) and (b).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Windows {
+    /// Rows and columns of the grid.
+    pub grid: (usize, usize),
+    /// Windows [0, top] of |w_A Γ/(ωA)| over a whole period.
+    pub curve: Vec<CurvePoint>,
+    /// Lowest top that gives the number printed for (a); `None` up to the end of the curve.
+    pub top_for_a: Option<f64>,
+    /// The same for (b), the period-1 orbit alone.
+    pub top_for_b: Option<f64>,
+    /// The same for (b), everything that does not chatter.
+    pub top_for_b_not_chattering: Option<f64>,
+    /// Ranges of tops that give both printed numbers, the period-1 orbit alone in (b).
+    pub tops_for_both: Vec<(f64, f64)>,
+    /// The same, everything that does not chatter in (b).
+    pub tops_for_both_not_chattering: Vec<(f64, f64)>,
+    /// For each family of windows the one nearest to both.
+    pub searches: Vec<Search>,
+}
+
+/// One window.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CurvePoint {
+    /// Its top.
+    pub top: f64,
+    /// Share of the period-1 orbit at the Γ of (a).
+    pub a: f64,
+    /// The same for (b).
+    pub b: f64,
+    /// Share of everything that does not chatter at the Γ of (b).
+    pub b_not_chattering: f64,
+}
+
+/// The window of a family that comes nearest to both printed numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Search {
+    /// The family.
+    pub family: String,
+    /// Whether everything that does not chatter counts in (b), or the period-1 orbit alone.
+    pub not_chattering: bool,
+    /// Bottom of the window (a).
+    pub bottom: f64,
+    /// Top of the window (a).
+    pub top: f64,
+    /// Share in (a).
+    pub a: f64,
+    /// Share in (b).
+    pub b: f64,
+}

@@ -1,0 +1,238 @@
+//! The basins at one forcing.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::{
+    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Multipliers, OrbitEvent,
+    Phase, UNDECIDED, Vibration, elementary::sin_cos,
+};
+use rayon::prelude::*;
+
+use super::RESTITUTION;
+use super::data::{Other, Panel, Shares, Spot};
+use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, kind, runs};
+use crate::experiment::ExperimentError;
+use crate::progress::Progress;
+
+/// Impacts after which a start at chaotic forcing counts as caught by the attractor; see [`decay`].
+const CAUGHT_BY_CHAOS: u32 = 400;
+/// Impacts after which a start is undecided where all attractors are periodic.
+const LONGEST: u32 = 20_000;
+/// Impacts of a chaotic attractor or a chattering orbit that are marked.
+const MARKED: usize = 600;
+/// Cells a side of the coarse grid on which unknown attractors are looked for.
+const COARSE: usize = 60;
+/// Longest period (impacts) of an attractor that is looked for.
+const LONGEST_PERIOD: usize = 64;
+
+pub(super) fn map(axial_forcing: f64) -> Result<ImpactMap, ExperimentError> {
+    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
+    ImpactMap::new(vibration, RESTITUTION).map_err(ExperimentError::model)
+}
+
+pub(super) fn grid(top: f64, rows: usize, columns: usize) -> Result<Grid, ExperimentError> {
+    let phase = Axis::new(0.0, 1.0, columns).map_err(ExperimentError::model)?;
+    let speed = Axis::new(0.0, top, rows).map_err(ExperimentError::model)?;
+    Grid::new(phase, speed).map_err(ExperimentError::model)
+}
+
+fn spot(state: ImpactState) -> Spot {
+    (state.phase().cycles(), state.normalised_speed())
+}
+
+fn start(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, ExperimentError> {
+    ImpactState::from_normalised(grid.phase.centre(column) * TAU, grid.speed.centre(row))
+        .map_err(ExperimentError::model)
+}
+
+/// The attractor that the period-doubling route has led to: a periodic orbit, or a state on a chaotic one.
+enum Route {
+    Periodic(KnownOrbit),
+    Chaotic(ImpactState),
+    Gone,
+}
+
+fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
+    let Some(period_one) = map.period_one(1) else { return Ok(Route::Gone) };
+    let orbit = map.refine(&[period_one]).map_err(ExperimentError::model)?;
+    if Multipliers::of(orbit.monodromy).spectral_radius() < 1.0
+        && let Some(radius) = orbit.trapping_radius(map, 64)
+    {
+        return Ok(Route::Periodic(KnownOrbit { orbit, radius }));
+    }
+    // Beyond the first doubling: leave the saddle along the phase.
+    let beside = Phase::new(period_one.phase().angle() + 1.0e-3).map_err(ExperimentError::model)?;
+    let beside = ImpactState::new(beside, period_one.velocity()).map_err(ExperimentError::model)?;
+    let survivor =
+        map.survivor(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let Some(state) = survivor else { return Ok(Route::Gone) };
+    let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
+    let periodic = settled.and_then(|orbit| {
+        orbit.trapping_radius(map, 64).map(|radius| Route::Periodic(KnownOrbit { orbit, radius }))
+    });
+    Ok(periodic.unwrap_or(Route::Chaotic(state)))
+}
+
+/// Other periodic attractors: what undecided cells of a coarse grid settle on.
+pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrbit>, ExperimentError> {
+    let grid = grid(super::WINDOW_TOP, COARSE, COARSE)?;
+    let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
+    let mut known = vec![first.clone()];
+    'search: while known.len() < 4 {
+        let basins = map.basins(grid, &known, settings, || ()).map_err(ExperimentError::model)?;
+        for (index, _) in basins.labels().iter().enumerate().filter(|(_, label)| **label == UNDECIDED) {
+            let from = start(&grid, index / COARSE, index % COARSE)?;
+            let settled =
+                map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
+            if let Some(orbit) = settled
+                && let Some(radius) = catching_radius(map, &orbit)
+            {
+                known.push(KnownOrbit { orbit, radius });
+                continue 'search;
+            }
+        }
+        break;
+    }
+    known.remove(0);
+    Ok(known)
+}
+
+/// A radius within which sampled starts end on the orbit, however far they stray before: the basin of an orbit
+/// with strong shear is thin.
+fn catching_radius(map: &ImpactMap, orbit: &bouncing_disk::core::PeriodicOrbit) -> Option<f64> {
+    let scale = map.vibration().peak_acceleration();
+    let ends_here = |centre: &ImpactState, radius: f64, sample: u32| {
+        let (s, c) = sin_cos(TAU * f64::from(sample) / 32.0);
+        let from = Phase::new(centre.phase().angle() + radius * c)
+            .and_then(|phase| ImpactState::new(phase, centre.velocity() + radius * scale * s));
+        let steps = 100 * orbit.period();
+        let end = from.and_then(|from| map.survivor(from, steps, ChatterPolicy::Complete));
+        matches!(end, Ok(Some(end)) if orbit.distance(end, scale) < 1.0e-6)
+    };
+    let mut radius = 0.05;
+    while radius > 1.0e-5 {
+        let all = orbit.states.iter().all(|centre| {
+            [1.0, 0.7, 0.4, 0.2]
+                .iter()
+                .all(|part| (0..32).all(|sample| ends_here(centre, part * radius, sample)))
+        });
+        if all {
+            // A cell is caught well inside what was sampled.
+            return Some(0.5 * radius);
+        }
+        radius *= 0.5;
+    }
+    None
+}
+
+/// The impacts of one cycle of the disk from rest; empty if it does not come to rest again.
+fn chattering(map: &ImpactMap) -> Result<Vec<Spot>, ExperimentError> {
+    let Some(leaves) = map.vibration().separation_phase() else { return Ok(Vec::new()) };
+    let mut spots = Vec::new();
+    for event in map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)? {
+        match event.map_err(ExperimentError::model)? {
+            OrbitEvent::Impact(impact) => spots.push(spot(impact.into())),
+            _ => {
+                spots.truncate(MARKED);
+                return Ok(spots);
+            }
+        }
+        if spots.len() > LONGEST as usize {
+            break;
+        }
+    }
+    Ok(Vec::new())
+}
+
+/// The basins at `axial_forcing` in the window [0, `top`] with `side` cells a side.
+pub(super) fn panel(
+    axial_forcing: f64,
+    (top, side): (f64, usize),
+    progress: &dyn Progress,
+) -> Result<Panel, ExperimentError> {
+    let map = map(axial_forcing)?;
+    let route = route(&map)?;
+    let (known, max_impacts, open) = match &route {
+        Route::Periodic(first) => {
+            let mut known = vec![first.clone()];
+            known.extend(others(&map, first)?);
+            (known, LONGEST, STILL_OPEN)
+        }
+        Route::Chaotic(_) => (Vec::new(), CAUGHT_BY_CHAOS, ATTRACTOR),
+        Route::Gone => (Vec::new(), LONGEST, STILL_OPEN),
+    };
+    let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
+    let basins = map
+        .basins(grid(top, side, side)?, &known, settings, || progress.advance(1))
+        .map_err(ExperimentError::model)?;
+    let kinds: Vec<u8> = basins.labels().iter().map(|label| kind(*label, open)).collect();
+    let share = |kind: u8| kinds.iter().filter(|own| **own == kind).count() as f64 / kinds.len() as f64;
+    let attractor = match route {
+        Route::Periodic(known) => known.orbit.states.iter().copied().map(spot).collect(),
+        Route::Chaotic(state) => map
+            .orbit(state, ChatterPolicy::Complete)
+            .take(MARKED)
+            .filter_map(|event| match event {
+                Ok(OrbitEvent::Impact(impact)) => Some(spot(impact.into())),
+                _ => None,
+            })
+            .collect(),
+        Route::Gone => Vec::new(),
+    };
+    let speed_step = top / side as f64;
+    Ok(Panel {
+        axial_forcing,
+        max_impacts,
+        rows: kinds.chunks_exact(side).map(runs).collect(),
+        shares: Shares {
+            chattering: share(CHATTERING),
+            attractor: share(ATTRACTOR),
+            other: share(OTHER),
+            undecided: share(STILL_OPEN),
+        },
+        boundary_shares: [1, 2, 4, 8]
+            .into_iter()
+            .map(|size| (size, boundary_share(&kinds, side, size)))
+            .collect(),
+        lowest_not_chattering: kinds
+            .iter()
+            .position(|kind| *kind != CHATTERING)
+            .map(|index| ((index / side) as f64 + 0.5) * speed_step),
+        attractor,
+        chattering: chattering(&map)?,
+        others: known
+            .iter()
+            .skip(1)
+            .map(|known| Other {
+                impacts: known.orbit.states.iter().copied().map(spot).collect(),
+                platform_periods: known.orbit.platform_periods,
+                spectral_radius: Multipliers::of(known.orbit.monodromy).spectral_radius(),
+            })
+            .collect(),
+    })
+}
+
+/// The share of the window that has not come to rest after N impacts, against N.
+pub(super) fn decay(axial_forcing: f64, top: f64, side: usize) -> Result<Vec<(u32, f64)>, ExperimentError> {
+    const COUNTS: [u32; 9] = [20, 50, 100, 200, 300, CAUGHT_BY_CHAOS, 800, 1_600, 3_200];
+    let map = map(axial_forcing)?;
+    let grid = grid(top, side, side)?;
+    let most = COUNTS[COUNTS.len() - 1];
+    let lives: Vec<u32> = (0..side * side)
+        .into_par_iter()
+        .map(|index| {
+            let from = start(&grid, index / side, index % side)?;
+            let mut orbit = map.orbit(from, ChatterPolicy::Complete);
+            for lived in 0..most {
+                match orbit.advance().map_err(ExperimentError::model)? {
+                    Some(OrbitEvent::Impact(_)) => {}
+                    Some(_) | None => return Ok(lived),
+                }
+            }
+            Ok(most)
+        })
+        .collect::<Result<_, ExperimentError>>()?;
+    let share =
+        |count: u32| lives.iter().filter(|lived| **lived >= count).count() as f64 / lives.len() as f64;
+    Ok(COUNTS.into_iter().map(|count| (count, share(count))).collect())
+}
