@@ -308,7 +308,7 @@ mod tests {
             let policy = ChatterPolicy::Complete;
             let mut rotor = Rotor::at_rest(system.dimensionless(), phase, 0.0, policy).expect("legal");
             let start = Start::Contact { phase, angular_speed: 0.0 };
-            let mut engine = Engine::new(&system, start, policy).expect("legal");
+            let mut engine = Engine::new(system, start, policy).expect("legal");
             for _ in 0..3_000 {
                 let record = engine.advance().expect("no failure");
                 let step = rotor.advance().expect("no failure");

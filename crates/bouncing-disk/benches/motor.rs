@@ -1,0 +1,41 @@
+//! Ten seconds of the motor of Table III (70 kHz, A = 1e-8 m, g = 9.8 m/s^2, restitution 0.5, friction 0.1).
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+
+use bouncing_disk::core::Phase;
+use bouncing_disk::{DiskParameters, PlatformParameters, System, TransientSettings, transient};
+use criterion::{Criterion, criterion_group, criterion_main};
+
+fn motor_second(c: &mut Criterion) {
+    let angular_frequency = TAU * 70e3;
+    let platform = PlatformParameters {
+        amplitude: 1e-8,
+        twist_amplitude: 30.0 / angular_frequency,
+        angular_frequency,
+        phase_lag: 0.0,
+    };
+    let disk = DiskParameters {
+        contact_radius: 1.25e-3,
+        gyration_radius: 6.3e-3,
+        friction: 0.1,
+        restitution: 0.5,
+        preload_acceleration: 9.8,
+        load_acceleration: 0.0,
+    };
+    let system =
+        System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal system");
+    let phase = Phase::new(4.0).expect("finite");
+    let mut seed = 0;
+    // Another seed every time: the mean over the orbits that rounding or a perturbation may choose.
+    c.bench_function("w2_ten_motor_seconds", |bencher| {
+        bencher.iter(|| {
+            seed += 1;
+            let settings = TransientSettings { duration: 10.0, seed, ..TransientSettings::default() };
+            black_box(transient(&system, phase, &settings))
+        });
+    });
+}
+
+criterion_group!(benches, motor_second);
+criterion_main!(benches);
