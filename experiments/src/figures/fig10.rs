@@ -410,10 +410,10 @@ fn drawn(area: Rect, letter: &str, reading: &Reading, panel: &Transient) -> Pane
         .layer(Line::new(member).colour(Colour::GREY).width(0.6).name("one member"))
         .layer(Band::new(band).colour(Colour::BLUE).opacity(0.30).name("ensemble"))
         .layer(Line::new(smooth).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed).name("fit"))
-        .layer(note(0.34, format!("$A = 10^{{{}}}$ m", exponent(panel.amplitude_m))))
-        .layer(note(0.24, format!("$g = {}$ m/s$^2$", reading.preload_acceleration_m_per_s2)))
+        .layer(note(0.28, format!("$A = 10^{{{}}}$ m", exponent(panel.amplitude_m))))
+        .layer(note(0.20, format!("$g = {}$ m/s$^2$", reading.preload_acceleration_m_per_s2)))
         .layer(note(
-            0.14,
+            0.12,
             format!(r"$\dot{{\alpha}}_{{ss}} = {}$ rad/s", ensemble(&panel.steady_speed_rad_per_s, 1)),
         ))
         .layer(note(0.04, format!("$t_c = {}$ s", ensemble(&panel.time_constant_s, 3))));
