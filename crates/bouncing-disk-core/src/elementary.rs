@@ -146,7 +146,7 @@ pub(crate) fn sine_deficit_ratio(h: f64) -> f64 {
 /// Splits a non-negative duration in radians, at most 1.6e9, into the nearest whole number of periods and the
 /// rest, in [-pi, pi].
 ///
-/// The rest is exact to one rounding (two-part reduction); what the rounding of `duration` itself has
+/// The rest is off by at most 5e-16 + 2e-24 duration (two-part reduction); what the rounding of `duration` itself has
 /// lost is lost.
 #[inline(always)]
 pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
