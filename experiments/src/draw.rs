@@ -21,8 +21,8 @@
 //!
 //! # Why no plotting library
 //!
-//! Two libraries were tried. The labels of this paper mix italic variables, upright words, scripts and dotted
-//! accents in one line. kuva 0.6.0 has the right axes, but sets titles, tick labels and legends in one style
+//! The labels of this paper mix italic variables, upright words, scripts and dotted accents in one line. Two libraries
+//! were judged, kuva from its source and plotters from its documentation. kuva 0.6.0 has the right axes, but sets titles, tick labels and legends in one style
 //! without scripts, drops the dot of a dotted alpha (its other way, a typesetter, adds some 200 crates), has no
 //! image primitive for basins of attraction, places panels on a fixed grid only, and has no free drawings.
 //! plotters has neither ticks inside the frame nor any of the label features. What remains after replacing

@@ -4,6 +4,7 @@
 //! platform is its peak acceleration P = pi Gamma in units of g.
 
 mod basin;
+mod catching;
 mod chatter;
 mod drop;
 pub mod elementary;

@@ -8,7 +8,7 @@ use glam::DMat2;
 use roots::{Convergency, SearchError, find_root_brent};
 use serde::Serialize;
 
-use crate::elementary::{acos, sin_cos};
+use crate::elementary::acos;
 use crate::error::{Error, within};
 use crate::map::{ImpactMap, ImpactState};
 use crate::phase::Phase;
@@ -392,47 +392,5 @@ impl PeriodicOrbit {
         self.states
             .iter()
             .fold(f64::INFINITY, |least, &own| least.min(distance(state, own, peak_acceleration)))
-    }
-
-    /// A radius (rad; a radian counts as much as the speed P) within which every orbit ends on this one: on the
-    /// circles of that radius about its impacts `samples` starts each stay within four radii and end nearer than
-    /// they began. A sampled test, not a proof; `None` if even 1e-5 fails it (the orbit does not attract).
-    #[must_use]
-    pub fn trapping_radius(&self, map: &ImpactMap, samples: u32) -> Option<f64> {
-        let scale = map.vibration().peak_acceleration();
-        let mut radius = 0.1;
-        while radius > 1.0e-5 {
-            if self.states.iter().all(|&centre| self.traps_circle(map, centre, radius, scale, samples)) {
-                return Some(radius);
-            }
-            radius *= 0.5;
-        }
-        None
-    }
-
-    fn traps_circle(
-        &self,
-        map: &ImpactMap,
-        centre: ImpactState,
-        radius: f64,
-        scale: f64,
-        samples: u32,
-    ) -> bool {
-        (0..samples).all(|sample| {
-            let (s, c) = sin_cos(TAU * f64::from(sample) / f64::from(samples));
-            let start = Phase::new(centre.phase().angle() + radius * c)
-                .and_then(|phase| ImpactState::new(phase, centre.velocity() + radius * scale * s));
-            let Ok(mut state) = start else { return false };
-            for _ in 0..200 * self.period() {
-                match map.step(state) {
-                    Ok(impact) => state = impact.into(),
-                    Err(_) => return false,
-                }
-                if self.distance(state, scale) > 4.0 * radius {
-                    return false;
-                }
-            }
-            self.distance(state, scale) < radius
-        })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use bouncing_disk_core::elementary::sin;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +39,8 @@ pub struct TossPerformance {
     /// Rotary kinetic energy that the dough has gained by the separation, over the energy that the tossing motion
     /// has put in by then. The energy put in is the work of the hand, by normal force and by friction: it is found
     /// again in the dough's kinetic energy of rotation and of lift, in its height above the lowest point, and in
-    /// the friction between hand and dough. Negative if the dough turns slower than at the start.
+    /// the friction between hand and dough. The spin of a dough that starts with the hand counts as put in by the
+    /// hand and gained by the dough. Negative if a dough at rest is turned by a hand that takes energy back.
     pub efficiency: f64,
     /// Airborne rotary speed over the largest rotary speed of the hand, omega Phi; `None` without twist.
     pub speed_ratio: Option<f64>,
@@ -65,7 +67,7 @@ pub fn single_toss(system: &System, initial: InitialState) -> Result<TossPerform
         let record = record?;
         ledger += record.ledger;
         if record.event == Event::Separation {
-            return Ok(performance(system, &record, &ledger));
+            return Ok(performance(system, initial, &record, &ledger));
         }
     }
     Err(never_leaves(system))
@@ -93,14 +95,26 @@ fn toss_engine(system: &System, initial: InitialState) -> Result<Engine, Error> 
     Engine::new(system, Start::Contact { phase, angular_speed }, ChatterPolicy::Complete)
 }
 
-fn performance(system: &System, separation: &EventRecord, ledger: &EnergyLedger) -> TossPerformance {
+fn performance(
+    system: &System,
+    initial: InitialState,
+    separation: &EventRecord,
+    ledger: &EnergyLedger,
+) -> TossPerformance {
     let scales = system.scales();
     let state = scales.state(&separation.after);
     let energy = scales.energy(ledger);
     let peak = system.platform().peak_angular_speed();
+    let spin = match initial {
+        InitialState::AbsoluteRest => 0.0,
+        InitialState::RestRelativeToHand => {
+            let rim_speed = system.disk().gyration_radius() * peak * sin(system.platform().phase_lag());
+            0.5 * rim_speed * rim_speed
+        }
+    };
     TossPerformance {
         airborne_speed: state.angular_speed,
-        efficiency: energy.rotary_kinetic_change / energy.platform_work(),
+        efficiency: (energy.rotary_kinetic_change + spin) / (energy.platform_work() + spin),
         speed_ratio: (peak > 0.0).then(|| state.angular_speed / peak),
         separation_phase: separation.time.phase.angle(),
         sliding_at_separation: matches!(separation.before.mode, Mode::Sliding(_)),

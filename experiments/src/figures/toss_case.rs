@@ -1,6 +1,6 @@
 //! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
 
-use bouncing_disk::core::elementary::{acos, sin};
+use bouncing_disk::core::elementary::acos;
 use bouncing_disk::{DiskParameters, InitialState, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 
@@ -84,18 +84,9 @@ impl TossCase {
         System::new(platform, disk).map_err(ExperimentError::model)
     }
 
-    /// The performance of the toss. Its efficiency counts the spin of a dough that starts with the hand as put in
-    /// by the hand and gained by the dough. Without that the energy put in after the start may be zero or negative.
+    /// The performance of the toss.
     pub(crate) fn toss(&self, initial: InitialState) -> Result<TossPerformance, ExperimentError> {
-        let system = self.system()?;
-        let mut toss = single_toss(&system, initial).map_err(ExperimentError::model)?;
-        if initial == InitialState::RestRelativeToHand {
-            let speed =
-                self.gyration_radius_m * system.platform().peak_angular_speed() * sin(self.phase_lag_rad);
-            let spin = 0.5 * speed * speed;
-            toss.efficiency = (toss.rotary_energy_gain + spin) / (toss.energy.platform_work() + spin);
-        }
-        Ok(toss)
+        single_toss(&self.system()?, initial).map_err(ExperimentError::model)
     }
 
     /// The airborne speed in rad/s; the dough starts at rest.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Multipliers, OrbitEvent,
-    Phase, UNDECIDED, Vibration, elementary::sin_cos,
+    Phase, UNDECIDED, Vibration,
 };
 use rayon::prelude::*;
 
@@ -85,7 +85,7 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
             let settled =
                 map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
             if let Some(orbit) = settled
-                && let Some(radius) = catching_radius(map, &orbit)
+                && let Some(radius) = orbit.catching_radius(map)
             {
                 known.push(KnownOrbit { orbit, radius });
                 continue 'search;
@@ -95,34 +95,6 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
     }
     known.remove(0);
     Ok(known)
-}
-
-/// A radius within which sampled starts end on the orbit, however far they stray before: the basin of an orbit
-/// with strong shear is thin.
-fn catching_radius(map: &ImpactMap, orbit: &bouncing_disk::core::PeriodicOrbit) -> Option<f64> {
-    let scale = map.vibration().peak_acceleration();
-    let ends_here = |centre: &ImpactState, radius: f64, sample: u32| {
-        let (s, c) = sin_cos(TAU * f64::from(sample) / 32.0);
-        let from = Phase::new(centre.phase().angle() + radius * c)
-            .and_then(|phase| ImpactState::new(phase, centre.velocity() + radius * scale * s));
-        let steps = 100 * orbit.period();
-        let end = from.and_then(|from| map.survivor(from, steps, ChatterPolicy::Complete));
-        matches!(end, Ok(Some(end)) if orbit.distance(end, scale) < 1.0e-6)
-    };
-    let mut radius = 0.05;
-    while radius > 1.0e-5 {
-        let all = orbit.states.iter().all(|centre| {
-            [1.0, 0.7, 0.4, 0.2]
-                .iter()
-                .all(|part| (0..32).all(|sample| ends_here(centre, part * radius, sample)))
-        });
-        if all {
-            // A cell is caught well inside what was sampled.
-            return Some(0.5 * radius);
-        }
-        radius *= 0.5;
-    }
-    None
 }
 
 /// The impacts of one cycle of the disk from rest; empty if it does not come to rest again.
