@@ -4,6 +4,7 @@
 
 mod campaign;
 mod cases;
+mod drops;
 mod elementary;
 mod launches;
 mod oracle;
