@@ -1,9 +1,13 @@
 //! A number or statement printed in the paper, compared with ours.
 //!
-//! The verdict is the result of a comparison; nothing in this crate can set it by hand. A printed number is
-//! compared at the precision it is printed with: half a unit of its last digit, read off the printed text.
+//! The verdict is the result of a comparison; nothing in this crate can set it by hand. What is printed comes from the
+//! [ledger]; a printed number is compared at the precision it is printed with: half a unit of its last digit, read off
+//! the printed text.
 
 use serde::{Serialize, Serializer};
+
+use crate::ledger::{self, PrintedEntry};
+use crate::printed::PrintedNumber;
 
 /// The outcome of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -69,17 +73,108 @@ pub struct Claim {
     /// The number behind the printed text; `None` for statements and labels.
     #[serde(skip)]
     printed_value: Option<f64>,
+    #[serde(skip)]
+    source: Source,
+}
+
+/// Where the printed side of a claim comes from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Source {
+    /// Not printed: a check of this work, in words.
+    #[default]
+    ThisWork,
+    /// The answer to an entry of the [ledger].
+    Entry(String),
+    /// Another reading of an entry that is answered elsewhere.
+    Reading(String),
 }
 
 impl Claim {
-    /// A printed number, compared within half a unit of its last printed digit.
+    /// The answer to the entry `key` of the [ledger], a printed number: `computed`, in the unit of the entry, compared
+    /// within half a unit of the last printed digit. A computed NaN or infinity differs from every number.
+    ///
+    /// An unknown key, or an entry that is no number, gives a claim that differs and says so in its note.
+    pub fn printed(key: &str, computed: f64) -> Self {
+        Self::of_entry(key, |entry| {
+            let printed = entry.printed.as_deref().unwrap_or_default();
+            Self::number(&entry.figure, &entry.place, &entry.quantity, &entry.unit, printed, computed)
+        })
+    }
+
+    /// The answer to the entry `key`, a printed label (a name, an ordering, a region) that must equal ours.
+    pub fn printed_label(key: &str, computed: impl Into<String>) -> Self {
+        Self::of_entry(key, |entry| {
+            let printed = entry.printed.as_deref().unwrap_or_default();
+            Self::label(&entry.figure, &entry.place, &entry.quantity, printed, computed)
+        })
+    }
+
+    /// The answer to the entry `key`, a statement in words: whether our data agree, and the numbers that show it.
+    /// The entry may name a number, as in "for Γ < 0.52 ...".
+    pub fn printed_statement(key: &str, holds: bool, evidence: impl Into<String>) -> Self {
+        Self::of_entry(key, |entry| {
+            Self::statement(&entry.figure, &entry.place, &entry.quantity, holds, evidence)
+        })
+    }
+
+    /// A further comparison with the printed number of the entry `key`, by the figure or table `id`: another way to
+    /// compute it or another meaning of it. It does not answer the entry.
+    pub fn reading(id: &str, key: &str, quantity: impl Into<String>, computed: f64) -> Self {
+        Self::of_entry(key, |entry| {
+            let printed = entry.printed.as_deref().unwrap_or_default();
+            Self::number(id, &entry.place, quantity, &entry.unit, printed, computed)
+        })
+        .as_reading()
+    }
+
+    /// Like [`reading`](Self::reading) for the uncertainty of the entry, the number behind the ±.
+    pub fn printed_uncertainty(id: &str, key: &str, quantity: impl Into<String>, computed: f64) -> Self {
+        Self::of_entry(key, |entry| {
+            let printed = entry.printed.as_deref().and_then(|text| text.split_once('±'));
+            let printed = printed.map_or("", |(_, uncertainty)| uncertainty.trim());
+            Self::number(id, &entry.place, quantity, &entry.unit, printed, computed)
+        })
+        .as_reading()
+    }
+
+    fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
+        let claim = match ledger::find(key) {
+            Ok(entry) => make(entry),
+            Err(error) => {
+                // The first part of the key at least says which file was meant.
+                let mut claim = Self::label("", key, "", "", "");
+                claim.verdict = Verdict::Differs;
+                claim.note(error.to_string())
+            }
+        };
+        Self { source: Source::Entry(key.to_owned()), ..claim }
+    }
+
+    fn as_reading(self) -> Self {
+        match self.source {
+            Source::Entry(key) => Self { source: Source::Reading(key), ..self },
+            _ => self,
+        }
+    }
+
+    /// The claim of an entry that nothing can be computed for, for the reason given there.
+    pub(crate) fn of_reason(entry: &PrintedEntry, reason: &str) -> Self {
+        let printed = entry.printed.as_deref().unwrap_or("true");
+        let claim =
+            Self::not_computable(&entry.figure, &entry.place, &entry.quantity, &entry.unit, printed, reason);
+        Self { source: Source::Entry(entry.key.clone()), ..claim }
+    }
+
+    /// A printed number, compared within half a unit of its last printed digit. In a figure it comes from the ledger:
+    /// [`printed`](Self::printed).
     ///
     /// `printed` is the text exactly as printed: `"0.486"`, `"14 ± 5"` (compared with 14), `"0.323π"`,
     /// `"11.6 %"`, `"10⁻⁹"`, `"1.5 × 10⁻⁶"`, `"1e-6"`, `"≈ 22"`. `computed` is in the unit of the printed number;
     /// a printed multiple of π is compared as the product. A computed NaN or infinity differs from every number.
     ///
     /// A printed text that is not a number gives a claim that differs and says so in its note.
-    pub fn number(
+    pub(crate) fn number(
         id: impl Into<String>,
         place: impl Into<String>,
         quantity: impl Into<String>,
@@ -103,6 +198,7 @@ impl Claim {
             verdict: Verdict::Differs,
             note: String::new(),
             printed_value: read.map(|number| number.value),
+            source: Source::default(),
             printed,
         };
         if read.is_none() {
@@ -112,8 +208,8 @@ impl Claim {
         claim
     }
 
-    /// A printed label (a name, an ordering, a region) that must equal the computed one.
-    pub fn label(
+    /// A printed label that must equal the computed one.
+    pub(crate) fn label(
         id: impl Into<String>,
         place: impl Into<String>,
         quantity: impl Into<String>,
@@ -132,10 +228,14 @@ impl Claim {
             tolerance: None,
             note: String::new(),
             printed_value: None,
+            source: Source::default(),
         }
     }
 
-    /// A statement in words. `quantity` is the statement, `holds` whether our data agree, `evidence` the numbers
+    /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper will
+    /// want. What is printed comes from the ledger: [`printed_statement`](Self::printed_statement).
+    ///
+    /// `quantity` is the statement, `holds` whether our data agree, `evidence` the numbers
     /// that show it.
     pub fn statement(
         id: impl Into<String>,
@@ -155,11 +255,12 @@ impl Claim {
             verdict: if holds { Verdict::Reproduced } else { Verdict::Differs },
             note: evidence.into(),
             printed_value: None,
+            source: Source::default(),
         }
     }
 
     /// A printed number or statement that cannot be computed from the paper's text, and why.
-    pub fn not_computable(
+    pub(crate) fn not_computable(
         id: impl Into<String>,
         place: impl Into<String>,
         quantity: impl Into<String>,
@@ -178,6 +279,7 @@ impl Claim {
             verdict: Verdict::NotComputable,
             note: reason.into(),
             printed_value: PrintedNumber::read(&printed).map(|number| number.value),
+            source: Source::default(),
             printed,
         }
     }
@@ -213,6 +315,11 @@ impl Claim {
         self.verdict = if reproduced { Verdict::Reproduced } else { Verdict::Differs };
     }
 
+    /// Where the printed side comes from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
     /// The figure or table.
     pub fn id(&self) -> &str {
         &self.id
@@ -234,7 +341,7 @@ impl Claim {
     }
 
     /// The text as printed.
-    pub fn printed(&self) -> &str {
+    pub fn printed_text(&self) -> &str {
         &self.printed
     }
 
@@ -259,128 +366,12 @@ impl Claim {
     }
 }
 
-/// A printed number: its value, and half a unit of its last digit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PrintedNumber {
-    pub(crate) value: f64,
-    pub(crate) half_unit: f64,
-}
-
-impl PrintedNumber {
-    /// Reads a number as the paper prints it; `None` when the text is none.
-    pub(crate) fn read(text: &str) -> Option<Self> {
-        let text = plain_ascii(text);
-        let text = text.split("+-").next()?.trim();
-        let text = text.trim_start_matches(['~', ' ']).trim_end_matches(['%', ' ']);
-        let (text, factor) = match text.strip_suffix("pi") {
-            Some(rest) => (rest.trim_end().trim_end_matches('*').trim_end(), std::f64::consts::PI),
-            None => (text, 1.0),
-        };
-        let (mantissa, exponent) = split_exponent(text)?;
-        // A comma or a thin space groups digits: "70,000".
-        let digits: String = mantissa.chars().filter(|c| !matches!(c, ',' | ' ')).collect();
-        let decimals = match digits.split_once('.') {
-            Some((_, fraction)) => i32::try_from(fraction.len()).ok()?,
-            None => 0,
-        };
-        if !digits.bytes().any(|b| b.is_ascii_digit()) {
-            return None;
-        }
-        // Parsing the decimal text rounds once; multiplying by a power of ten would round twice.
-        let value: f64 = format!("{digits}e{exponent}").parse().ok()?;
-        let half_unit: f64 = format!("5e{}", exponent - decimals - 1).parse().ok()?;
-        Some(Self { value: value * factor, half_unit: half_unit * factor })
-    }
-}
-
-/// "2.5*10^-6", "10^-6", "2.5e-6", "2.5" as mantissa and exponent.
-fn split_exponent(text: &str) -> Option<(&str, i32)> {
-    let (mantissa, exponent) = if let Some((mantissa, exponent)) = text.split_once("10^") {
-        let mantissa = mantissa.trim_end().trim_end_matches('*').trim_end();
-        let mantissa = match mantissa {
-            "" => "1",
-            "-" => "-1",
-            other => other,
-        };
-        (mantissa, exponent.trim_start_matches('{').trim_end_matches('}'))
-    } else if let Some((mantissa, exponent)) = text.split_once(['e', 'E']) {
-        (mantissa, exponent)
-    } else {
-        (text, "0")
-    };
-    Some((mantissa, exponent.trim().trim_start_matches('+').parse().ok()?))
-}
-
-/// Unicode signs of printed numbers in ASCII: `−` to `-`, `×` to `*`, `±` to `+-`, `π` to `pi`, `10⁻⁹` to `10^-9`.
-fn plain_ascii(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut raised = false;
-    for c in text.trim().chars() {
-        let superscript = match c {
-            '⁻' => Some('-'),
-            '⁰' => Some('0'),
-            '¹' => Some('1'),
-            '²' => Some('2'),
-            '³' => Some('3'),
-            '⁴'..='⁹' => char::from_u32(u32::from('4') + (u32::from(c) - u32::from('⁴'))),
-            _ => None,
-        };
-        if let Some(digit) = superscript {
-            if !raised {
-                out.push('^');
-            }
-            raised = true;
-            out.push(digit);
-            continue;
-        }
-        raised = false;
-        match c {
-            '−' | '–' => out.push('-'),
-            '×' | '·' => out.push('*'),
-            '±' => out.push_str("+-"),
-            'π' => out.push_str("pi"),
-            '≈' | '∼' => out.push('~'),
-            '\u{2009}' | '\u{a0}' | '\u{202f}' => out.push(' '),
-            other => out.push(other),
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-
     use super::*;
 
-    fn read(text: &str) -> (f64, f64) {
-        let number = PrintedNumber::read(text).unwrap_or_else(|| panic!("{text} is a number"));
-        (number.value, number.half_unit)
-    }
-
     #[test]
-    fn the_tolerance_is_half_a_unit_of_the_last_printed_digit() {
-        assert_eq!(read("0.486"), (0.486, 0.0005));
-        assert_eq!(read("14"), (14.0, 0.5));
-        assert_eq!(read("14 ± 5"), (14.0, 0.5));
-        assert_eq!(read("14 ± 1.5"), (14.0, 0.5));
-        assert_eq!(read("1e-6"), (1e-6, 0.5e-6));
-        assert_eq!(read("10⁻⁹"), (1e-9, 0.5e-9));
-        assert_eq!(read("10^{-8}"), (1e-8, 0.5e-8));
-        assert_eq!(read("1.5 × 10⁻⁶"), (1.5e-6, 0.05e-6));
-        assert_eq!(read("−0.40"), (-0.4, 0.005));
-        assert_eq!(read("0.323π"), (0.323 * PI, 0.0005 * PI));
-        assert_eq!(read("11.6 %"), (11.6, 0.05));
-        assert_eq!(read("≈ 22"), (22.0, 0.5));
-        assert_eq!(read("70,000"), (70_000.0, 0.5));
-        assert_eq!(read("4.750"), (4.75, 0.0005));
-    }
-
-    #[test]
-    fn what_is_no_number_is_refused() {
-        for text in ["", "π", "about ten", "1.2.3", "10^x", "-", "e5"] {
-            assert!(PrintedNumber::read(text).is_none(), "{text}");
-        }
+    fn a_text_that_is_no_number_differs() {
         let claim = Claim::number("fig06", "caption", "ratio", "", "about five", 5.0);
         assert_eq!(claim.verdict(), Verdict::Differs);
         assert!(claim.remarks().contains("could not be read"));

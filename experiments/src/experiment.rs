@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::claim::Claim;
 use crate::draw::{DrawError, Figure};
 use crate::finite::{self, FiniteError};
+use crate::ledger::{self, LedgerError};
 use crate::progress::Progress;
 use crate::table::{Table, TableError};
 
@@ -87,7 +88,10 @@ pub enum ExperimentError {
     /// Stored data do not have the form this version reads.
     #[error("the stored data do not fit this version")]
     Stored(#[source] serde_json::Error),
-    /// An input file (a measurement, a table of the paper) could not be read.
+    /// A number printed in the paper could not be read.
+    #[error("the ledger of printed numbers failed")]
+    Ledger(#[from] LedgerError),
+    /// An input file (a measurement) could not be read.
     #[error("cannot read {path}")]
     Input {
         /// The file.
@@ -146,7 +150,9 @@ pub trait Experiment: Sync + Send + 'static {
     /// When the data cannot be drawn.
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
-    /// Every number and statement the paper prints about this figure, compared with the data.
+    /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
+    /// [ledger](crate::ledger) by its key. Entries of the ledger that have a reason why nothing can be computed are
+    /// added by the framework.
     fn claims(data: &Self::Data) -> Vec<Claim>;
 
     /// Name and value with unit, for the gallery.
@@ -247,7 +253,9 @@ impl<E: Experiment> Outcome for Typed<E> {
     }
 
     fn claims(&self) -> Vec<Claim> {
-        E::claims(&self.0)
+        let mut claims = E::claims(&self.0);
+        claims.extend(ledger::not_computable(E::ID));
+        claims
     }
 
     fn caption(&self) -> String {

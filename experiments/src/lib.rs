@@ -5,7 +5,8 @@
 //!
 //! * `run` computes plain, serialisable data (units in the field names); it knows no picture,
 //! * `draw` turns that data into a [`draw::Figure`]; it computes nothing,
-//! * `claims` compares every number the paper prints with the computed one ([`Claim`]).
+//! * `claims` compares every number the paper prints with the computed one ([`Claim`]); what is printed stands in the
+//!   [`ledger`] alone.
 //!
 //! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery.
 
@@ -15,9 +16,11 @@ pub mod experiment;
 pub mod figures;
 mod finite;
 pub mod json;
+pub mod ledger;
 pub mod output;
 pub mod page;
 pub mod paper;
+pub mod printed;
 pub mod product;
 pub mod progress;
 pub mod registry;

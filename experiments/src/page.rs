@@ -131,7 +131,7 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
     );
     for claim in claims {
         let computed = match claim.computed() {
-            Computed::Number(number) => with_unit(&like(claim.printed(), *number, 6), claim.unit()),
+            Computed::Number(number) => with_unit(&like(claim.printed_text(), *number, 6), claim.unit()),
             Computed::Boolean(true) => "holds".to_owned(),
             Computed::Boolean(false) => "does not hold".to_owned(),
             Computed::Text(text) => text.clone(),
@@ -139,10 +139,10 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
         };
         let printed = match claim.computed() {
             Computed::Boolean(_) => "stated".to_owned(),
-            _ => with_unit(claim.printed(), claim.unit()),
+            _ => with_unit(claim.printed_text(), claim.unit()),
         };
         let tolerance =
-            claim.tolerance().map_or("—".to_owned(), |tolerance| like(claim.printed(), tolerance, 2));
+            claim.tolerance().map_or("—".to_owned(), |tolerance| like(claim.printed_text(), tolerance, 2));
         let verdict = claim.verdict().name();
         let cells = [
             ("Place", "", claim.place()),

@@ -1,9 +1,11 @@
-//! The numbers that the paper prints in its tables and in Sec. III, read from `data/paper`.
+//! Printed numbers as typed inputs of the experiments, read from the [ledger](crate::ledger).
 
-use serde::de::DeserializeOwned;
+use std::f64::consts::PI;
+
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
+use crate::ledger::{self, LedgerError};
 
 /// A value with its uncertainty, printed as `value ± uncertainty`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,185 +17,294 @@ pub struct Measured {
     pub uncertainty: f64,
 }
 
-impl Measured {
-    /// The value as printed.
-    pub fn printed_value(&self) -> String {
-        self.value.to_string()
-    }
-}
-
 impl std::fmt::Display for Measured {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{} ± {}", self.value, self.uncertainty)
     }
 }
 
-/// Table I: full specification of a single toss.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableOne {
-    /// θ.
-    pub phase_lag_rad: f64,
-    /// φ_L.
-    pub amplitude_angle_rad: Measured,
-    /// c.
-    pub stroke_m: Measured,
-    /// ω.
-    pub angular_frequency_rad_per_s: Measured,
-    /// a_e.
-    pub contact_radius_m: Measured,
-    /// a_g.
-    pub gyration_radius_m: Measured,
-    /// μ.
-    pub friction: Measured,
-    /// g.
-    pub preload_acceleration_m_per_s2: f64,
+/// The keys of entries, each with the power of ten that takes its unit to that of the field.
+type Keys = [(&'static str, i32)];
+
+/// What can be read from entries.
+trait FromLedger: Sized {
+    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError>;
 }
 
-/// Table II: effects of input parameter uncertainties on the airborne speed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableTwo {
-    /// The airborne speed itself.
-    pub airborne_speed_rad_per_s: f64,
-    /// Effect of c.
-    pub stroke_effect_rad_per_s: f64,
-    /// Effect of ω.
-    pub angular_frequency_effect_rad_per_s: f64,
-    /// Effect of a_e.
-    pub contact_radius_effect_rad_per_s: f64,
-    /// Effect of a_g.
-    pub gyration_radius_effect_rad_per_s: f64,
-    /// Effect of μ.
-    pub friction_effect_rad_per_s: f64,
-    /// Effect of φ_L.
-    pub amplitude_angle_effect_rad_per_s: f64,
+fn values(keys: &Keys) -> Result<Vec<f64>, LedgerError> {
+    keys.iter().map(|(key, power)| Ok(ledger::number(key, *power)?.value)).collect()
 }
 
-/// Table III: default values for the dimensional parameters of the motor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TableThree {
-    /// μ.
-    pub friction: f64,
-    /// ε.
-    pub restitution: f64,
-    /// θ.
-    pub phase_lag_rad: f64,
-    /// A.
-    pub amplitude_m: f64,
-    /// ωΦ.
-    pub peak_angular_speed_rad_per_s: f64,
-    /// a_e.
-    pub contact_radius_mm: f64,
-    /// a_g.
-    pub gyration_radius_mm: f64,
-    /// g as printed; the 70 is ω/2π in kHz.
-    pub preload_acceleration_m_per_s2: f64,
+fn no_number(key: &str, wanted: &'static str) -> LedgerError {
+    let printed = ledger::text(key).unwrap_or_default().to_owned();
+    LedgerError::NoNumber { key: key.to_owned(), printed, wanted }
 }
 
-/// Numbers of Sec. III and of the captions of Figs. 4 and 5; texts are as printed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SectionThree {
-    /// The dough's measured vertical speed at separation.
-    pub launch_speed_m_per_s: Measured,
-    /// The dough's measured rotary speed at separation.
-    pub launch_angular_speed_rad_per_s: Measured,
-    /// What the paper's model predicts for it.
-    pub predicted_airborne_speed_rad_per_s: String,
-    /// φ_L of the observed tosses.
-    pub observed_amplitude_angle_rad: String,
-    /// φ_L of the optimum.
-    pub optimal_amplitude_angle_rad: String,
-    /// L of the optimum.
-    pub optimal_amplitude_ratio: String,
-    /// The airborne speed at the optimum.
-    pub largest_airborne_speed_rad_per_s: String,
-    /// η at the optimum.
-    pub largest_efficiency: String,
-    /// ν at the optimum.
-    pub speed_ratio_at_optimum: String,
-    /// The largest ν.
-    pub largest_speed_ratio: String,
-    /// φ_L of the largest ν.
-    pub amplitude_angle_of_largest_speed_ratio_rad: String,
-    /// φ_L of Fig. 5(c).
-    pub amplitude_angle_of_fig5c_rad: String,
-    /// μ of the curves of Fig. 4(e).
-    pub frictions_of_fig4e: Vec<f64>,
+impl<const N: usize> FromLedger for [f64; N] {
+    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+        let first = keys.first().map_or("", |(key, _)| *key);
+        Self::try_from(values(keys)?).map_err(|_| no_number(first, "list of this length"))
+    }
 }
 
-/// Numbers of Secs. I and V about ultrasonic motors; texts are as printed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SectionFive {
-    /// ω/2π of the default motor.
-    pub default_frequency_hz: f64,
-    /// Full preload: gravity.
-    pub gravity_m_per_s2: f64,
-    /// A of the panels of Fig. 10.
-    pub amplitudes_of_fig10_m: [f64; 3],
-    /// A of the authors' motor in the lower estimate of Γ (Sec. I).
-    pub own_motor_amplitude_m: f64,
-    /// ω/2π there.
-    pub own_motor_frequency_hz: f64,
-    /// Γ there.
-    pub own_motor_axial_forcing: String,
-    /// A of Tsujino's motor (Sec. I).
-    pub tsujino_amplitude_m: f64,
-    /// ω/2π of Tsujino's motor.
-    pub tsujino_frequency_hz: f64,
-    /// g of Tsujino's motor.
-    pub tsujino_preload_acceleration_m_per_s2: f64,
-    /// Γ printed for Tsujino's motor.
-    pub tsujino_axial_forcing: String,
-    /// Number of inputs that Sec. V A announces.
-    pub announced_inputs: u32,
-    /// Number of inputs that Table III prints.
-    pub printed_inputs: u32,
-    /// Weight of a steel ball of 20 mm diameter.
-    pub rotor_weight_n: f64,
+impl FromLedger for Vec<f64> {
+    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+        values(keys)
+    }
 }
 
-/// What a file of `data/paper` holds.
-#[derive(Deserialize)]
-struct Source<T> {
-    values: T,
+impl FromLedger for f64 {
+    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+        <[Self; 1]>::from_ledger(keys).map(|[value]| value)
+    }
 }
 
-macro_rules! tables {
-    ($($(#[$doc:meta])* $name:ident: $kind:ty = $file:literal;)*) => {
-        $($(#[$doc])*
-        ///
-        /// # Errors
-        ///
-        /// When the file does not have the form of this version.
-        pub fn $name() -> Result<$kind, ExperimentError> {
-            read($file, include_str!(concat!("../../data/paper/", $file)))
-        })*
+impl FromLedger for String {
+    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+        Ok(ledger::text(keys.first().map_or("", |(key, _)| *key))?.to_owned())
+    }
+}
+
+impl FromLedger for Measured {
+    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+        let (key, power) = keys.first().copied().unwrap_or_default();
+        let number = ledger::number(key, power)?;
+        let uncertainty = number.uncertainty.ok_or_else(|| no_number(key, "value with an uncertainty"))?;
+        Ok(Self { value: number.value, uncertainty })
+    }
+}
+
+/// A printed number, in the unit of its entry.
+///
+/// # Errors
+///
+/// When there is no such number.
+pub fn value(key: &str) -> Result<f64, ExperimentError> {
+    Ok(ledger::number(key, 0)?.value)
+}
+
+macro_rules! power {
+    () => {
+        0
+    };
+    ($power:literal) => {
+        $power
     };
 }
 
-tables! {
-    /// Table I.
-    table_one: TableOne = "table1.json";
-    /// Table II.
-    table_two: TableTwo = "table2.json";
-    /// Table III.
-    table_three: TableThree = "table3.json";
-    /// The numbers of Sec. III.
-    section_three: SectionThree = "section3.json";
-    /// The numbers about motors.
-    section_five: SectionFive = "section5.json";
+macro_rules! structs {
+    ($($(#[$doc:meta])* $name:ident, $load:ident {
+        $($(#[$field_doc:meta])* $field:ident: $kind:ty = $($key:literal $(e $power:literal)?),+;)*
+    })*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct $name {
+            $($(#[$field_doc])* pub $field: $kind,)*
+        }
+
+        $(#[$doc])*
+        ///
+        /// # Errors
+        ///
+        /// When an entry is missing or of another kind.
+        pub fn $load() -> Result<$name, ExperimentError> {
+            Ok($name {
+                $($field: <$kind>::from_ledger(&[$(($key, power!($($power)?))),+])?,)*
+            })
+        }
+    )*};
 }
 
-fn read<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, ExperimentError> {
-    let source: Source<T> = serde_json::from_str(text).map_err(|error| ExperimentError::Input {
-        path: std::path::Path::new("data/paper").join(file),
-        source: Box::new(error),
-    })?;
-    Ok(source.values)
+structs! {
+    /// Table I: full specification of a single toss.
+    TableOne, table_one {
+        /// θ.
+        phase_lag_rad: f64 = "table1.phase_lag";
+        /// φ_L.
+        amplitude_angle_rad: Measured = "table1.amplitude_angle";
+        /// c.
+        stroke_m: Measured = "table1.stroke";
+        /// ω.
+        angular_frequency_rad_per_s: Measured = "table1.angular_frequency";
+        /// a_e.
+        contact_radius_m: Measured = "table1.contact_radius";
+        /// a_g.
+        gyration_radius_m: Measured = "table1.gyration_radius";
+        /// μ.
+        friction: Measured = "table1.friction";
+        /// g.
+        preload_acceleration_m_per_s2: f64 = "table1.preload_acceleration";
+    }
+
+    /// Table II: effects of input parameter uncertainties on the airborne speed.
+    TableTwo, table_two {
+        /// Effect of c.
+        stroke_effect_rad_per_s: f64 = "table2.stroke_effect";
+        /// Effect of ω.
+        angular_frequency_effect_rad_per_s: f64 = "table2.angular_frequency_effect";
+        /// Effect of a_e.
+        contact_radius_effect_rad_per_s: f64 = "table2.contact_radius_effect";
+        /// Effect of a_g.
+        gyration_radius_effect_rad_per_s: f64 = "table2.gyration_radius_effect";
+        /// Effect of μ.
+        friction_effect_rad_per_s: f64 = "table2.friction_effect";
+        /// Effect of φ_L.
+        amplitude_angle_effect_rad_per_s: f64 = "table2.amplitude_angle_effect";
+    }
+
+    /// Table III: default values for the dimensional parameters of the motor.
+    TableThree, table_three {
+        /// μ.
+        friction: f64 = "table3.friction";
+        /// ε.
+        restitution: f64 = "table3.restitution";
+        /// θ.
+        phase_lag_rad: f64 = "table3.phase_lag";
+        /// A.
+        amplitude_m: f64 = "table3.amplitude";
+        /// ωΦ.
+        peak_angular_speed_rad_per_s: f64 = "table3.peak_angular_speed";
+        /// a_e.
+        contact_radius_mm: f64 = "table3.contact_radius";
+        /// a_g.
+        gyration_radius_mm: f64 = "table3.gyration_radius";
+        /// g as printed; the 70 is ω/2π in kHz.
+        preload_acceleration_m_per_s2: f64 = "table3.preload_acceleration";
+    }
+
+    /// Numbers of Sec. III and of the captions of Figs. 4 and 5; texts are as printed.
+    SectionThree, section_three {
+        /// The dough's measured vertical speed at separation.
+        launch_speed_m_per_s: Measured = "section3.launch_speed";
+        /// The dough's measured rotary speed at separation.
+        launch_angular_speed_rad_per_s: Measured = "section3.launch_angular_speed";
+        /// What the paper's model predicts for it.
+        predicted_airborne_speed_rad_per_s: String = "section3.predicted_airborne_speed";
+        /// φ_L of the observed tosses.
+        observed_amplitude_angle_rad: String = "section3.observed_amplitude_angle";
+        /// φ_L of the optimum.
+        optimal_amplitude_angle_rad: String = "section3.optimal_amplitude_angle";
+        /// L of the optimum.
+        optimal_amplitude_ratio: String = "section3.optimal_amplitude_ratio";
+        /// The airborne speed at the optimum.
+        largest_airborne_speed_rad_per_s: String = "section3.largest_airborne_speed";
+        /// η at the optimum.
+        largest_efficiency: String = "section3.largest_efficiency";
+        /// ν at the optimum.
+        speed_ratio_at_optimum: String = "section3.speed_ratio_at_optimum";
+        /// The largest ν.
+        largest_speed_ratio: String = "section3.largest_speed_ratio";
+        /// φ_L of the largest ν.
+        amplitude_angle_of_largest_speed_ratio_rad: String = "section3.amplitude_angle_of_largest_speed_ratio";
+        /// φ_L of Fig. 5(c).
+        amplitude_angle_of_fig5c_rad: String = "section3.amplitude_angle_of_fig5c";
+        /// μ of the curves of Fig. 4(e).
+        frictions_of_fig4e: Vec<f64> = "section3.low_friction_of_fig4e", "section3.middle_friction_of_fig4e",
+            "section3.high_friction_of_fig4e";
+    }
+
+    /// Numbers of Sec. IV and of the captions of Figs. 6 and 7.
+    SectionFour, section_four {
+        /// ε.
+        restitution: f64 = "section4.restitution";
+        /// Γ from which the period-1 attractor is followed.
+        followed_from: f64 = "section4.followed_from";
+        /// θ of Fig. 6(c).
+        linear_phase_lag_rad: f64 = "section4.phase_lag_of_fig6c";
+        /// Γ_T of Fig. 6(c).
+        linear_angular_forcing: f64 = "section4.angular_forcing_of_fig6c";
+        /// θ of Fig. 6(d).
+        semielliptical_phase_lag_rad: f64 = "section4.semielliptical_phase_lag";
+        /// Γ_T of Fig. 6(d).
+        semielliptical_angular_forcing: f64 = "section4.angular_forcing_of_fig6d";
+        /// Γ below which the chattering orbit is said to follow the pattern of single tosses.
+        single_tosses_end: f64 = "section4.single_tosses_end";
+        /// Γ of the panels of Fig. 7.
+        axial_forcings_of_fig7: [f64; 5] = "section4.axial_forcing_of_fig7a", "section4.axial_forcing_of_fig7b",
+            "section4.axial_forcing_of_fig7c", "section4.axial_forcing_of_fig7d", "section4.axial_forcing_of_fig7e";
+        /// Shares of the period-1 basin in Fig. 7(a) and (b).
+        shares_of_period_one: [f64; 2] = "section4.share_at_fig7a" e -2, "section4.share_at_fig7b" e -2;
+    }
+
+    /// Numbers of Secs. I and V about ultrasonic motors; texts are as printed.
+    SectionFive, section_five {
+        /// ω/2π of the default motor.
+        default_frequency_hz: f64 = "section1.own_motor_frequency" e 3;
+        /// Full preload: gravity.
+        gravity_m_per_s2: f64 = "table1.preload_acceleration";
+        /// A of the panels of Fig. 10.
+        amplitudes_of_fig10_m: [f64; 3] = "section5.smallest_amplitude_of_fig10",
+            "section5.middle_amplitude_of_fig10", "section5.largest_amplitude_of_fig10";
+        /// A of the authors' motor in the lower estimate of Γ (Sec. I).
+        own_motor_amplitude_m: f64 = "section1.own_motor_amplitude" e -9;
+        /// A of Tsujino's motor (Sec. I).
+        tsujino_amplitude_m: f64 = "section1.tsujino_amplitude" e -6;
+        /// ω/2π of Tsujino's motor.
+        tsujino_frequency_hz: f64 = "section1.tsujino_frequency" e 3;
+        /// g of Tsujino's motor.
+        tsujino_preload_acceleration_m_per_s2: f64 = "section1.tsujino_preload_acceleration";
+        /// Diameter of the rotor, a steel ball.
+        rotor_diameter_m: f64 = "section5.rotor_diameter" e -3;
+    }
+
+    /// The preloads of Fig. 11.
+    Preloads, preloads {
+        /// ω/2π of (a) and (b), and of (c) and (d).
+        frequencies_hz: [f64; 2] = "section1.own_motor_frequency" e 3, "section5.second_frequency" e 3;
+        /// The lowest and the highest g.
+        preload_accelerations_m_per_s2: [f64; 2] = "section5.lowest_preload_acceleration",
+            "section5.highest_preload_acceleration";
+        /// The range of preloads in which the measured trends hold; printed in mNm, meant in mN (`docs/errata.md`).
+        measured_range_n: [f64; 2] = "section5.lowest_preload" e -3, "section5.highest_preload" e -3;
+        /// The preload above which the measured stall torque has a plateau; printed in mNm, meant in mN.
+        plateau_n: f64 = "section5.plateau_preload" e -3;
+    }
+
+    /// The two cases of Fig. 12.
+    ChatteringCases, chattering_cases {
+        /// A of the long-period and of the low-period case.
+        amplitudes_m: [f64; 2] = "section5.amplitude_of_long_period", "section5.amplitude_of_low_period";
+        /// g of the two.
+        preload_accelerations_m_per_s2: [f64; 2] = "section5.preload_acceleration_of_long_period",
+            "section5.preload_acceleration_of_low_period";
+    }
+
+    /// The drop of the steel ball (Sec. V A).
+    BallDrop, ball_drop {
+        /// The height from which it is dropped.
+        drop_height_m: f64 = "section5.drop_height" e -2;
+        /// The height to which it rebounds.
+        rebound_height_m: Measured = "section5.rebound_height" e -2;
+    }
+
+    /// The fit of the dough's diameter (Appendix).
+    DoughGrowth, dough_growth {
+        /// The end of the second toss.
+        fit_start_s: f64 = "appendix.fit_start";
+        /// The slope of d/d_0.
+        fit_slope_per_s: f64 = "appendix.fit_slope";
+        /// The first and the last toss of the growth.
+        tosses: [f64; 2] = "appendix.first_toss", "appendix.last_toss";
+        /// The growth between them, as a share.
+        growth: f64 = "appendix.growth" e -2;
+    }
+}
+
+/// Density of steel, kg/m³: a handbook value; the paper weighs the rotor but does not print the weight.
+const STEEL_DENSITY: f64 = 7850.0;
+
+impl SectionFive {
+    /// The mass of the rotor, kg: a solid steel ball.
+    pub fn rotor_mass_kg(&self) -> f64 {
+        let diameter = self.rotor_diameter_m;
+        STEEL_DENSITY * PI * diameter * diameter * diameter / 6.0
+    }
+}
+
+/// The number of inputs that Table III prints.
+pub fn printed_inputs() -> usize {
+    ledger::entries().unwrap_or_default().iter().filter(|entry| entry.place == "Table III").count()
 }
 
 #[cfg(test)]
@@ -201,21 +312,39 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_files_have_the_form_that_is_read() {
+    fn all_structs_find_their_entries() {
         table_two().expect("reads");
-        table_three().expect("reads");
         section_three().expect("reads");
-        section_five().expect("reads");
+        preloads().expect("reads");
+        chattering_cases().expect("reads");
+        ball_drop().expect("reads");
+        dough_growth().expect("reads");
         let table = table_one().expect("reads");
         assert_eq!(table.contact_radius_m.to_string(), "0.135 ± 0.015");
-        assert_eq!(table.angular_frequency_rad_per_s.printed_value(), "15");
+        assert_eq!(table_three().expect("reads").amplitude_m, 1e-8);
+        let four = section_four().expect("reads");
+        assert_eq!(four.shares_of_period_one, [0.116, 0.391]);
+        assert_eq!(four.semielliptical_phase_lag_rad, -0.26 * PI);
+        let five = section_five().expect("reads");
+        assert_eq!((five.default_frequency_hz, five.tsujino_amplitude_m), (70_000.0, 5e-6));
+        assert!((five.rotor_mass_kg() * five.gravity_m_per_s2 - 0.322).abs() < 5e-4);
     }
 
     #[test]
-    fn a_misspelt_name_is_refused_and_the_file_named() {
-        let error = read::<Measured>("table9.json", r#"{"values": {"value": 1, "uncertianty": 2}}"#)
-            .expect_err("misspelt");
-        let text = crate::experiment::chain(&error);
-        assert!(text.contains("table9.json") && text.contains("uncertianty"), "{text}");
+    fn table_three_prints_eight_inputs() {
+        assert_eq!(printed_inputs(), 8);
+    }
+
+    #[test]
+    fn a_wrong_kind_is_refused_and_the_entry_named() {
+        for error in [
+            f64::from_ledger(&[("section4.three_branches", 0)]).map(drop),
+            Measured::from_ledger(&[("section4.doubling_1", 0)]).map(drop),
+            <[f64; 2]>::from_ledger(&[("section4.doubling_1", 0)]).map(drop),
+            f64::from_ledger(&[("section4.doubling_9", 0)]).map(drop),
+        ] {
+            let text = error.expect_err("wrong kind").to_string();
+            assert!(text.contains("section4."), "{text}");
+        }
     }
 }

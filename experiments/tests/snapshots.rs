@@ -1,6 +1,7 @@
 //! Snapshots of every figure and table at draft quality.
 //!
-//! A snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels and integers are
+//! Every number and statement that the paper prints about a figure must be answered by exactly one of its claims. A
+//! snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels and integers are
 //! compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as statistics, which a reader can
 //! judge, and a digest of all their bits, which is compared exactly: the arithmetic is the same on every machine
 //! (`docs/numerics.md`). Fields named in [`VARYING`] come from a library whose last bits depend on the processor;
@@ -12,7 +13,7 @@
 use std::collections::BTreeMap;
 
 use bouncing_disk_experiments::experiment::{Entry, Quality, chain};
-use bouncing_disk_experiments::{Silent, registry};
+use bouncing_disk_experiments::{Silent, ledger, registry};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
 use serde_json::{Map, Value, json};
@@ -59,7 +60,10 @@ fn product(entry: &dyn Entry) -> Map<String, Value> {
         product.insert("title".to_owned(), entry.title().into());
         product.insert("caption".to_owned(), outcome.caption().into());
         product.insert("parameters".to_owned(), json!(outcome.parameters()));
-        product.insert("claims".to_owned(), json!(outcome.claims()));
+        let claims = outcome.claims();
+        let faults = ledger::faults(entry.id(), &claims);
+        assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id(), faults.join("; "));
+        product.insert("claims".to_owned(), json!(claims));
         product.insert("table".to_owned(), json!(table));
         product.insert("data".to_owned(), outcome.to_json()?);
         Ok(product)

@@ -4,6 +4,7 @@ mod chattering;
 mod data;
 mod merging;
 mod picture;
+mod regimes;
 mod scan;
 mod statements;
 
@@ -12,12 +13,6 @@ use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-
-/// Coefficient of restitution of Sec. IV.
-const RESTITUTION: f64 = 0.5;
-
-/// Γ from which the period-1 attractor is followed (Sec. IV A).
-const FOLLOWED_FROM: f64 = 0.335;
 
 /// Fig. 6.
 #[derive(Debug)]

@@ -15,6 +15,7 @@ use crate::draw::{
     Ticks,
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::ledger;
 use crate::paper::{self, SectionFive, TableThree};
 use crate::progress::Progress;
 
@@ -253,7 +254,7 @@ impl Experiment for Fig10 {
         let table = paper::table_three()?;
         let section = paper::section_five()?;
         let members = quality.choose(6, 32);
-        let mass = section.rotor_weight_n / section.gravity_m_per_s2;
+        let mass = section.rotor_mass_kg();
         let defaults = TransientSettings::default();
         let amplitudes = section.amplitudes_of_fig10_m;
         progress.start((2 * amplitudes.len() + 1 + PERTURBATIONS.len()) as u64, "ensembles");
@@ -322,7 +323,7 @@ impl Experiment for Fig10 {
             perturbations,
             own_motor_axial_forcing: axial_forcing(
                 section.own_motor_amplitude_m,
-                section.own_motor_frequency_hz,
+                section.default_frequency_hz,
                 section.gravity_m_per_s2,
             ),
             tsujino_axial_forcing: axial_forcing(
@@ -437,46 +438,37 @@ fn exponent(value: f64) -> String {
 fn claims(data: &Fig10Data) -> Vec<Claim> {
     let id = Fig10::ID;
     let section = &data.section;
-    let table = &data.table_iii;
     let [first, second] = &data.readings[..] else { return Vec::new() };
     let mut claims = vec![
-        Claim::number(
-            id,
-            "Sec. I",
-            "Γ of the authors' motor at A = 1 nm, 70 kHz, gravity (lower estimate)",
-            "",
-            section.own_motor_axial_forcing.clone(),
-            data.own_motor_axial_forcing,
-        )
-        .note("ω read as 2π · 70 kHz, which this number confirms"),
-        Claim::number(
-            id,
-            "Sec. I",
-            "Γ of Tsujino's motor (5 μm, 55 kHz, 9000 m/s²)",
-            "",
-            section.tsujino_axial_forcing.clone(),
-            data.tsujino_axial_forcing,
-        )
-        .note(format!(
+        Claim::printed("section1.own_motor_axial_forcing", data.own_motor_axial_forcing)
+            .note("ω read as 2π · 70 kHz, which this number confirms"),
+        Claim::printed("section1.tsujino_axial_forcing", data.tsujino_axial_forcing).note(format!(
             "A ω²/g without the factor π is {:.1}, which rounds to the printed value: the π of the definition was left out",
             data.tsujino_peak_acceleration
         )),
-        Claim::number(
-            id,
-            "Table III",
-            "default g",
-            "m/s²",
-            table.preload_acceleration_m_per_s2.to_string(),
-            section.gravity_m_per_s2,
-        )
-        .note(format!(
+        Claim::printed_statement(
+            "section1.motors_bounce",
+            data.own_motor_axial_forcing.min(data.tsujino_axial_forcing) * PI > 1.0,
+            format!(
+                "Γ = {:.2} and {:.2} for the two motors of Sec. I",
+                data.own_motor_axial_forcing, data.tsujino_axial_forcing
+            ),
+        ),
+        Claim::reading(id, "table3.preload_acceleration", "default g", section.gravity_m_per_s2).note(format!(
             "Sec. V A announces {} inputs and Table III prints {}; the frequency is missing, its default is {} kHz, and \
              preload is gravity: the 70 is ω/2π in kHz. Both readings are computed",
-            section.announced_inputs,
-            section.printed_inputs,
+            ledger::text("section5.announced_inputs").unwrap_or_default(),
+            paper::printed_inputs(),
             section.default_frequency_hz / 1000.0
         )),
     ];
+    let lowest = first.panels.iter().map(|panel| panel.axial_forcing).fold(f64::INFINITY, f64::min);
+    let merging = ledger::number("section4.merging", 0).map_or(f64::NAN, |printed| printed.value);
+    claims.push(Claim::printed_statement(
+        "section4.motor_regime",
+        lowest > merging,
+        format!("the smallest A of Fig. 10 has Γ = {lowest:.2}"),
+    ));
     let oscillations: Vec<f64> = first.panels.iter().map(|panel| panel.relative_oscillation).collect();
     let ramps: Vec<f64> = first.panels.iter().map(|panel| panel.relative_ramp_residual).collect();
     let percent = |values: &[f64]| {
@@ -496,10 +488,8 @@ fn claims(data: &Fig10Data) -> Vec<Claim> {
             100.0 * broken.relative_oscillation
         )
     });
-    claims.push(Claim::statement(
-        id,
-        "Sec. V B",
-        "transients are of the form α̇_ss(1 − e^(−t/t_c)) at all three amplitudes",
+    claims.push(Claim::printed_statement(
+        "section5.exponential_transients",
         oscillations.iter().zip(&ramps).all(|(exponential, ramp)| exponential < ramp),
         format!(
             "root mean square deviation over α̇_ss from the exponential: {}; from a linear rise to a constant: {}{low_period}",
@@ -507,10 +497,8 @@ fn claims(data: &Fig10Data) -> Vec<Claim> {
             percent(&ramps)
         ),
     ));
-    claims.push(Claim::statement(
-        id,
-        "Sec. V B",
-        "the oscillation of the speed grows with A",
+    claims.push(Claim::printed_statement(
+        "section5.oscillation_grows",
         oscillations.windows(2).all(|pair| pair[0] < pair[1]),
         format!(
             "deviation from the exponential at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}{low_period}",
@@ -526,10 +514,8 @@ fn claims(data: &Fig10Data) -> Vec<Claim> {
         format!("deviation from the exponential at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}", percent(&kicked)),
     ));
     let rates: Vec<f64> = first.panels.iter().map(|panel| panel.impacts_per_s).collect();
-    claims.push(Claim::statement(
-        id,
-        "Sec. V B",
-        "small A: more frequent collisions",
+    claims.push(Claim::printed_statement(
+        "section5.frequent_collisions",
         rates.windows(2).all(|pair| pair[0] > pair[1]),
         format!(
             "impacts per second at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}",
@@ -543,10 +529,8 @@ fn claims(data: &Fig10Data) -> Vec<Claim> {
         .all(|(reading, panel)| {
             panel.stall_acceleration_rad_per_s2.mean <= reading.largest_acceleration_rad_per_s2
         });
-    claims.push(Claim::statement(
-        id,
-        "Sec. V C",
-        "the stall torque is limited by μ",
+    claims.push(Claim::printed_statement(
+        "section5.torque_limit",
         within_limit,
         format!(
             "α̇_ss/t_c at the default A is {:.1} rad/s² (a torque of {:.2e} N m) against a limit μ a_e g/a_g² of {:.1} rad/s²; \
@@ -584,13 +568,21 @@ fn claims(data: &Fig10Data) -> Vec<Claim> {
              are then the same every time, the more of them the smaller the perturbation"
         ),
     ));
-    claims.push(Claim::not_computable(
-        id,
-        "Fig. 10(d)–(f)",
-        "measured transients of three trials",
-        "rad/s",
-        "curves",
-        "measured points are not in the text of the paper",
+    let low_period: Vec<String> = first
+        .panels
+        .iter()
+        .filter_map(|panel| {
+            let cycle = panel.cycle.as_ref()?;
+            Some(format!("{} periods at A = {:e} m", cycle.platform_periods, panel.amplitude_m))
+        })
+        .collect();
+    claims.push(Claim::printed_statement(
+        "section5.long_period_chattering",
+        low_period.is_empty(),
+        match low_period.is_empty() {
+            true => "no cycle closes within 200 impacts".to_owned(),
+            false => format!("cycles that close within 200 impacts: {}", low_period.join(", ")),
+        },
     ));
     claims
 }

@@ -4,7 +4,7 @@ use bouncing_disk::core::elementary::atan;
 use serde::{Deserialize, Serialize};
 
 use super::toss_case::TossCase;
-use crate::claim::Claim;
+use crate::claim::{Claim, Verdict};
 use crate::draw::{Figure, Label, ruled_table};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
@@ -21,7 +21,6 @@ pub struct Table2Data {
     table_i: TableOne,
     section: SectionThree,
     airborne_speed_rad_per_s: f64,
-    printed_airborne_speed_rad_per_s: f64,
     effects: Vec<Effect>,
     combined: Combined,
     from_launch_speeds: FromLaunchSpeeds,
@@ -31,6 +30,8 @@ pub struct Table2Data {
 #[derive(Debug, Serialize, Deserialize)]
 struct Effect {
     input: String,
+    /// The entry of the ledger.
+    key: String,
     unit: String,
     value: f64,
     uncertainty: f64,
@@ -75,6 +76,7 @@ const SLOPE_STEP: f64 = 1e-4;
 /// An input of the toss: how the paper names it and how it is changed.
 struct Input {
     symbol: &'static str,
+    name: &'static str,
     label: &'static str,
     unit: &'static str,
     measured: Measured,
@@ -86,6 +88,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
     [
         Input {
             symbol: "c",
+            name: "stroke",
             label: "$c$",
             unit: "m",
             measured: table.stroke_m,
@@ -94,6 +97,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
         },
         Input {
             symbol: "ω",
+            name: "angular_frequency",
             label: r"$\omega$",
             unit: "rad/s",
             measured: table.angular_frequency_rad_per_s,
@@ -102,6 +106,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
         },
         Input {
             symbol: "a_e",
+            name: "contact_radius",
             label: "$a_e$",
             unit: "m",
             measured: table.contact_radius_m,
@@ -110,6 +115,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
         },
         Input {
             symbol: "a_g",
+            name: "gyration_radius",
             label: "$a_g$",
             unit: "m",
             measured: table.gyration_radius_m,
@@ -118,6 +124,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
         },
         Input {
             symbol: "μ",
+            name: "friction",
             label: r"$\mu$",
             unit: "",
             measured: table.friction,
@@ -126,6 +133,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
         },
         Input {
             symbol: "φ_L",
+            name: "amplitude_angle",
             label: r"$\phi_L$",
             unit: "rad",
             measured: table.amplitude_angle_rad,
@@ -146,6 +154,7 @@ fn effect(table: &TossCase, input: &Input) -> Result<Effect, ExperimentError> {
     let (upper, lower) = (speed(1.0)? - middle, speed(-1.0)? - middle);
     Ok(Effect {
         input: input.symbol.to_owned(),
+        key: format!("table2.{}_effect", input.name),
         unit: input.unit.to_owned(),
         value,
         uncertainty,
@@ -266,7 +275,6 @@ impl Experiment for Table2 {
         }
         Ok(Table2Data {
             airborne_speed_rad_per_s: table.airborne_speed()?,
-            printed_airborne_speed_rad_per_s: printed.airborne_speed_rad_per_s,
             combined: combined(&effects),
             from_launch_speeds: from_launch_speeds(&table_i, &section)?,
             effects,
@@ -314,31 +322,13 @@ impl Experiment for Table2 {
     }
 
     fn claims(data: &Table2Data) -> Vec<Claim> {
-        let id = Self::ID;
-        let mut claims = vec![Claim::number(
-            id,
-            "Table II",
-            "airborne speed",
-            "rad/s",
-            data.printed_airborne_speed_rad_per_s.to_string(),
-            data.airborne_speed_rad_per_s,
-        )];
+        let mut claims = vec![Claim::printed("table2.airborne_speed", data.airborne_speed_rad_per_s)];
         for effect in &data.effects {
-            claims.push(
-                Claim::number(
-                    id,
-                    "Table II",
-                    format!("uncertainty of the airborne speed due to {}", effect.input),
-                    "rad/s",
-                    effect.printed_rad_per_s.to_string(),
-                    effect.central_rad_per_s.abs(),
-                )
-                .note(format!(
-                    "half the difference of the speeds at both ends; changes at the upper end {:+.4}, at the lower \
-                     end {:+.4}, slope times uncertainty {:+.4}",
-                    effect.upper_rad_per_s, effect.lower_rad_per_s, effect.linear_rad_per_s
-                )),
-            );
+            claims.push(Claim::printed(&effect.key, effect.central_rad_per_s.abs()).note(format!(
+                "half the difference of the speeds at both ends; changes at the upper end {:+.4}, at the lower end \
+                 {:+.4}, slope times uncertainty {:+.4}",
+                effect.upper_rad_per_s, effect.lower_rad_per_s, effect.linear_rad_per_s
+            )));
         }
         claims.push(readings(data));
         claims.push(together(data));
@@ -389,12 +379,6 @@ fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
 }
 
-/// Whether a computed size rounds to the printed entry.
-fn rounds_to(computed: f64, printed: f64) -> bool {
-    let claim = Claim::number("", "", "", "", printed.to_string(), computed.abs());
-    claim.verdict() == crate::claim::Verdict::Reproduced
-}
-
 /// Which readings of the table give all its entries.
 fn readings(data: &Table2Data) -> Claim {
     let mut complete = 0;
@@ -403,7 +387,10 @@ fn readings(data: &Table2Data) -> Claim {
         let missed: Vec<_> = data
             .effects
             .iter()
-            .filter(|effect| !rounds_to(read(effect), effect.printed_rad_per_s))
+            .filter(|effect| {
+                Claim::reading(Table2::ID, &effect.key, name, read(effect).abs()).verdict()
+                    != Verdict::Reproduced
+            })
             .map(|effect| format!("{} ({:.3})", effect.input, read(effect).abs()))
             .collect();
         complete += usize::from(missed.is_empty());
@@ -424,15 +411,10 @@ fn readings(data: &Table2Data) -> Claim {
 /// The uncertainty of all inputs together.
 fn together(data: &Table2Data) -> Claim {
     let combined = &data.combined;
-    // The text prints "14 ± 5".
-    let text = &data.section.predicted_airborne_speed_rad_per_s;
-    let printed = text.split('±').nth(1).unwrap_or_default().trim();
-    Claim::number(
+    Claim::printed_uncertainty(
         Table2::ID,
-        "Sec. III B",
+        "section3.predicted_airborne_speed",
         "uncertainty of the airborne speed due to all inputs",
-        "rad/s",
-        printed,
         combined.root_sum_of_squares_rad_per_s,
     )
     .note(format!(
@@ -449,27 +431,21 @@ fn together(data: &Table2Data) -> Claim {
 /// Table I's ω and φ_L by Eq. (14).
 fn launch_speeds(data: &Table2Data) -> Vec<Claim> {
     let launch = &data.from_launch_speeds;
-    let (frequency, angle) = (&data.table_i.angular_frequency_rad_per_s, &data.table_i.amplitude_angle_rad);
-    let entries = [
-        ("ω by Eq. (14)", "rad/s", frequency.value, launch.angular_frequency_rad_per_s),
-        ("φ_L by Eq. (14)", "rad", angle.value, launch.amplitude_angle_rad),
-        (
+    let (frequency, angle) = ("table1.angular_frequency", "table1.amplitude_angle");
+    vec![
+        Claim::reading(Table2::ID, frequency, "ω by Eq. (14)", launch.angular_frequency_rad_per_s),
+        Claim::reading(Table2::ID, angle, "φ_L by Eq. (14)", launch.amplitude_angle_rad),
+        Claim::printed_uncertainty(
+            Table2::ID,
+            frequency,
             "uncertainty of ω: sum of the effects of c, a_e and the launch speeds",
-            "rad/s",
-            frequency.uncertainty,
             launch.angular_frequency_uncertainty_rad_per_s,
         ),
-        (
+        Claim::printed_uncertainty(
+            Table2::ID,
+            angle,
             "uncertainty of φ_L: sum of the effects of a_e and the launch speeds",
-            "rad",
-            angle.uncertainty,
             launch.amplitude_angle_uncertainty_rad,
         ),
-    ];
-    entries
-        .into_iter()
-        .map(|(quantity, unit, printed, computed)| {
-            Claim::number(Table2::ID, "Table I", quantity, unit, printed.to_string(), computed)
-        })
-        .collect()
+    ]
 }

@@ -10,9 +10,9 @@ use bouncing_disk::core::elementary::{atan, cos};
 use super::data::{CoarseGrid, Comparison, Conflict, Consistency, Reading, TossPoint};
 use super::sweep::{best_angle, ratio, speed, speed_curve, speeds};
 use super::{TossCase, maximum_index};
-use crate::claim::PrintedNumber;
 use crate::experiment::ExperimentError;
 use crate::paper::{Measured, SectionThree, TableOne};
+use crate::printed::PrintedNumber;
 
 /// Numbers that the paper prints about tosses with θ = 0.
 const NUMBERS: usize = 7;
@@ -20,6 +20,17 @@ const NUMBERS: usize = 7;
 const PARAMETERS: usize = 5;
 /// The names of the parameters.
 pub(super) const PARAMETER_NAMES: [&str; PARAMETERS] = ["c", "ω", "a_e", "a_g", "μ"];
+
+/// The names of the printed numbers in `data/paper/section3.json`.
+const NAMES: [&str; NUMBERS] = [
+    "predicted_airborne_speed",
+    "optimal_amplitude_angle",
+    "largest_airborne_speed",
+    "largest_efficiency",
+    "speed_ratio_at_optimum",
+    "largest_speed_ratio",
+    "amplitude_angle_of_largest_speed_ratio",
+];
 
 /// The printed numbers as intervals.
 struct Printed {
@@ -60,6 +71,7 @@ impl Printed {
         let shifts = search.shifts(&parameters);
         let compare = |index: usize| Comparison {
             quantity: self.texts[index].0.to_owned(),
+            key: format!("section3.{}", NAMES[index]),
             printed: self.texts[index].1.clone(),
             computed: numbers[index],
             reproduced: misses[index].abs() <= 1.0,

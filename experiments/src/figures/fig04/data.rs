@@ -176,6 +176,8 @@ pub(super) struct Reading {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Comparison {
     pub(super) quantity: String,
+    /// The entry of the ledger.
+    pub(super) key: String,
     pub(super) printed: String,
     /// In the unit of the printed number; angles in rad.
     pub(super) computed: f64,

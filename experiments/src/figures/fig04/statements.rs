@@ -6,9 +6,10 @@ use bouncing_disk::InitialState;
 use bouncing_disk::core::elementary::{asin, sin, tan};
 
 use super::consistency::PARAMETER_NAMES;
-use super::data::{Best, LagCurve, Reading};
+use super::data::{Best, LagCurve, Reading, TossPoint};
 use super::{Fig04Data, TossCase, maximum_index};
-use crate::claim::{Claim, PrintedNumber};
+use crate::claim::Claim;
+use crate::printed::PrintedNumber;
 
 const ID: &str = "fig04";
 /// The bound for symmetries that hold exactly but for rounding.
@@ -113,26 +114,17 @@ pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
 
 /// The best toss with the parameters of Table I.
 fn optimum(data: &Fig04Data) -> Vec<Claim> {
-    let text = &data.printed;
-    let place = "Sec. III B";
+    let table_i_speed = data.table_i_toss.airborne_speed_rad_per_s;
+    let measured = &data.printed.launch_angular_speed_rad_per_s;
     let mut claims = vec![
-        Claim::number(
-            ID,
-            place,
-            "airborne speed of Table I's toss",
-            "rad/s",
-            &text.predicted_airborne_speed_rad_per_s,
-            data.table_i_toss.airborne_speed_rad_per_s,
-        )
-        .note("the uncertainty is the subject of Table II"),
-        Claim::number(
-            ID,
-            place,
-            "observed amplitude angle φ_L, from Table I",
-            "rad",
-            &text.observed_amplitude_angle_rad,
-            data.table_i.amplitude_angle_rad.value,
+        Claim::printed("section3.predicted_airborne_speed", table_i_speed)
+            .note("the uncertainty is the subject of Table II"),
+        Claim::printed_statement(
+            "section3.prediction_agrees",
+            (table_i_speed - measured.value).abs() <= measured.uncertainty,
+            format!("{table_i_speed:.2} rad/s against {measured} rad/s"),
         ),
+        Claim::printed("section3.observed_amplitude_angle", data.table_i.amplitude_angle_rad.value),
     ];
     let curves = curves(data, InitialState::AbsoluteRest);
     let relative = best(data, InitialState::RestRelativeToHand);
@@ -141,10 +133,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         let efficient = maximum_index(curves.iter().map(|curve| curve.most_efficient.efficiency));
         let ends = [0, curves.len().saturating_sub(1)];
         let holds = ends.contains(&fastest) && ends.contains(&efficient);
-        claims.push(Claim::statement(
-            ID,
-            place,
-            "the optimal phase lag is θ = 0 or π, for speed and for efficiency",
+        claims.push(Claim::printed_statement(
+            "section3.optimal_phase_lag",
             holds,
             format!(
                 "dough at rest at the start: of all phase lags θ = {} is fastest and θ = {} most efficient; dough \
@@ -170,40 +160,21 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         grid.intervals
     );
     let numbers = [
-        ("φ_L of the fastest toss", "rad", &text.optimal_amplitude_angle_rad, fastest.amplitude_angle_rad),
-        (
-            "amplitude ratio L of the fastest toss",
-            "",
-            &text.optimal_amplitude_ratio,
-            tan(fastest.amplitude_angle_rad),
-        ),
-        (
-            "largest airborne speed",
-            "rad/s",
-            &text.largest_airborne_speed_rad_per_s,
-            fastest.airborne_speed_rad_per_s,
-        ),
-        ("efficiency of the fastest toss", "", &text.largest_efficiency, fastest.efficiency),
-        (
-            "speed ratio of the fastest toss",
-            "",
-            &text.speed_ratio_at_optimum,
-            fastest.speed_ratio.unwrap_or(f64::NAN),
-        ),
-        ("largest speed ratio", "", &text.largest_speed_ratio, largest_ratio.speed_ratio.unwrap_or(f64::NAN)),
-        (
-            "φ_L of the largest speed ratio",
-            "rad",
-            &text.amplitude_angle_of_largest_speed_ratio_rad,
-            largest_ratio.amplitude_angle_rad,
-        ),
+        ("optimal_amplitude_angle", fastest.amplitude_angle_rad),
+        ("optimal_amplitude_ratio", tan(fastest.amplitude_angle_rad)),
+        ("largest_airborne_speed", fastest.airborne_speed_rad_per_s),
+        ("largest_efficiency", fastest.efficiency),
+        ("speed_ratio_at_optimum", fastest.speed_ratio.unwrap_or(f64::NAN)),
+        ("largest_speed_ratio", largest_ratio.speed_ratio.unwrap_or(f64::NAN)),
+        ("amplitude_angle_of_largest_speed_ratio", largest_ratio.amplitude_angle_rad),
     ];
-    for (quantity, unit, printed, computed) in numbers {
-        let mut claim = Claim::number(ID, place, quantity, unit, printed, computed);
-        if unit == "rad" {
-            claim = claim.note(format!("computed {}, printed {printed}", pi(computed)));
+    for (name, computed) in numbers {
+        let mut claim = Claim::printed(&format!("section3.{name}"), computed);
+        if claim.unit() == "rad" {
+            let note = format!("computed {}, printed {}", pi(computed), claim.printed_text());
+            claim = claim.note(note);
         }
-        if quantity == "efficiency of the fastest toss" {
+        if name == "largest_efficiency" {
             claim = claim.note(format!(
                 "{:.3} if the energy lost in friction is not counted as put in; the most efficient toss, at φ_L = \
                  {}, has {:.4}",
@@ -217,7 +188,38 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         }
         claims.push(claim);
     }
+    claims.extend(beside_the_optimum(data, fastest, largest_ratio));
     claims
+}
+
+/// How the optimum compares with the largest ratio and with the observed tosses.
+fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint, largest_ratio: &TossPoint) -> [Claim; 2] {
+    let at_optimum = fastest.speed_ratio.unwrap_or(f64::NAN);
+    let largest = largest_ratio.speed_ratio.unwrap_or(f64::NAN);
+    // The paper calls the difference of the printed ratios negligible.
+    let printed = PrintedNumber::read(&data.printed.largest_speed_ratio)
+        .zip(PrintedNumber::read(&data.printed.speed_ratio_at_optimum))
+        .map_or(f64::NAN, |(largest, at_optimum)| largest.value - at_optimum.value);
+    let observed = PrintedNumber::read(&data.printed.observed_amplitude_angle_rad);
+    let farthest = observed.map_or(f64::NAN, |angle| angle.value + angle.uncertainty.unwrap_or(0.0));
+    [
+        Claim::printed_statement(
+            "section3.speed_ratio_nearly_largest",
+            largest - at_optimum <= printed,
+            format!(
+                "{at_optimum:.4} at the optimum, {largest:.4} at most; the printed numbers differ by {printed:.2}"
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.optimum_differs_from_observed",
+            fastest.amplitude_angle_rad > farthest,
+            format!(
+                "the fastest toss has φ_L = {}, the observed ones at most {} with the printed uncertainty",
+                pi(fastest.amplitude_angle_rad),
+                pi(farthest)
+            ),
+        ),
+    ]
 }
 
 /// Which sets of parameters give the printed numbers.
@@ -306,16 +308,8 @@ fn consistency(data: &Fig04Data) -> Vec<Claim> {
         100.0 * grid.share_by_chance,
     );
     for (index, number) in grid.reading.numbers.iter().enumerate() {
-        let unit = if number.quantity.starts_with("φ_L") { "rad" } else { "" };
-        let claim = Claim::number(
-            ID,
-            place,
-            format!("{}, as the best of {} intervals", number.quantity, grid.intervals),
-            unit,
-            &number.printed,
-            number.computed,
-        )
-        .note(described(&grid.reading));
+        let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
+        let claim = Claim::reading(ID, &number.key, quantity, number.computed).note(described(&grid.reading));
         claims.push(if index == 0 { claim.note(&evidence) } else { claim });
     }
     claims
@@ -341,17 +335,13 @@ fn dependence(data: &Fig04Data) -> Vec<Claim> {
     // Halving a small friction coefficient halves the angle.
     let falls = low.windows(2).all(|pair| pair[1].1 < 0.6 * pair[0].1);
     vec![
-        Claim::statement(
-            ID,
-            "Fig. 4 caption",
-            "the maximum airborne speed occurs at greater φ_L as μ is increased",
+        Claim::printed_statement(
+            "section3.optimum_grows_with_friction",
             shown.windows(2).all(|pair| (pair[1].1 > pair[0].1) == (pair[1].0 > pair[0].0)),
             evidence(&shown),
         ),
-        Claim::statement(
-            ID,
-            "Sec. III B",
-            "the optimal φ_L shifts toward zero as μ decreases",
+        Claim::printed_statement(
+            "section3.optimum_vanishes_with_friction",
             falls && !low.is_empty(),
             evidence(&low),
         ),
@@ -360,26 +350,30 @@ fn dependence(data: &Fig04Data) -> Vec<Claim> {
 
 fn separation(data: &Fig04Data) -> Vec<Claim> {
     let separation = &data.separation;
-    let lowest = asin(1.0 / TossCase::from(&data.table_i).stroke_acceleration());
+    let table = TossCase::from(&data.table_i);
+    let lowest = asin(1.0 / table.stroke_acceleration());
+    let launched = |angle: f64| table.at_angle(angle).toss(InitialState::AbsoluteRest).is_ok();
     vec![
-        Claim::statement(
-            ID,
-            "Eq. (15)",
-            "the dough leaves the hand at τ_sep = arcsin(1/πΓ)",
+        Claim::printed_statement(
+            "section3.no_launch_beyond",
+            launched((1.0 - 1e-9) * table.largest_angle()) && !launched((1.0 + 1e-9) * table.largest_angle()),
+            format!(
+                "a dough on a hand with φ_L just below arccos(g/cω²) = {} is launched, one just above is not",
+                pi(table.largest_angle())
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.separation_phase",
             separation.deviation_from_formula_rad < SYMMETRY_BOUND,
             format!("largest difference {:.1e} rad", separation.deviation_from_formula_rad),
         ),
-        Claim::statement(
-            ID,
-            "Fig. 4 caption",
-            "τ_sep starts at arcsin(g/cω²)",
+        Claim::printed_statement(
+            "section3.separation_lowest",
             (separation.lowest_rad - lowest).abs() < SYMMETRY_BOUND,
             format!("{:.6} rad", separation.lowest_rad),
         ),
-        Claim::statement(
-            ID,
-            "Fig. 4 caption",
-            "τ_sep ranges up to π/4",
+        Claim::printed_statement(
+            "section3.separation_highest",
             (separation.highest_rad - FRAC_PI_4).abs() < 1e-3,
             format!(
                 "computed {:.5} rad, {:.1e} rad below π/2: sin τ_sep = g/(cω² cos φ_L) reaches 1 at the end of the \
@@ -394,17 +388,15 @@ fn separation(data: &Fig04Data) -> Vec<Claim> {
 fn symmetry(data: &Fig04Data) -> Vec<Claim> {
     let symmetry = &data.symmetry;
     let statements = [
-        ("airborne speed changes sign under θ + π", symmetry.airborne_speed_rad_per_s, " rad/s"),
-        ("speed ratio changes sign under θ + π", symmetry.speed_ratio, ""),
-        ("energy efficiency does not change under θ + π", symmetry.efficiency, ""),
+        ("section3.airborne_speed_symmetry", symmetry.airborne_speed_rad_per_s, " rad/s"),
+        ("section3.speed_ratio_symmetry", symmetry.speed_ratio, ""),
+        ("section3.efficiency_symmetry", symmetry.efficiency, ""),
     ];
     statements
         .into_iter()
-        .map(|(quantity, deviation, unit)| {
-            Claim::statement(
-                ID,
-                "Sec. III B",
-                quantity,
+        .map(|(key, deviation, unit)| {
+            Claim::printed_statement(
+                key,
                 deviation < SYMMETRY_BOUND,
                 format!(
                     "largest deviation {deviation:.1e}{unit} over {} pairs of tosses of both initial states",

@@ -6,16 +6,13 @@ use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, OrbitEvent, Phase, Vi
 use bouncing_disk::{Dimensionless, MultiTossSettings, OrbitClass, Start, TossOrbit, multi_toss};
 use rayon::prelude::*;
 
-use super::RESTITUTION;
 use super::data::{Policies, SingleTosses, Slice};
-use super::scan::{Systems, slice};
+use super::scan::{Inputs, Systems, slice};
 use crate::experiment::ExperimentError;
+use crate::paper::SectionFour;
 
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;
-
-/// Sec. IV A: below, the chattering orbits follow the pattern of single tosses.
-const PRINTED_END: f64 = 0.52;
 
 /// From one separation to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +30,12 @@ impl Cycle {
 }
 
 /// The cycle of a disk that has been at rest; `None` if it never leaves or does not come to rest again.
-pub(super) fn cycle(axial_forcing: f64, policy: ChatterPolicy) -> Result<Option<Cycle>, Error> {
-    let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, RESTITUTION)?;
+pub(super) fn cycle(
+    axial_forcing: f64,
+    restitution: f64,
+    policy: ChatterPolicy,
+) -> Result<Option<Cycle>, Error> {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?;
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
     let (mut impacts, mut turns, mut long_flights) = (0, 0, 0);
     for event in map.orbit_from_launch(leaves, 0.0, policy)? {
@@ -71,30 +72,34 @@ fn tosses(system: &Dimensionless, settings: MultiTossSettings) -> Result<TossOrb
 /// The impacts of the chattering orbit, if the disk chatters at this forcing.
 pub(super) fn chattering_slice(
     axial_forcing: f64,
+    inputs: Inputs,
     settings: MultiTossSettings,
 ) -> Result<Option<Slice>, ExperimentError> {
-    let Some(cycle) = cycle(axial_forcing, settings.policy).map_err(ExperimentError::model)? else {
+    let cycle = cycle(axial_forcing, inputs.restitution, settings.policy).map_err(ExperimentError::model)?;
+    let Some(cycle) = cycle else {
         return Ok(None);
     };
-    let systems = Systems::at(axial_forcing)?;
+    let systems = Systems::at(axial_forcing, inputs)?;
     let linear = tosses(&systems.linear, settings)?;
     let semielliptical = tosses(&systems.semielliptical, settings)?;
-    let slice = slice(axial_forcing, &linear, &semielliptical);
+    let slice = slice(axial_forcing, inputs, &linear, &semielliptical);
     Ok(Some(Slice { period: Some(cycle.impacts), ..slice }))
 }
 
 /// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` and bisected.
 pub(super) fn single_tosses(
     forcings: &[f64],
+    section: &SectionFour,
     policy: ChatterPolicy,
 ) -> Result<SingleTosses, ExperimentError> {
+    let (restitution, printed_end) = (section.restitution, section.single_tosses_end);
     let single = |forcing: f64| -> Result<bool, ExperimentError> {
-        Ok(cycle(forcing, policy)
+        Ok(cycle(forcing, restitution, policy)
             .map_err(ExperimentError::model)?
             .is_some_and(|cycle| cycle.is_single_toss()))
     };
-    let (mut last, mut first_other) = (f64::NAN, PRINTED_END);
-    for &forcing in forcings.iter().filter(|forcing| **forcing * PI > 1.0 && **forcing < PRINTED_END) {
+    let (mut last, mut first_other) = (f64::NAN, printed_end);
+    for &forcing in forcings.iter().filter(|forcing| **forcing * PI > 1.0 && **forcing < printed_end) {
         if single(forcing)? {
             last = forcing;
         } else {
@@ -110,8 +115,8 @@ pub(super) fn single_tosses(
     let beyond: Vec<Option<Cycle>> = (0..200)
         .into_par_iter()
         .map(|i| {
-            let forcing = first_other + (PRINTED_END - first_other) * (f64::from(i) + 0.5) / 200.0;
-            cycle(forcing, policy).map_err(ExperimentError::model)
+            let forcing = first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / 200.0;
+            cycle(forcing, restitution, policy).map_err(ExperimentError::model)
         })
         .collect::<Result<_, _>>()?;
     let periods: Vec<u64> = beyond.iter().flatten().map(|cycle| cycle.platform_periods).collect();
@@ -125,18 +130,23 @@ pub(super) fn single_tosses(
 }
 
 /// The chattering orbits under the paper's cut and complete.
-pub(super) fn policies(forcings: &[f64], settings: MultiTossSettings) -> Result<Policies, ExperimentError> {
+pub(super) fn policies(
+    forcings: &[f64],
+    inputs: Inputs,
+    settings: MultiTossSettings,
+) -> Result<Policies, ExperimentError> {
     let complete = MultiTossSettings { policy: ChatterPolicy::Complete, ..settings };
     let pairs: Vec<Option<Pair>> = forcings
         .par_iter()
         .map(|&forcing| {
-            let cycle_of = |policy| cycle(forcing, policy).map_err(ExperimentError::model);
+            let cycle_of =
+                |policy| cycle(forcing, inputs.restitution, policy).map_err(ExperimentError::model);
             let (Some(cut), Some(summed)) = (cycle_of(settings.policy)?, cycle_of(complete.policy)?) else {
                 return Ok(None);
             };
             let same =
                 cut.platform_periods == summed.platform_periods && cut.long_flights == summed.long_flights;
-            let systems = Systems::at(forcing)?;
+            let systems = Systems::at(forcing, inputs)?;
             let difference = |system: &Dimensionless| -> Result<Option<f64>, ExperimentError> {
                 let (cut, summed) = (tosses(system, settings)?, tosses(system, complete)?);
                 let settled = |orbit: &TossOrbit| {

@@ -9,6 +9,8 @@ pub struct Fig06Data {
     pub restitution: f64,
     /// First and last Γ of the diagram.
     pub axial_forcing_range: (f64, f64),
+    /// Γ of the panels of Fig. 7.
+    pub basin_axial_forcings: [f64; 5],
     /// Number of values of Γ.
     pub axial_forcing_values: usize,
     /// Impacts at each Γ before any is kept.
@@ -59,6 +61,8 @@ pub struct Slice {
     pub axial_forcing: f64,
     /// Impacts in one round of a periodic orbit or from one rest to the next of a chattering one, if it repeats.
     pub period: Option<usize>,
+    /// Whether the rotary motions of (c) and (d) have the same vertical one, to the last bit.
+    pub vertical_motions_agree: bool,
     /// τ_imp/2π.
     pub impact_phase_cycles: Vec<f64>,
     /// |w_A Γ/(ωA)|.

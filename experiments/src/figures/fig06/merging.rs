@@ -4,7 +4,7 @@ use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Vib
 use rayon::prelude::*;
 
 use super::data::Merging;
-use super::{FOLLOWED_FROM, RESTITUTION};
+use super::scan::Inputs;
 use crate::experiment::ExperimentError;
 
 /// Γ inside the chaotic range, where the starts of all trials lie on the attractor.
@@ -16,19 +16,20 @@ const STARTS: usize = 8;
 /// Width at which the bisection ends.
 const BRACKET: f64 = 1.0e-7;
 
-fn map(axial_forcing: f64) -> Result<ImpactMap, ExperimentError> {
+fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
-    ImpactMap::new(vibration, RESTITUTION).map_err(ExperimentError::model)
+    ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
 }
 
 /// States on the followed attractor at [`SAFE_FORCING`].
-fn starts(first: ImpactState) -> Result<Vec<ImpactState>, ExperimentError> {
-    let forcings = (0..).map(|i| FOLLOWED_FROM + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
+fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactState>, ExperimentError> {
+    let Inputs { restitution, followed_from, .. } = inputs;
+    let forcings = (0..).map(|i| followed_from + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
     let mut state = first;
-    for followed in follow(RESTITUTION, forcings, first, 300, ChatterPolicy::Complete) {
+    for followed in follow(restitution, forcings, first, 300, ChatterPolicy::Complete) {
         state = followed.map_err(ExperimentError::model)?.state;
     }
-    let map = map(SAFE_FORCING)?;
+    let map = map(SAFE_FORCING, restitution)?;
     let mut states = Vec::new();
     while states.len() < STARTS {
         match map.survivor(state, 1_000, ChatterPolicy::Complete).map_err(ExperimentError::model)? {
@@ -41,8 +42,7 @@ fn starts(first: ImpactState) -> Result<Vec<ImpactState>, ExperimentError> {
 }
 
 /// How many impacts each start lives, up to `impacts`.
-fn lives(forcing: f64, starts: &[ImpactState], impacts: usize) -> Result<Vec<usize>, ExperimentError> {
-    let map = map(forcing)?;
+fn lives(map: &ImpactMap, starts: &[ImpactState], impacts: usize) -> Result<Vec<usize>, ExperimentError> {
     starts
         .par_iter()
         .map(|start| {
@@ -59,11 +59,11 @@ fn lives(forcing: f64, starts: &[ImpactState], impacts: usize) -> Result<Vec<usi
 }
 
 /// The last bracket (survived, lost).
-fn bracket(starts: &[ImpactState], impacts: usize) -> Result<(f64, f64), ExperimentError> {
+fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(f64, f64), ExperimentError> {
     let (mut survived, mut lost) = (SAFE_FORCING, LOST_FORCING);
     while lost - survived > BRACKET {
         let middle = 0.5 * (survived + lost);
-        if lives(middle, starts, impacts)?.iter().all(|lived| *lived == impacts) {
+        if lives(&map(middle, restitution)?, starts, impacts)?.iter().all(|lived| *lived == impacts) {
             survived = middle;
         } else {
             lost = middle;
@@ -73,14 +73,19 @@ fn bracket(starts: &[ImpactState], impacts: usize) -> Result<(f64, f64), Experim
 }
 
 /// Locates the crisis of the attractor that is followed from `first`.
-pub(super) fn merging(first: ImpactState, impacts: usize) -> Result<Merging, ExperimentError> {
-    let starts = starts(first)?;
-    let (survived, lost) = bracket(&starts, impacts)?;
-    let (survived_in_a_tenth, lost_in_a_tenth) = bracket(&starts, impacts / 10)?;
+pub(super) fn merging(
+    first: ImpactState,
+    inputs: Inputs,
+    impacts: usize,
+) -> Result<Merging, ExperimentError> {
+    let starts = starts(first, inputs)?;
+    let restitution = inputs.restitution;
+    let (survived, lost) = bracket(&starts, restitution, impacts)?;
+    let (survived_in_a_tenth, lost_in_a_tenth) = bracket(&starts, restitution, impacts / 10)?;
     let mean_life_impacts = (0..16)
         .map(|i| {
             let forcing = 0.5600 + 0.0001 * f64::from(i);
-            let lives = lives(forcing, &starts, impacts / 10)?;
+            let lives = lives(&map(forcing, restitution)?, &starts, impacts / 10)?;
             Ok((forcing, lives.iter().sum::<usize>() as f64 / lives.len() as f64))
         })
         .collect::<Result<_, ExperimentError>>()?;

@@ -6,10 +6,6 @@ use crate::draw::{
     Rule, Stroke, Text, Ticks,
 };
 
-/// Γ of the five panels of Fig. 7.
-pub(super) const BASIN_FORCINGS: [(f64, &str); 5] =
-    [(0.34, "a"), (0.486, "b"), (0.50, "c"), (0.55, "d"), (0.60, "e")];
-
 /// A column of the data.
 type Column = fn(&Slice) -> &[f64];
 
@@ -28,7 +24,7 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
                 .collect()
         };
         let mut panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
-        for (forcing, name) in BASIN_FORCINGS {
+        for (forcing, name) in data.basin_axial_forcings.into_iter().zip(["a", "b", "c", "d", "e"]) {
             let stroke = Stroke::new(Colour::VERMILION, 0.5).dashed(Dash::Dotted);
             panel = panel.layer(Rule::vertical(forcing).stroke(stroke));
             if row == 0 {

@@ -9,16 +9,40 @@ use bouncing_disk::{
 use rayon::prelude::*;
 
 use super::data::{Fig06Data, Slice, Twist};
-use super::{FOLLOWED_FROM, RESTITUTION, chattering, merging};
+use super::{chattering, merging};
 use crate::experiment::{ExperimentError, Quality};
+use crate::paper::{self, SectionFour};
 use crate::progress::Progress;
 
 /// The range of Γ of the diagram.
 const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
-/// (c).
-pub(super) const LINEAR: Twist = Twist { phase_lag_rad: 0.0, angular_forcing: 100.0 };
-/// (d).
-pub(super) const SEMIELLIPTICAL: Twist = Twist { phase_lag_rad: -0.26 * PI, angular_forcing: 1.0 };
+/// The printed inputs of the diagrams.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inputs {
+    pub(super) restitution: f64,
+    pub(super) followed_from: f64,
+    /// (c).
+    linear: Twist,
+    /// (d).
+    semielliptical: Twist,
+}
+
+impl From<&SectionFour> for Inputs {
+    fn from(section: &SectionFour) -> Self {
+        Self {
+            restitution: section.restitution,
+            followed_from: section.followed_from,
+            linear: Twist {
+                phase_lag_rad: section.linear_phase_lag_rad,
+                angular_forcing: section.linear_angular_forcing,
+            },
+            semielliptical: Twist {
+                phase_lag_rad: section.semielliptical_phase_lag_rad,
+                angular_forcing: section.semielliptical_angular_forcing,
+            },
+        }
+    }
+}
 
 /// The two rotary motions over one vertical one.
 pub(super) struct Systems {
@@ -27,24 +51,24 @@ pub(super) struct Systems {
 }
 
 impl Systems {
-    pub(super) fn at(axial_forcing: f64) -> Result<Self, ExperimentError> {
+    pub(super) fn at(axial_forcing: f64, inputs: Inputs) -> Result<Self, ExperimentError> {
         let build = |twist: Twist| {
             ForcingParameters {
                 axial_forcing,
                 angular_forcing: twist.angular_forcing,
                 phase_lag: twist.phase_lag_rad,
-                restitution: RESTITUTION,
+                restitution: inputs.restitution,
             }
             .build()
             .map_err(ExperimentError::model)
         };
-        Ok(Self { linear: build(LINEAR)?, semielliptical: build(SEMIELLIPTICAL)? })
+        Ok(Self { linear: build(inputs.linear)?, semielliptical: build(inputs.semielliptical)? })
     }
 }
 
-fn map(axial_forcing: f64) -> Result<ImpactMap, ExperimentError> {
+fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
-    ImpactMap::new(vibration, RESTITUTION).map_err(ExperimentError::model)
+    ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
 }
 
 fn no_orbit(axial_forcing: f64) -> ExperimentError {
@@ -56,6 +80,9 @@ fn no_orbit(axial_forcing: f64) -> ExperimentError {
 }
 
 pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data, ExperimentError> {
+    let section = paper::section_four()?;
+    let inputs = Inputs::from(&section);
+    let Inputs { restitution, followed_from, linear, semielliptical } = inputs;
     let values = quality.choose(200, 2_000);
     let settings = MultiTossSettings {
         policy: ChatterPolicy::Paper,
@@ -71,19 +98,19 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         })
         .collect();
     progress.start(2 * values as u64, "orbits");
-    let first_map = map(FOLLOWED_FROM)?;
-    let first = first_map.period_one(1).ok_or_else(|| no_orbit(FOLLOWED_FROM))?;
+    let first_map = map(followed_from, restitution)?;
+    let first = first_map.period_one(1).ok_or_else(|| no_orbit(followed_from))?;
     let first_orbit = first_map.refine(&[first]).map_err(ExperimentError::model)?;
-    let above = forcings.iter().copied().filter(|forcing| *forcing >= FOLLOWED_FROM);
+    let above = forcings.iter().copied().filter(|forcing| *forcing >= followed_from);
     let walk: Vec<Followed> =
-        follow(RESTITUTION, above, first, settings.transient_impacts, ChatterPolicy::Paper)
+        follow(restitution, above, first, settings.transient_impacts, ChatterPolicy::Paper)
             .collect::<Result<_, _>>()
             .map_err(ExperimentError::model)?;
     progress.advance((values - walk.len()) as u64);
     let followed: Vec<Option<Slice>> = walk
         .par_iter()
         .map(|followed| {
-            let slice = followed_slice(followed, settings);
+            let slice = followed_slice(followed, inputs, settings);
             progress.advance(1);
             slice
         })
@@ -93,13 +120,13 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
     let chattering: Vec<Option<Slice>> = forcings
         .par_iter()
         .map(|&forcing| {
-            let slice = chattering::chattering_slice(forcing, settings);
+            let slice = chattering::chattering_slice(forcing, inputs, settings);
             progress.advance(1);
             slice
         })
         .collect::<Result<_, _>>()?;
     progress.start(4, "searches");
-    let merging = merging::merging(first, quality.choose(40_000, 400_000))?;
+    let merging = merging::merging(first, inputs, quality.choose(40_000, 400_000))?;
     progress.advance(1);
     let not_chattering = forcings
         .iter()
@@ -107,30 +134,31 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
         .map(|(forcing, _)| *forcing)
         .collect();
-    let single_tosses = chattering::single_tosses(&forcings, settings.policy)?;
+    let single_tosses = chattering::single_tosses(&forcings, &section, settings.policy)?;
     progress.advance(1);
     let some: Vec<f64> = forcings.iter().copied().step_by(10).collect();
-    let policies = chattering::policies(&some, settings)?;
+    let policies = chattering::policies(&some, inputs, settings)?;
     progress.advance(1);
-    let doublings = period_doublings(RESTITUTION, 7).map_err(ExperimentError::model)?;
+    let doublings = period_doublings(restitution, 7).map_err(ExperimentError::model)?;
     progress.advance(1);
     let doublings: Vec<f64> = doublings.into_iter().map(|doubling| doubling.axial_forcing).collect();
     let at_doubling = doublings.first().copied().unwrap_or(f64::NAN);
-    let phase = map(at_doubling)?.period_one(1).ok_or_else(|| no_orbit(at_doubling))?.phase();
+    let phase = map(at_doubling, restitution)?.period_one(1).ok_or_else(|| no_orbit(at_doubling))?.phase();
     Ok(Fig06Data {
-        restitution: RESTITUTION,
+        restitution,
         axial_forcing_range: FORCING_RANGE,
+        basin_axial_forcings: section.axial_forcings_of_fig7,
         axial_forcing_values: values,
         transient_impacts: settings.transient_impacts,
         examined_impacts: settings.examined_impacts,
-        linear: LINEAR,
-        semielliptical: SEMIELLIPTICAL,
-        followed_from: FOLLOWED_FROM,
+        linear,
+        semielliptical,
+        followed_from,
         followed,
         chattering: chattering.into_iter().flatten().collect(),
         not_chattering,
         doublings,
-        period_one_threshold: (1.0 - RESTITUTION) / (1.0 + RESTITUTION),
+        period_one_threshold: (1.0 - restitution) / (1.0 + restitution),
         phase_at_first_doubling_rad: phase.angle(),
         multiplier_where_followed_from: bouncing_disk::core::Multipliers::of(first_orbit.monodromy)
             .spectral_radius(),
@@ -143,9 +171,10 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
 fn followed_slice(
     followed: &Followed,
+    inputs: Inputs,
     settings: MultiTossSettings,
 ) -> Result<Option<Slice>, ExperimentError> {
-    let systems = Systems::at(followed.axial_forcing)?;
+    let systems = Systems::at(followed.axial_forcing, inputs)?;
     let phase = followed.state.phase();
     let tosses = |system: &Dimensionless| {
         let start = Start::Launch {
@@ -160,7 +189,7 @@ fn followed_slice(
         return Ok(None);
     }
     let semielliptical = tosses(&systems.semielliptical)?;
-    Ok(Some(slice(followed.axial_forcing, &linear, &semielliptical)))
+    Ok(Some(slice(followed.axial_forcing, inputs, &linear, &semielliptical)))
 }
 
 /// Six decimals.
@@ -169,7 +198,12 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// The impacts of two rotary motions over the same vertical one.
-pub(super) fn slice(axial_forcing: f64, linear: &TossOrbit, semielliptical: &TossOrbit) -> Slice {
+pub(super) fn slice(
+    axial_forcing: f64,
+    inputs: Inputs,
+    linear: &TossOrbit,
+    semielliptical: &TossOrbit,
+) -> Slice {
     let speeds = |orbit: &TossOrbit, twist: Twist| -> Vec<f64> {
         let scale = PI * twist.angular_forcing;
         orbit.collisions.iter().map(|collision| rounded(collision.angular_speed / scale)).collect()
@@ -183,9 +217,15 @@ pub(super) fn slice(axial_forcing: f64, linear: &TossOrbit, semielliptical: &Tos
         _ => None,
     };
     let impacts = &linear.collisions;
+    let vertical = |orbit: &TossOrbit| {
+        let states = orbit.collisions.iter().map(|collision| collision.state);
+        states.map(|state| (state.phase, state.axial_impact_velocity)).collect::<Vec<_>>()
+    };
+    let shared = linear.collisions.len().min(semielliptical.collisions.len());
     Slice {
         axial_forcing,
         period,
+        vertical_motions_agree: vertical(linear)[..shared] == vertical(semielliptical)[..shared],
         impact_phase_cycles: impacts
             .iter()
             .map(|collision| rounded(collision.state.phase.cycles()))
@@ -194,9 +234,9 @@ pub(super) fn slice(axial_forcing: f64, linear: &TossOrbit, semielliptical: &Tos
             .iter()
             .map(|collision| rounded(-collision.state.axial_impact_velocity / PI))
             .collect(),
-        linear: speeds(linear, LINEAR),
-        linear_mean: mean(linear, LINEAR),
-        semielliptical: speeds(semielliptical, SEMIELLIPTICAL),
-        semielliptical_mean: mean(semielliptical, SEMIELLIPTICAL),
+        linear: speeds(linear, inputs.linear),
+        linear_mean: mean(linear, inputs.linear),
+        semielliptical: speeds(semielliptical, inputs.semielliptical),
+        semielliptical_mean: mean(semielliptical, inputs.semielliptical),
     }
 }

@@ -82,6 +82,8 @@ pub struct Other {
 pub struct Windows {
     /// Rows and columns of the grid.
     pub grid: (usize, usize),
+    /// The printed shares of the period-1 orbit in (a) and (b).
+    pub printed: [f64; 2],
     /// Windows [0, top] of |w_A Γ/(ωA)| over a whole period.
     pub curve: Vec<CurvePoint>,
     /// Lowest top that gives the number printed for (a); `None` up to the end of the curve.

@@ -8,7 +8,6 @@ use bouncing_disk::core::{
 };
 use rayon::prelude::*;
 
-use super::RESTITUTION;
 use super::data::{Other, Panel, Shares, Spot};
 use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, kind, runs};
 use crate::experiment::ExperimentError;
@@ -25,9 +24,9 @@ const COARSE: usize = 60;
 /// Longest period (impacts) of an attractor that is looked for.
 const LONGEST_PERIOD: usize = 64;
 
-pub(super) fn map(axial_forcing: f64) -> Result<ImpactMap, ExperimentError> {
+pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
-    ImpactMap::new(vibration, RESTITUTION).map_err(ExperimentError::model)
+    ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
 }
 
 pub(super) fn grid(top: f64, rows: usize, columns: usize) -> Result<Grid, ExperimentError> {
@@ -119,10 +118,11 @@ fn chattering(map: &ImpactMap) -> Result<Vec<Spot>, ExperimentError> {
 /// The basins at `axial_forcing` in the window [0, `top`] with `side` cells a side.
 pub(super) fn panel(
     axial_forcing: f64,
+    restitution: f64,
     (top, side): (f64, usize),
     progress: &dyn Progress,
 ) -> Result<Panel, ExperimentError> {
-    let map = map(axial_forcing)?;
+    let map = map(axial_forcing, restitution)?;
     let route = route(&map)?;
     let (known, max_impacts, open) = match &route {
         Route::Periodic(first) => {
@@ -185,9 +185,8 @@ pub(super) fn panel(
 }
 
 /// The share of the window that has not come to rest after N impacts, against N.
-pub(super) fn decay(axial_forcing: f64, top: f64, side: usize) -> Result<Vec<(u32, f64)>, ExperimentError> {
+pub(super) fn decay(map: &ImpactMap, top: f64, side: usize) -> Result<Vec<(u32, f64)>, ExperimentError> {
     const COUNTS: [u32; 9] = [20, 50, 100, 200, 300, CAUGHT_BY_CHAOS, 800, 1_600, 3_200];
-    let map = map(axial_forcing)?;
     let grid = grid(top, side, side)?;
     let most = COUNTS[COUNTS.len() - 1];
     let lives: Vec<u32> = (0..side * side)

@@ -2,7 +2,6 @@
 
 use super::data::{CurvePoint, Fig07Data, Panel as Basins};
 use super::labels::cells;
-use super::windows::PRINTED;
 use crate::draw::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel,
     Raster, Rect, Rule, Scatter, Stroke, Text, Ticks,
@@ -69,6 +68,7 @@ pub(super) fn forcing_text(forcing: f64) -> String {
 
 fn curve_panel(data: &Fig07Data, area: Rect) -> Panel {
     let windows = &data.windows;
+    let [share_a, share_b] = windows.printed;
     let curve = |of: fn(&CurvePoint) -> f64| {
         Line::new(windows.curve.iter().map(|point| (point.top, 100.0 * of(point)))).width(1.1)
     };
@@ -88,10 +88,10 @@ fn curve_panel(data: &Fig07Data, area: Rect) -> Panel {
             .ticks(Ticks::every(2.0).minor(4)))
         .y(Axis::linear(0.0, 80.0).label("share of the window (%)").ticks(Ticks::every(20.0).minor(4)))
         .title("(f)")
-        .layer(printed(PRINTED.0))
-        .layer(printed(PRINTED.1))
-        .layer(written(PRINTED.0, (0.98, -5.0, Anchor::Right)))
-        .layer(written(PRINTED.1, (0.02, 1.6, Anchor::Left)))
+        .layer(printed(share_a))
+        .layer(printed(share_b))
+        .layer(written(share_a, (0.98, -5.0, Anchor::Right)))
+        .layer(written(share_b, (0.02, 1.6, Anchor::Left)))
         .layer(Rule::vertical(data.window_top).stroke(Stroke::new(Colour::GREY, 0.5).dashed(Dash::Dotted)))
         .layer(curve(|point| point.a).colour(Colour::VERMILION).name("(a)"))
         .layer(curve(|point| point.b).colour(Colour::BLUE).name("(b) black"))

@@ -16,7 +16,7 @@ pub(super) fn caption(data: &Fig07Data) -> String {
          ε = {}: white, the chattering orbit (its impacts: black crosses in (a)–(c), red dots in (d), black dots in (e)); \
          black, the attractor of the period-doubling route (white crosses in (a)–(c), yellow dots in (d)); gray, {} not in \
          the paper (red circles). The paper's window is not in its text; here it ends at {}, where both printed fractions come out. (f) Share of the window \
-         [0, top] that belongs to the attractors in (a) and (b) against its top; dashed lines: the printed 11.6 % and 39.1 %.",
+         [0, top] that belongs to the attractors in (a) and (b) against its top; dashed lines: the printed {:.1} % and {:.1} %.",
         data.cells,
         data.cells,
         data.restitution,
@@ -26,6 +26,8 @@ pub(super) fn caption(data: &Fig07Data) -> String {
             more => format!("{more} further attractors"),
         },
         data.window_top,
+        100.0 * data.windows.printed[0],
+        100.0 * data.windows.printed[1],
     )
 }
 
@@ -97,34 +99,18 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
         if ranges.is_empty() { "none".to_owned() } else { ranges.join(", ") }
     };
     vec![
-        Claim::number(
-            ID,
-            SECTION,
-            "share of the period-1 basin at Γ = 0.34",
-            "%",
-            "11.6 %",
-            100.0 * a.shares.attractor,
-        )
-        .note(&window)
-        .note(accuracy(a.shares.attractor, a, data.cells))
+        Claim::printed("section4.share_at_fig7a", 100.0 * a.shares.attractor)
+            .note(&window)
+            .note(accuracy(a.shares.attractor, a, data.cells))
         .note(format!("{} gives the printed number", top_text(windows.top_for_a))),
-        Claim::number(
-            ID,
-            SECTION,
-            "share of the period-1 basin at Γ = 0.486",
-            "%",
-            "39.1 %",
-            100.0 * b.shares.attractor,
-        )
-        .note(&window)
-        .note(accuracy(b.shares.attractor, b, data.cells))
+        Claim::printed("section4.share_at_fig7b", 100.0 * b.shares.attractor)
+            .note(&window)
+            .note(accuracy(b.shares.attractor, b, data.cells))
         .note(format!("{} gives the printed number", top_text(windows.top_for_b))),
-        Claim::number(
+        Claim::reading(
             ID,
-            SECTION,
+            "section4.share_at_fig7b",
             "share of all starts that do not chatter at Γ = 0.486",
-            "%",
-            "39.1 %",
             100.0 * b.shares.not_chattering(),
         )
         .note("the printed number read as everything that is not white, which counts a second periodic attractor in")
@@ -145,10 +131,8 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
                 searches(true)
             ),
         ),
-        Claim::statement(
-            ID,
-            SECTION,
-            "the basin of the period-1 orbit widens from Γ = 0.34 to 0.486",
+        Claim::printed_statement(
+            "section4.basin_widens",
             b.shares.attractor > a.shares.attractor
                 && windows.curve.iter().filter(|point| point.a > 0.0).all(|point| point.b > point.a),
             "holds for every window [0, top] up to 8, panel (f)",
@@ -188,10 +172,17 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
         })
         .collect();
     vec![
-        Claim::statement(
-            ID,
-            SECTION,
-            "the axis w_A = 0 is deep within the chattering basin where the period-1 orbit attracts (a), (b)",
+        Claim::printed_statement(
+            "section4.chattering_is_easier",
+            [a, b].iter().all(|panel| panel.shares.chattering > panel.shares.attractor),
+            format!(
+                "of the window, chattering has {:.1} % in (a) and {:.1} % in (b)",
+                100.0 * a.shares.chattering,
+                100.0 * b.shares.chattering,
+            ),
+        ),
+        Claim::printed_statement(
+            "section4.rest_chatters",
             deep(a) && deep(b),
             format!(
                 "every start slower than |w_A Γ/(ωA)| = {} chatters in (a), {} in (b), {} in (c), {} in (d); rows are {step} high",
@@ -211,10 +202,8 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
                 depth(d),
             ),
         ),
-        Claim::statement(
-            ID,
-            "Fig. 7 caption",
-            "at Γ = 0.486 the chattering orbit and the period-1 orbit are the only attractors",
+        Claim::printed_statement(
+            "section4.two_attractors",
             b.others.is_empty(),
             if others.is_empty() {
                 "no other attractor was found".to_owned()
@@ -222,10 +211,8 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
                 format!("{}; it holds {:.2} % of the window", others.join("; "), 100.0 * b.shares.other)
             },
         ),
-        Claim::statement(
-            ID,
-            SECTION,
-            "the boundary of the basins at Γ = 0.55 is fractal",
+        Claim::printed_statement(
+            "section4.fractal_boundary",
             uncertainty_exponent(d) < 0.9,
             format!(
                 "the share of cells at a boundary scales as (cell size)^{:.2}; it would be 1 for a smooth curve, and is {:.2} \
@@ -234,10 +221,8 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
                 uncertainty_exponent(a),
             ),
         ),
-        Claim::statement(
-            ID,
-            SECTION,
-            "beyond Γ = 0.561 the chattering basin fills the phase space (Γ = 0.60)",
+        Claim::printed_statement(
+            "section4.basin_fills_plane",
             (e.shares.chattering - 1.0).abs() < f64::EPSILON,
             format!(
                 "{} of {} cells come to rest within {} impacts. The text refers to Fig. 6(d); Fig. 7(e) shows it",

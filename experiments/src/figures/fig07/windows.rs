@@ -6,10 +6,8 @@ use super::data::{CurvePoint, Search, Windows};
 use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
 use super::panels::{grid, map, others};
 use crate::experiment::ExperimentError;
+use crate::paper::SectionFour;
 use crate::progress::Progress;
-
-/// Printed in Sec. IV B: the share of the period-1 orbit in (a) and (b).
-pub(super) const PRINTED: (f64, f64) = (0.116, 0.391);
 
 /// Top of the largest window.
 const LARGEST_TOP: f64 = 8.0;
@@ -28,11 +26,11 @@ struct Cells {
 
 impl Cells {
     fn at(
-        forcing: f64,
+        (forcing, restitution): (f64, f64),
         (rows, columns): (usize, usize),
         progress: &dyn Progress,
     ) -> Result<Self, ExperimentError> {
-        let map = map(forcing)?;
+        let map = map(forcing, restitution)?;
         let mut known = Vec::new();
         if let Some(state) = map.period_one(1) {
             let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
@@ -96,10 +94,11 @@ fn top_for(sums: &[f64], printed: f64) -> Option<f64> {
 const HALF_UNIT: f64 = 0.0005;
 
 /// Ranges of tops (whole rows) of windows [0, top] that give both printed numbers to their last digit.
-fn tops_for_both(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
+fn tops_for_both(a: &[f64], b: &[f64], printed: [f64; 2]) -> Vec<(f64, f64)> {
     let rows = a.len() - 1;
     let fits = |row: &usize| {
-        (mean(a, 0, *row) - PRINTED.0).abs() <= HALF_UNIT && (mean(b, 0, *row) - PRINTED.1).abs() <= HALF_UNIT
+        (mean(a, 0, *row) - printed[0]).abs() <= HALF_UNIT
+            && (mean(b, 0, *row) - printed[1]).abs() <= HALF_UNIT
     };
     let fitting: Vec<usize> = (1..=rows).filter(fits).collect();
     let top = |row: usize| LARGEST_TOP * row as f64 / rows as f64;
@@ -110,18 +109,18 @@ fn tops_for_both(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// The larger relative deviation from the two printed numbers.
-fn misfit(a: f64, b: f64) -> f64 {
-    (a / PRINTED.0 - 1.0).abs().max((b / PRINTED.1 - 1.0).abs())
+fn misfit(a: f64, b: f64, printed: [f64; 2]) -> f64 {
+    (a / printed[0] - 1.0).abs().max((b / printed[1] - 1.0).abs())
 }
 
 /// The window [bottom, top] of a family that comes nearest to both printed numbers.
-fn nearest(a: &[f64], b: &[f64], bottoms: std::ops::Range<usize>) -> (usize, usize) {
+fn nearest(a: &[f64], b: &[f64], printed: [f64; 2], bottoms: std::ops::Range<usize>) -> (usize, usize) {
     let rows = a.len() - 1;
     let smallest = rows / 80;
     let mut best = (f64::INFINITY, 0, rows);
     for bottom in bottoms {
         for top in bottom + smallest..=rows {
-            let off = misfit(mean(a, bottom, top), mean(b, bottom, top));
+            let off = misfit(mean(a, bottom, top), mean(b, bottom, top), printed);
             if off < best.0 {
                 best = (off, bottom, top);
             }
@@ -131,12 +130,14 @@ fn nearest(a: &[f64], b: &[f64], bottoms: std::ops::Range<usize>) -> (usize, usi
 }
 
 pub(super) fn windows(
-    forcings: (f64, f64),
+    section: &SectionFour,
     size: (usize, usize),
     progress: &dyn Progress,
 ) -> Result<Windows, ExperimentError> {
-    let low = Cells::at(forcings.0, size, progress)?;
-    let high = Cells::at(forcings.1, size, progress)?;
+    let [first, second, ..] = section.axial_forcings_of_fig7;
+    let printed = section.shares_of_period_one;
+    let low = Cells::at((first, section.restitution), size, progress)?;
+    let high = Cells::at((second, section.restitution), size, progress)?;
     let whole = (0.0, 1.0);
     let period_one = |kind: u8| kind == ATTRACTOR;
     let bouncing = |kind: u8| kind != CHATTERING;
@@ -163,7 +164,7 @@ pub(super) fn windows(
         for (family, phases, bottoms) in families {
             let a = low.sums(phases, period_one);
             let b = if not_chattering { high.sums(phases, bouncing) } else { high.sums(phases, period_one) };
-            let (bottom, top) = nearest(&a, &b, 0..bottoms.min(size.0 - size.0 / 80));
+            let (bottom, top) = nearest(&a, &b, printed, 0..bottoms.min(size.0 - size.0 / 80));
             searches.push(Search {
                 family: family.to_owned(),
                 not_chattering,
@@ -176,10 +177,11 @@ pub(super) fn windows(
         // The same top in |w_A|/(ωA), which is |w_A Γ/(ωA)| over Γ.
         let b = if not_chattering { &b_all } else { &b };
         let tops =
-            (1..=CURVE_POINTS * 10).map(|i| LARGEST_TOP / forcings.1 * i as f64 / (CURVE_POINTS * 10) as f64);
-        let best = tops
-            .map(|top| (top, share(&a, top * forcings.0), share(b, top * forcings.1)))
-            .reduce(|best, next| if misfit(next.1, next.2) < misfit(best.1, best.2) { next } else { best });
+            (1..=CURVE_POINTS * 10).map(|i| LARGEST_TOP / second * i as f64 / (CURVE_POINTS * 10) as f64);
+        let best =
+            tops.map(|top| (top, share(&a, top * first), share(b, top * second))).reduce(|best, next| {
+                if misfit(next.1, next.2, printed) < misfit(best.1, best.2, printed) { next } else { best }
+            });
         if let Some((top, a, b)) = best {
             searches.push(Search {
                 family: "all phases, |w_A|/(ωA) from 0 (not normalised with Γ)".to_owned(),
@@ -194,11 +196,12 @@ pub(super) fn windows(
     Ok(Windows {
         grid: size,
         curve,
-        top_for_a: top_for(&a, PRINTED.0),
-        top_for_b: top_for(&b, PRINTED.1),
-        top_for_b_not_chattering: top_for(&b_all, PRINTED.1),
-        tops_for_both: tops_for_both(&a, &b),
-        tops_for_both_not_chattering: tops_for_both(&a, &b_all),
+        printed,
+        top_for_a: top_for(&a, printed[0]),
+        top_for_b: top_for(&b, printed[1]),
+        top_for_b_not_chattering: top_for(&b_all, printed[1]),
+        tops_for_both: tops_for_both(&a, &b, printed),
+        tops_for_both_not_chattering: tops_for_both(&a, &b_all, printed),
         searches,
     })
 }
@@ -231,9 +234,9 @@ mod tests {
         let rows = 800;
         let sums_with = |share: f64| -> Sums { (0..=rows).map(|row| share * row as f64).collect() };
         assert_eq!(
-            tops_for_both(&sums_with(PRINTED.0), &sums_with(PRINTED.1)),
+            tops_for_both(&sums_with(0.1), &sums_with(0.3), [0.1, 0.3]),
             [(LARGEST_TOP / rows as f64, LARGEST_TOP)]
         );
-        assert!(tops_for_both(&sums_with(PRINTED.0), &sums_with(0.4)).is_empty());
+        assert!(tops_for_both(&sums_with(0.1), &sums_with(0.4), [0.1, 0.3]).is_empty());
     }
 }
