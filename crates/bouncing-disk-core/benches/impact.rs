@@ -2,7 +2,9 @@
 
 use std::hint::black_box;
 
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Vibration};
+use bouncing_disk_core::{
+    ChatterPolicy, Ensemble, ImpactMap, ImpactState, InstructionSet, Launch, OrbitEvent, Phase, Vibration,
+};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// Impacts of one chaotic orbit per timed call.
@@ -35,6 +37,23 @@ fn chaotic_orbit(c: &mut Criterion) {
             black_box(last)
         });
     });
+    group.finish();
+    // The same orbit from many of its own states, in lockstep: the time is that of one impact of one orbit.
+    let mut group = c.benchmark_group("many_orbits");
+    let mut state = start;
+    let states: Vec<_> = (0..64)
+        .map(|_| {
+            state = map.step(state).expect("an impact follows").into();
+            (map, state)
+        })
+        .collect();
+    group.throughput(criterion::Throughput::Elements(states.len() as u64));
+    for set in InstructionSet::available() {
+        let mut ensemble = Ensemble::with_instruction_set(states.iter().copied(), set);
+        group.bench_function(format!("w1_chaotic_gamma_0.55/{set:?}"), |bencher| {
+            bencher.iter(|| black_box(ensemble.step()));
+        });
+    }
     group.finish();
 }
 

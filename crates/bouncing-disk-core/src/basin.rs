@@ -1,5 +1,7 @@
 //! Basins of attraction of the impact map on a grid of impact phases and speeds.
 
+mod lockstep;
+
 use core::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
@@ -9,6 +11,9 @@ use crate::error::{Error, within};
 use crate::map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::periodic::PeriodicOrbit;
 use crate::phase::Phase;
+
+/// Cells that one thread labels at a time: enough for lanes to be refilled many times over.
+const CHUNK_CELLS: usize = 8_192;
 
 /// What became of a start: one byte a cell.
 pub type Label = u8;
@@ -154,21 +159,15 @@ impl ImpactMap {
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<Label, Error> {
-        let scale = self.vibration().peak_acceleration();
-        let caught = |state: ImpactState| {
-            known
-                .iter()
-                .position(|known| known.orbit.distance(state, scale) <= known.radius)
-                .map(|index| FIRST_ORBIT + index as Label)
-        };
-        if let Some(label) = caught(start) {
+        let settles = |state: ImpactState| self.settles(state, known, settings.policy);
+        if let Some(label) = settles(start) {
             return Ok(label);
         }
         let mut orbit = self.orbit(start, settings.policy);
         for _ in 0..settings.max_impacts {
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
-                    if let Some(label) = caught(impact.into()) {
+                    if let Some(label) = settles(impact.into()) {
                         return Ok(label);
                     }
                 }
@@ -176,6 +175,24 @@ impl ImpactMap {
             }
         }
         Ok(UNDECIDED)
+    }
+
+    /// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to chatter to rest.
+    pub(crate) fn settles(
+        &self,
+        state: ImpactState,
+        known: &[KnownOrbit],
+        policy: ChatterPolicy,
+    ) -> Option<Label> {
+        let scale = self.vibration().peak_acceleration();
+        let caught = known.iter().position(|known| known.orbit.distance(state, scale) <= known.radius);
+        if let Some(index) = caught {
+            return Some(FIRST_ORBIT + index as Label);
+        }
+        let speed = -self.restitution() * state.velocity();
+        let rests = policy == ChatterPolicy::Complete
+            && self.vibration().chatters_to_rest(state.phase(), speed, self.restitution());
+        rests.then_some(ATTACHED)
     }
 
     /// The basins on a grid. `row_done` is called after every finished row (from any thread, in any order).
@@ -193,25 +210,28 @@ impl ImpactMap {
     ) -> Result<Basins, Error> {
         within("number of known orbits", known.len() as f64, 0.0, 250.0, "[0, 250]")?;
         let columns = grid.phase.cells();
-        let starts: Vec<Phase> = (0..columns)
+        let mut labels = vec![UNDECIDED; columns * grid.speed.cells()];
+        let phases: Vec<Phase> = (0..columns)
             .map(|column| Phase::new(grid.phase.centre(column) * TAU))
             .collect::<Result<_, _>>()?;
-        let mut labels = vec![UNDECIDED; columns * grid.speed.cells()];
-        let fill = |(row, cells): (usize, &mut [Label])| -> Result<(), Error> {
-            let velocity = -grid.speed.centre(row) * PI;
-            for (label, &phase) in cells.iter_mut().zip(&starts) {
-                *label = self.basin_label(ImpactState::new(phase, velocity)?, known, settings)?;
-            }
-            row_done();
+        let rows = (CHUNK_CELLS / columns).max(1);
+        let fill = |(chunk, cells): (usize, &mut [Label])| -> Result<(), Error> {
+            let first = chunk * rows * columns;
+            let start = |index: usize| {
+                let (row, column) = ((first + index) / columns, (first + index) % columns);
+                ImpactState::new(phases[column], -grid.speed.centre(row) * PI)
+            };
+            self.label_cells(start, cells, known, settings)?;
+            (0..cells.len() / columns).for_each(|_| row_done());
             Ok(())
         };
         #[cfg(feature = "parallel")]
         {
             use rayon::prelude::*;
-            labels.par_chunks_exact_mut(columns).enumerate().try_for_each(fill)?;
+            labels.par_chunks_mut(rows * columns).enumerate().try_for_each(fill)?;
         }
         #[cfg(not(feature = "parallel"))]
-        labels.chunks_exact_mut(columns).enumerate().try_for_each(fill)?;
+        labels.chunks_mut(rows * columns).enumerate().try_for_each(fill)?;
         Ok(Basins { labels, columns })
     }
 }

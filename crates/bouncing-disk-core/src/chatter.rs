@@ -119,15 +119,24 @@ impl Vibration {
     /// Proof that all impacts fall within 3/2 of the leading estimate: over that window the pull lies in
     /// [least, most] > 0, so a flight lasts at most 2 w / least and returns at most sqrt(most/least) w.
     fn pulls_back_throughout(&self, phase: Phase, speed: f64, restitution: f64, leading: f64) -> bool {
-        let window = 1.5 * leading;
-        let change = (self.velocity(phase).abs() + self.peak_acceleration() * window) * window;
-        let pull = self.contact_force(phase);
-        let (least, most) = (pull - change, pull + change);
-        if least <= 0.0 {
-            return false;
-        }
-        let ratio = restitution * (most / least).sqrt();
-        ratio < 1.0 && 2.0 * speed <= window * least * (1.0 - ratio)
+        window_holds_all(
+            self.peak_acceleration(),
+            self.contact_force(phase),
+            self.velocity(phase),
+            speed,
+            restitution,
+            leading,
+        )
+    }
+
+    /// Whether a disk that leaves the platform at `phase` with relative `speed` >= 0 is certain to chatter to rest
+    /// before the platform falls away: proven long before [`Self::accumulation`] can say where.
+    #[must_use]
+    #[inline]
+    pub fn chatters_to_rest(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
+        let (sin, cos) = (phase.sin(), phase.cos());
+        (speed <= 0.0 && !self.falls_away_at(phase.angle()))
+            || chatters_to_rest(self.peak_acceleration(), sin, cos, speed, restitution)
     }
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
@@ -156,6 +165,24 @@ impl Vibration {
             Some(ChatterImpact { time, speed: impact_speed, pair })
         })
     }
+}
+
+/// The proof of [`Vibration::chatters_to_rest`] for a launch at a phase with this pair and a positive speed.
+#[inline(always)]
+pub(crate) fn chatters_to_rest(peak: f64, sin: f64, cos: f64, speed: f64, restitution: f64) -> bool {
+    let pull = 1.0 - peak * sin;
+    let leading = 2.0 * speed / (pull * (1.0 - restitution));
+    (pull > 0.0) & window_holds_all(peak, pull, peak * cos, speed, restitution, leading)
+}
+
+/// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.
+#[inline(always)]
+fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f64, leading: f64) -> bool {
+    let window = 1.5 * leading;
+    let change = (drift.abs() + peak * window) * window;
+    let (least, most) = (pull - change, pull + change);
+    let ratio = restitution * (most / least).sqrt();
+    (least > 0.0) & (ratio < 1.0) & (2.0 * speed <= window * least * (1.0 - ratio))
 }
 
 #[inline(always)]

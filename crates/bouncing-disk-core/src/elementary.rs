@@ -60,10 +60,35 @@ fn nearest_quarter_turns(x: f64) -> (f64, u64) {
     (shifted - ROUND_MAGIC, shifted.to_bits())
 }
 
-/// Sine and cosine of `r` in [-pi/4, pi/4] plus `quadrant` quarter turns: the minimax polynomials of FreeBSD's
-/// `k_sin.c` and `k_cos.c`, summed as z A + z^2 B + z^3 C to keep the chains short.
+/// Sine and cosine of `r` in [-pi/4, pi/4] plus `quadrant` quarter turns.
 #[inline(always)]
 fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
+    let (sine, cosine) = pair_polynomials(r);
+    // Quadrant q: (sin, cos) is (s, c), (c, -s), (-s, -c), (-c, s).
+    let swap = quadrant & 1 == 1;
+    let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
+    let s = if quadrant & 2 == 0 { s } else { -s };
+    let c = if quadrant.wrapping_add(1) & 2 == 0 { c } else { -c };
+    (s, c)
+}
+
+/// [`sin_cos_bounded`], bit for bit, with integer operations in place of selections: what every instruction set can do
+/// for many lanes at once.
+#[inline(always)]
+pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
+    let (n, quadrant) = nearest_quarter_turns(x);
+    let (sine, cosine) = pair_polynomials((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE);
+    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+    let swapped = (sine ^ cosine) & 0_u64.wrapping_sub(quadrant & 1);
+    let s = (sine ^ swapped) ^ ((quadrant & 2) << 62);
+    let c = (cosine ^ swapped) ^ ((quadrant.wrapping_add(1) & 2) << 62);
+    (f64::from_bits(s), f64::from_bits(c))
+}
+
+/// Sine and cosine of `r` in [-pi/4, pi/4]: the minimax polynomials of FreeBSD's `k_sin.c` and `k_cos.c`, summed as
+/// z A + z^2 B + z^3 C to keep the chains short.
+#[inline(always)]
+fn pair_polynomials(r: f64) -> (f64, f64) {
     let z = r * r;
     let z2 = z * z;
     let rz = r * z;
@@ -79,12 +104,7 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
     let cosine_middle = 2.480_158_728_947_672_941_78e-5 - z * 2.755_731_435_139_066_330_35e-7;
     let cosine_high = 2.087_572_321_298_174_827_90e-9 - z * 1.135_964_755_778_819_482_65e-11;
     let cosine = head + ((lost + z2 * cosine_low) + (z4 * cosine_middle + (z4 * z2) * cosine_high));
-    // Quadrant q: (sin, cos) is (s, c), (c, -s), (-s, -c), (-c, s).
-    let swap = quadrant & 1 == 1;
-    let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
-    let s = if quadrant & 2 == 0 { s } else { -s };
-    let c = if quadrant.wrapping_add(1) & 2 == 0 { c } else { -c };
-    (s, c)
+    (sine, cosine)
 }
 
 /// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 4e-3 rad (truncation below
@@ -116,9 +136,6 @@ pub(crate) fn versine_ratio(h: f64) -> f64 {
 /// h - sin h for h in [0, 2 pi], in relative accuracy, given sin h.
 #[inline(always)]
 pub(crate) fn sine_deficit(h: f64, sin_h: f64) -> f64 {
-    if h > 1.7 {
-        return h - sin_h;
-    }
     // The Taylor series up to h^23/23!, 6e-18 of the sum at 1.7.
     let z = h * h;
     let z2 = z * z;
@@ -128,7 +145,8 @@ pub(crate) fn sine_deficit(h: f64, sin_h: f64) -> f64 {
     let high = (1.0 / 1.216_451_004_088_32e17 - z * (1.0 / 5.109_094_217_170_944e19))
         + z2 * (1.0 / 2.585_201_673_888_498e22);
     let z4 = z2 * z2;
-    (h * z) * (low + z4 * (middle + z4 * high))
+    let series = (h * z) * (low + z4 * (middle + z4 * high));
+    if h > 1.7 { h - sin_h } else { series }
 }
 
 /// (h - sin h) / h^3 for |h| up to 1/2; relative error below 2e-16.
@@ -169,6 +187,29 @@ pub(crate) fn nearby_wrapped(angle: f64) -> (f64, f64) {
     } else {
         (wrapped, turns)
     }
+}
+
+/// [`nearby_wrapped`], bit for bit, without a branch at the seam.
+#[inline(always)]
+pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
+    let turns = ((angle * (1.0 / TAU) - 0.5) + ROUND_MAGIC) - ROUND_MAGIC;
+    let wrapped = angle - turns * TAU;
+    let (below, above) = (wrapped < 0.0, wrapped >= TAU);
+    let inside = if above { wrapped - TAU } else { wrapped };
+    let counted = if above { turns + 1.0 } else { turns };
+    (if below { wrapped + TAU } else { inside }, if below { turns - 1.0 } else { counted })
+}
+
+/// The nearest whole number to `x`, for |x| below 2^51.
+#[inline(always)]
+pub(crate) fn nearest_whole(x: f64) -> f64 {
+    (x + ROUND_MAGIC) - ROUND_MAGIC
+}
+
+/// Which interval between two crests of the platform (phase pi/2) an angle lies in.
+#[inline(always)]
+pub(crate) fn crest_interval(angle: f64) -> f64 {
+    (angle * (1.0 / TAU) - 0.75) + ROUND_MAGIC
 }
 
 /// Reduces any finite angle to [0, 2 pi).

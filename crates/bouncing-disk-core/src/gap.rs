@@ -2,7 +2,8 @@
 //! of a root that is known to be the only one in its window.
 
 use crate::elementary::{
-    rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
+    rotated, sin_cos_bounded, sin_cos_of_lane, sine_deficit, sine_deficit_ratio, versine_ratio,
+    versine_shortfall,
 };
 use crate::error::Error;
 
@@ -42,15 +43,81 @@ pub(crate) struct Root {
 /// The gap and its derivatives at one time; the fourth derivative is -`platform`, the fifth -`third`.
 #[derive(Clone, Copy)]
 pub(crate) struct Jet {
-    gap: f64,
-    slope: f64,
-    curvature: f64,
+    pub(crate) gap: f64,
+    pub(crate) slope: f64,
+    pub(crate) curvature: f64,
     /// P cos: the third derivative.
-    third: f64,
+    pub(crate) third: f64,
     /// P sin: the platform's height.
-    platform: f64,
-    sin: f64,
-    cos: f64,
+    pub(crate) platform: f64,
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+}
+
+impl Jet {
+    /// Whether the gap falls and the series reversal of [`Self::last_step`] reaches the root from here.
+    ///
+    /// With the Newton step x = gap/slope: |x| (1 + |curvature/slope|) and x^2 (|third| + |platform|)/|slope| are small;
+    /// terms of the third order and above are bounded by the latter. Multiplied out, because a division takes long.
+    #[inline(always)]
+    pub(crate) fn is_near_root(&self) -> bool {
+        let (gap, fall) = (self.gap.abs(), -self.slope);
+        let square = fall * fall;
+        let bent = gap * (fall + self.curvature.abs()) <= LAST_STEP * square;
+        let third = (gap * gap) * (self.third.abs() + self.platform.abs())
+            <= (1.5 * LAST_STEP * LAST_STEP) * (square * fall);
+        bent & third & (fall > 0.0)
+    }
+
+    /// What the root of the quadratic model takes the square root of.
+    #[inline(always)]
+    pub(crate) fn radicand(&self) -> f64 {
+        self.slope * self.slope - 2.0 * self.gap * self.curvature
+    }
+
+    /// The step to the root of the quadratic model, given the square `root` of its radicand, with the sign that does
+    /// not cancel.
+    #[inline(always)]
+    pub(crate) fn quadratic_step(&self, root: f64) -> f64 {
+        -2.0 * self.gap / (self.slope - root)
+    }
+
+    /// The quadratic step `d` improved by one Newton step on the polynomial of the sixth order, whose quadratic part
+    /// has the slope -`root` there.
+    #[inline(always)]
+    pub(crate) fn corrected_step(&self, d: f64, root: f64) -> f64 {
+        let (third, platform) = (self.third, self.platform);
+        let d2 = d * d;
+        let rest = (d2 * d)
+            * (((1.0 / 6.0) * third - (1.0 / 24.0) * (platform * d))
+                - d2 * ((1.0 / 120.0) * third - (1.0 / 720.0) * (platform * d)));
+        let rest_slope = d2 * ((0.5 * third - (1.0 / 6.0) * (platform * d)) - d2 * ((1.0 / 24.0) * third));
+        let correction = rest / (root - rest_slope);
+        if correction.abs() < 0.5 * d.abs() { d + correction } else { d }
+    }
+
+    /// The step from a point near the root to the root, by series reversal to the sixth order.
+    #[inline(always)]
+    pub(crate) fn last_step(&self) -> f64 {
+        let inverse = 1.0 / self.slope;
+        self.reverted(-(self.gap * inverse), inverse)
+    }
+
+    /// The step d with gap + slope d + curvature d^2/2 + ... = 0, given the Newton step `z` = -gap/slope and
+    /// `inverse` = 1/slope.
+    #[inline(always)]
+    pub(crate) fn reverted(&self, z: f64, inverse: f64) -> f64 {
+        let a2 = 0.5 * self.curvature * inverse;
+        let a3 = (1.0 / 6.0) * self.third * inverse;
+        let a4 = (-1.0 / 24.0) * self.platform * inverse;
+        let a5 = (-1.0 / 120.0) * self.third * inverse;
+        let b = a2 * a2;
+        let c3 = 2.0 * b - a3;
+        let c4 = a2 * (5.0 * (a3 - b)) - a4;
+        let c5 = (6.0 * a2 * a4 + 3.0 * a3 * a3) + (b * (14.0 * b - 21.0 * a3) - a5);
+        let z2 = z * z;
+        z + z2 * ((c3 * z - a2) + z2 * (c4 + c5 * z))
+    }
 }
 
 /// A way to evaluate the gap.
@@ -74,14 +141,9 @@ pub(crate) trait GapForm: Copy {
         loop {
             let jet = self.jet(t);
             used += 1;
-            let Jet { gap, slope, curvature, third, platform, sin, cos } = jet;
-            let inverse = 1.0 / slope;
-            let x = gap * inverse;
-            // Terms of the third order and above are bounded by P/slope <= |third/slope| + |platform/slope|.
-            let small = x.abs() * (1.0 + (curvature * inverse).abs()) <= LAST_STEP
-                && (x * x) * ((third.abs() + platform.abs()) * inverse).abs() <= 1.5 * LAST_STEP * LAST_STEP;
-            if small && slope < 0.0 {
-                let delta = reverted(-x, inverse, &jet);
+            let Jet { gap, slope, sin, cos, .. } = jet;
+            if jet.is_near_root() {
+                let delta = jet.last_step();
                 let time = t + delta;
                 let (sin, cos) = rotated(sin, cos, delta);
                 return Ok(Root { time, sin, cos, velocity: self.velocity(time, cos), evaluations: used });
@@ -98,22 +160,12 @@ pub(crate) trait GapForm: Copy {
             if used >= MAX_EVALUATIONS {
                 return Err(Error::NoConvergence { evaluations: used, phase: t, gap });
             }
-            let radicand = slope * slope - 2.0 * gap * curvature;
+            let radicand = jet.radicand();
             let step = if radicand > 0.0 {
-                // The root of the quadratic model, with the sign that does not cancel; then one Newton step on the
-                // polynomial of the sixth order, whose quadratic part has the slope -sqrt(radicand) there.
                 let root = radicand.sqrt();
-                let d = -2.0 * gap / (slope - root);
-                let d2 = d * d;
-                let rest = (d2 * d)
-                    * (((1.0 / 6.0) * third - (1.0 / 24.0) * (platform * d))
-                        - d2 * ((1.0 / 120.0) * third - (1.0 / 720.0) * (platform * d)));
-                let rest_slope =
-                    d2 * ((0.5 * third - (1.0 / 6.0) * (platform * d)) - d2 * ((1.0 / 24.0) * third));
-                let correction = rest / (root - rest_slope);
-                if correction.abs() < 0.5 * d.abs() { d + correction } else { d }
+                jet.corrected_step(jet.quadratic_step(root), root)
             } else {
-                -x
+                -(gap * (1.0 / slope))
             };
             let next = t + step;
             t = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
@@ -165,22 +217,6 @@ pub(crate) trait GapForm: Copy {
     }
 }
 
-/// The step d with gap + slope d + curvature d^2/2 + ... = 0 by series reversal to the sixth order, given the
-/// Newton step `z` = -gap/slope and `inverse` = 1/slope.
-#[inline(always)]
-fn reverted(z: f64, inverse: f64, jet: &Jet) -> f64 {
-    let a2 = 0.5 * jet.curvature * inverse;
-    let a3 = (1.0 / 6.0) * jet.third * inverse;
-    let a4 = (-1.0 / 24.0) * jet.platform * inverse;
-    let a5 = (-1.0 / 120.0) * jet.third * inverse;
-    let b = a2 * a2;
-    let c3 = 2.0 * b - a3;
-    let c4 = a2 * (5.0 * (a3 - b)) - a4;
-    let c5 = (6.0 * a2 * a4 + 3.0 * a3 * a3) + (b * (14.0 * b - 21.0 * a3) - a5);
-    let z2 = z * z;
-    z + z2 * ((c3 * z - a2) + z2 * (c4 + c5 * z))
-}
-
 /// The gap counted from the platform's crest, P [1 - sin(angle + t)] - depth + t (speed - t/2): nothing large
 /// cancels however long the disk has been flying before t = 0.
 #[derive(Clone, Copy)]
@@ -199,12 +235,10 @@ impl CrestForm {
     pub(crate) fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
         (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
     }
-}
 
-impl GapForm for CrestForm {
+    /// Gap and derivatives at `t`, where the phase has this pair.
     #[inline(always)]
-    fn jet(&self, t: f64) -> Jet {
-        let (sin, cos) = sin_cos_bounded(self.angle + t);
+    pub(crate) fn jet_of_pair(&self, t: f64, sin: f64, cos: f64) -> Jet {
         let platform = self.peak * sin;
         let third = self.peak * cos;
         Jet {
@@ -216,6 +250,14 @@ impl GapForm for CrestForm {
             sin,
             cos,
         }
+    }
+}
+
+impl GapForm for CrestForm {
+    #[inline(always)]
+    fn jet(&self, t: f64) -> Jet {
+        let (sin, cos) = sin_cos_bounded(self.angle + t);
+        self.jet_of_pair(t, sin, cos)
     }
 
     #[inline(always)]
@@ -245,38 +287,67 @@ impl LaunchForm {
     /// 1 - cos t and sin t, each in relative accuracy.
     #[inline(always)]
     fn versine_and_sine(t: f64) -> (f64, f64) {
-        let (half_sin, half_cos) = sin_cos_bounded(0.5 * t);
+        Self::doubled(sin_cos_bounded(0.5 * t))
+    }
+
+    /// As [`Self::versine_and_sine`], bit for bit.
+    #[inline(always)]
+    pub(crate) fn versine_and_sine_of_lane(t: f64) -> (f64, f64) {
+        Self::doubled(sin_cos_of_lane(0.5 * t))
+    }
+
+    #[inline(always)]
+    fn doubled((half_sin, half_cos): (f64, f64)) -> (f64, f64) {
         (2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos)
     }
 
     /// The gap alone.
     pub(crate) fn gap(&self, t: f64) -> f64 {
-        let (versine, sin_t) = Self::versine_and_sine(t);
-        t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t))
+        self.gap_of(t, Self::versine_and_sine(t))
     }
 
     /// The relative velocity.
     pub(crate) fn slope(&self, t: f64) -> f64 {
-        let (versine, sin_t) = Self::versine_and_sine(t);
+        self.slope_of(t, Self::versine_and_sine(t))
+    }
+
+    /// As [`Self::slope`], bit for bit.
+    #[inline(always)]
+    pub(crate) fn slope_of_lane(&self, t: f64) -> f64 {
+        self.slope_of(t, Self::versine_and_sine_of_lane(t))
+    }
+
+    #[inline(always)]
+    fn gap_of(&self, t: f64, (versine, sin_t): (f64, f64)) -> f64 {
+        t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t))
+    }
+
+    /// The relative velocity at `t`, with 1 - cos t and sin t known.
+    #[inline(always)]
+    pub(crate) fn slope_of(&self, t: f64, (versine, sin_t): (f64, f64)) -> f64 {
         (self.speed - t) + (self.cosine * versine + self.sine * sin_t)
     }
-}
 
-impl GapForm for LaunchForm {
+    /// Gap and derivatives at `t`, with the pair of the phase there, and 1 - cos t and sin t, known.
     #[inline(always)]
-    fn jet(&self, t: f64) -> Jet {
-        let (sin, cos) = sin_cos_bounded(self.angle + t);
-        let (versine, sin_t) = Self::versine_and_sine(t);
+    pub(crate) fn jet_of_pairs(&self, t: f64, (sin, cos): (f64, f64), of_time: (f64, f64)) -> Jet {
         let platform = self.peak * sin;
         Jet {
-            gap: t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t)),
-            slope: (self.speed - t) + (self.cosine * versine + self.sine * sin_t),
+            gap: self.gap_of(t, of_time),
+            slope: self.slope_of(t, of_time),
             curvature: platform - 1.0,
             third: self.peak * cos,
             platform,
             sin,
             cos,
         }
+    }
+}
+
+impl GapForm for LaunchForm {
+    #[inline(always)]
+    fn jet(&self, t: f64) -> Jet {
+        self.jet_of_pairs(t, sin_cos_bounded(self.angle + t), Self::versine_and_sine(t))
     }
 
     fn velocity(&self, t: f64, _cos: f64) -> f64 {
@@ -325,9 +396,22 @@ impl ShortForm {
         (self.cosine * sin_h - self.pull) - self.sine * (h2 * versine_ratio(h))
     }
 
+    /// Whether what this Newton step leaves is below rounding.
+    #[inline(always)]
+    pub(crate) fn is_last(step: f64, h: f64, slope: f64) -> bool {
+        (step.abs() <= LAST_SHORT_STEP * h) & (slope < 0.0)
+    }
+
+    /// The relative velocity a last `step` behind `h`, where it is `velocity`; not positive.
+    #[inline(always)]
+    pub(crate) fn impact_velocity(&self, h: f64, velocity: f64, step: f64) -> f64 {
+        let impact = velocity + self.curvature(h) * step;
+        if impact < 0.0 { impact } else { 0.0 }
+    }
+
     /// The first flight of a chattering sequence, from the expansion in the launch speed.
     #[inline(always)]
-    fn expected(&self) -> f64 {
+    pub(crate) fn expected(&self) -> f64 {
         let inverse = 1.0 / self.pull;
         let x = self.speed * inverse;
         let beta = self.cosine * inverse;
@@ -349,8 +433,8 @@ impl ShortForm {
             *evaluations += 1;
             let slope = velocity - ratio;
             let step = -ratio * h / slope;
-            if step.abs() <= LAST_SHORT_STEP * h && slope < 0.0 {
-                return Some((h + step, (velocity + self.curvature(h) * step).min(0.0)));
+            if Self::is_last(step, h, slope) {
+                return Some((h + step, self.impact_velocity(h, velocity, step)));
             }
             h += step;
         }
@@ -371,8 +455,8 @@ impl ShortForm {
             let slope = velocity - ratio;
             let step = -ratio * h / slope;
             let next = h + step;
-            if step.abs() <= LAST_SHORT_STEP * h && slope < 0.0 {
-                return Ok((next, (velocity + self.curvature(h) * step).min(0.0)));
+            if Self::is_last(step, h, slope) {
+                return Ok((next, self.impact_velocity(h, velocity, step)));
             }
             if bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * bracket.hi {
                 return Ok((h, velocity.min(0.0)));

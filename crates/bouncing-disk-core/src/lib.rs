@@ -8,10 +8,12 @@ mod catching;
 mod chatter;
 mod drop;
 pub mod elementary;
+mod ensemble;
 mod error;
 mod flight;
 mod follow;
 mod gap;
+mod lanes;
 mod map;
 mod margin;
 mod periodic;
@@ -23,9 +25,11 @@ pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownO
 pub use chatter::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
 };
+pub use ensemble::Ensemble;
 pub use error::Error;
 pub use flight::{Impact, Launch, MAX_FLIGHT_DURATION};
 pub use follow::{Followed, Following, follow};
+pub use lanes::InstructionSet;
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use phase::Phase;

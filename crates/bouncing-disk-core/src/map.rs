@@ -42,6 +42,11 @@ impl ImpactState {
         Self::new(Phase::new(angle)?, -normalised_speed * core::f64::consts::PI)
     }
 
+    /// The state at an impact that was computed.
+    pub(crate) const fn of_impact(phase: Phase, velocity: f64) -> Self {
+        Self { phase, velocity }
+    }
+
     /// Impact phase tau_imp.
     #[must_use]
     pub const fn phase(&self) -> Phase {

@@ -1,0 +1,173 @@
+//! Independent orbits of impact maps, advanced together.
+
+use crate::error::Error;
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Row};
+use crate::map::{ImpactMap, ImpactState};
+
+/// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of
+/// [`ImpactMap::step`], several times faster than one after the other.
+///
+/// ```
+/// use bouncing_disk_core::{Ensemble, ImpactMap, ImpactState, Vibration};
+///
+/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+/// let starts = (0..100)
+///     .map(|k| ImpactState::from_normalised(0.8, 1.3 + 1e-9 * f64::from(k)))
+///     .collect::<Result<Vec<_>, _>>()?;
+/// let mut ensemble = Ensemble::new(starts.iter().map(|&start| (map, start)));
+/// ensemble.step()?;
+/// assert_eq!(ensemble.state(7), Some(map.step(starts[7])?.into()));
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Ensemble {
+    flyer: Box<Flyer>,
+    blocks: Vec<Block>,
+    len: usize,
+}
+
+#[derive(Debug, Clone)]
+struct Block {
+    batch: Batch,
+    restitution: Row,
+    len: usize,
+}
+
+impl Ensemble {
+    /// Orbits that start with the impact in a state of their own, each of its own map, with the best instructions of this
+    /// processor.
+    pub fn new(starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>) -> Self {
+        Self::with_instruction_set(starts, InstructionSet::best())
+    }
+
+    /// [`Self::new`] with other instructions; the states do not depend on them. What the processor does not have is
+    /// replaced by the next lower set.
+    pub fn with_instruction_set(
+        starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
+        set: InstructionSet,
+    ) -> Self {
+        let mut ensemble = Self { flyer: Box::new(Flyer::new(set)), blocks: Vec::new(), len: 0 };
+        for (map, state) in starts {
+            let lane = ensemble.len % LANES;
+            if lane == 0 {
+                let batch = Batch::new(*map.vibration());
+                ensemble.blocks.push(Block { batch, restitution: [0.0; LANES], len: 0 });
+            }
+            if let Some(block) = ensemble.blocks.last_mut() {
+                block.batch.set_platform(lane, *map.vibration());
+                block.batch.set_impact(lane, state.phase(), state.velocity());
+                block.restitution[lane] = map.restitution();
+                block.len += 1;
+            }
+            ensemble.len += 1;
+        }
+        ensemble
+    }
+
+    /// Number of orbits.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no orbits.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The last impact of an orbit; `None` if there is no such orbit.
+    #[must_use]
+    pub fn state(&self, index: usize) -> Option<ImpactState> {
+        let block = self.blocks.get(index / LANES)?;
+        (index < self.len).then(|| {
+            let lane = index % LANES;
+            ImpactState::of_impact(block.batch.impact_phase(lane), block.batch.impacts.velocity[lane])
+        })
+    }
+
+    /// Takes every orbit to its next impact.
+    ///
+    /// # Errors
+    /// The error of the first orbit that has none (see [`ImpactMap::step`]); that orbit stays where it is, the others
+    /// go on.
+    pub fn step(&mut self) -> Result<(), Error> {
+        let mut first = None;
+        for block in &mut self.blocks {
+            let before = block.batch.impacts.velocity;
+            block.batch.rebound(&block.restitution);
+            let mut failed: u64 = 0;
+            self.flyer.fly(&mut block.batch, block.len, |lane, error| {
+                failed |= 1 << lane;
+                first.get_or_insert(error);
+            });
+            while failed != 0 {
+                let lane = failed.trailing_zeros() as usize;
+                let stays = block.batch.launch_phase(lane);
+                block.batch.set_impact(lane, stays, before[lane]);
+                failed &= failed - 1;
+            }
+        }
+        first.map_or(Ok(()), Err)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::Phase;
+    use crate::vibration::Vibration;
+    use core::f64::consts::TAU;
+
+    /// Well spread numbers in [0, 1).
+    fn spread(k: u64) -> f64 {
+        (k as f64 * 0.618_033_988_749_894_9) % 1.0
+    }
+
+    fn bits(state: ImpactState) -> [u64; 4] {
+        let phase = state.phase();
+        [phase.angle(), phase.sin(), phase.cos(), state.velocity()].map(f64::to_bits)
+    }
+
+    /// Launches of every kind, from chatter to long flights, at peak accelerations from 0 to 1e6.
+    fn launches(count: u64) -> impl Iterator<Item = (ImpactMap, ImpactState)> {
+        (0..count).map(|k| {
+            let peak = match k % 7 {
+                0 => 1.2 * spread(k),
+                1..=3 => 1.0 + 2.0 * spread(3 * k),
+                4 => 20.0 * spread(5 * k),
+                5 => 197.392_088,
+                _ => libm::exp10(6.0 * spread(k / 7)),
+            };
+            let speed = (1.0 + peak) * libm::exp10(1.5 - 7.0 * spread(k / 3) * spread(11 * k));
+            let phase = Phase::new(TAU * spread(13 * k + k / 64)).expect("finite");
+            let map = ImpactMap::new(Vibration::new(peak).expect("legal"), 0.5).expect("legal");
+            (map, ImpactState::new(phase, -speed).expect("legal"))
+        })
+    }
+
+    #[test]
+    fn lanes_give_the_bits_of_single_flights() {
+        let count = 1 << 20;
+        let starts: Vec<_> = launches(count).collect();
+        for set in InstructionSet::available() {
+            let mut ensemble = Ensemble::with_instruction_set(starts.iter().copied(), set);
+            for _ in 0..3 {
+                let before: Vec<_> =
+                    (0..ensemble.len()).map(|k| ensemble.state(k).expect("exists")).collect();
+                // Orbits that have come to rest have no next impact.
+                let _ = ensemble.step();
+                for (k, (map, _)) in starts.iter().enumerate() {
+                    let expected = map.step(before[k]).map_or(before[k], Into::into);
+                    let got = ensemble.state(k).expect("exists");
+                    assert_eq!(
+                        bits(got),
+                        bits(expected),
+                        "{set:?} {map:?} after {:?}: {got:?} {expected:?}",
+                        before[k]
+                    );
+                }
+            }
+        }
+    }
+}
