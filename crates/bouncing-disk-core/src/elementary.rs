@@ -206,12 +206,6 @@ pub(crate) fn nearest_whole(x: f64) -> f64 {
     (x + ROUND_MAGIC) - ROUND_MAGIC
 }
 
-/// Which interval between two crests of the platform (phase pi/2) an angle lies in.
-#[inline(always)]
-pub(crate) fn crest_interval(angle: f64) -> f64 {
-    (angle * (1.0 / TAU) - 0.75) + ROUND_MAGIC
-}
-
 /// Reduces any finite angle to [0, 2 pi).
 #[must_use]
 pub fn wrapped_angle(angle: f64) -> f64 {

@@ -168,6 +168,9 @@ struct Work {
     start: Row,
     free_periods: Row,
     fall: Row,
+    /// The window that holds the root, and the time reached.
+    lo: Row,
+    hi: Row,
     time: Row,
     sin: Row,
     cos: Row,
@@ -176,6 +179,8 @@ struct Work {
     inverse: Row,
     /// Lanes whose flight from above the crests is certain.
     regular: Mask,
+    /// Lanes near the root at the time reached.
+    near: Mask,
     /// Lanes that clear the first crest.
     clears: Mask,
     /// Lanes that may land within half a radian.
@@ -276,6 +281,8 @@ impl Flyer {
             start: ROW,
             free_periods: ROW,
             fall: ROW,
+            lo: ROW,
+            hi: ROW,
             time: ROW,
             sin: ROW,
             cos: ROW,
@@ -283,6 +290,7 @@ impl Flyer {
             step: ROW,
             inverse: ROW,
             regular: [0; LANES],
+            near: [0; LANES],
             clears: [0; LANES],
             slow: [0; LANES],
             settled: [0; LANES],

@@ -1,18 +1,16 @@
 //! The impact of disks that rise above the crests: [`Vibration::impact_from_above`](crate::Vibration), many at a time.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use pulp::{Simd, WithSimd};
 
 use super::{Impacts, LANES, Launches, Platforms, Work, kept, mask};
-use crate::elementary::{
-    CREST, crest_interval, nearby_wrapped_of_lane, nearest_periods, rotated, sin_cos_of_lane,
-};
+use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_periods, rotated, sin_cos_of_lane};
 use crate::flight::MAX_FLIGHT_DURATION;
 use crate::gap::{CrestForm, Jet};
 
-/// Phases this close (rad) to where the one-flight solver decides otherwise are left to it.
-const DOUBTFUL_PHASE: f64 = 1.0e-9;
+/// Evaluations after the first two, made only while a lane needs them.
+const MORE_EVALUATIONS: usize = 2;
 
 /// From the launch to the first evaluation and the first step.
 pub(super) struct Prepare<'a> {
@@ -21,7 +19,7 @@ pub(super) struct Prepare<'a> {
     pub(super) work: &'a mut Work,
 }
 
-/// The second evaluation and the last step.
+/// The second evaluation, more where they are needed, and the last step.
 pub(super) struct Land<'a> {
     pub(super) platforms: &'a Platforms,
     pub(super) work: &'a mut Work,
@@ -36,11 +34,9 @@ impl WithSimd for Prepare<'_> {
         let Self { platforms, launches, work } = self;
         clear_first_crest(platforms, launches, work);
         fall_to_crest_height(platforms, launches, work);
-        evaluate_pairs_at_start(work);
-        quadratic_root(platforms, work);
-        quadratic_step(platforms, work);
-        corrected_step(platforms, work);
-        first_step(platforms, work);
+        window(platforms, work);
+        evaluate(work);
+        advance(platforms, work);
     }
 }
 
@@ -50,14 +46,27 @@ impl WithSimd for Land<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, work, impacts } = self;
-        evaluate_pairs(work);
-        newton_step(platforms, work);
+        evaluate(work);
+        for _ in 0..MORE_EVALUATIONS {
+            if newton_step(platforms, work) {
+                break;
+            }
+            advance(platforms, work);
+            evaluate(work);
+            newton_step(platforms, work);
+        }
         last_step(platforms, work);
         impact(platforms, work, impacts);
         for lane in 0..LANES {
-            work.settled[lane] |= work.regular[lane] & work.clears[lane] & !work.slow[lane];
+            work.settled[lane] |= ordinary(work, lane) & work.near[lane];
         }
     }
+}
+
+/// Whether a lane lands from above the crests.
+#[inline(always)]
+const fn ordinary(work: &Work, lane: usize) -> u64 {
+    work.regular[lane] & work.clears[lane] & !work.slow[lane]
 }
 
 /// Marks the lanes that are not hit before the first crest for certain, as `impact_after` decides it.
@@ -106,15 +115,41 @@ fn fall_to_crest_height(platforms: &Platforms, launches: &Launches, work: &mut W
     }
 }
 
+/// The window of the root, as `impact_from_above` and `bracket_behind_crest` find it, except where a dip is possible.
 #[inline(always)]
-fn evaluate_pairs_at_start(work: &mut Work) {
+fn window(platforms: &Platforms, work: &mut Work) {
+    let mut any = 0;
     for lane in 0..LANES {
-        (work.sin[lane], work.cos[lane]) = sin_cos_of_lane(work.start[lane]);
+        let (turned, _) = nearby_wrapped_of_lane(work.start[lane]);
+        let retention = PI - platforms.separation_angle[lane];
+        let behind =
+            mask(turned > CREST) & mask(turned < retention) & mask(work.fall[lane] < platforms.peak[lane]);
+        work.lo[lane] = 0.0;
+        work.hi[lane] = (CREST - turned) + kept(mask(turned >= CREST), TAU);
+        work.time[lane] = 0.0;
+        any |= behind;
+    }
+    if any == 0 {
+        return;
+    }
+    for lane in 0..LANES {
+        let (fall, peak) = (work.fall[lane], platforms.peak[lane]);
+        let (turned, _) = nearby_wrapped_of_lane(work.start[lane]);
+        let retention = PI - platforms.separation_angle[lane];
+        let behind = mask(turned > CREST) & mask(turned < retention) & mask(fall < peak);
+        let end = retention - turned;
+        let falling = CrestForm { peak, angle: turned, speed: -fall, depth: 0.0 };
+        let passed = mask(falling.gap_over(platforms.separation_depth[lane], end) <= 0.0);
+        let falls_faster = mask((-fall - end) + platforms.separation_speed[lane] <= 0.0);
+        work.lo[lane] = kept(behind & !passed, end);
+        work.time[lane] = work.lo[lane];
+        work.hi[lane] = if behind & passed != 0 { end } else { work.hi[lane] };
+        work.regular[lane] &= !behind | passed | falls_faster;
     }
 }
 
 #[inline(always)]
-fn evaluate_pairs(work: &mut Work) {
+fn evaluate(work: &mut Work) {
     for lane in 0..LANES {
         (work.sin[lane], work.cos[lane]) = sin_cos_of_lane(work.start[lane] + work.time[lane]);
     }
@@ -122,67 +157,60 @@ fn evaluate_pairs(work: &mut Work) {
 
 /// Gap and derivatives of a lane at the time reached, with the pair there known.
 #[inline(always)]
-fn jet(platforms: &Platforms, work: &Work, lane: usize, time: f64) -> Jet {
+fn jet(platforms: &Platforms, work: &Work, lane: usize) -> Jet {
     CrestForm { peak: platforms.peak[lane], angle: work.start[lane], speed: -work.fall[lane], depth: 0.0 }
-        .jet_of_pair(time, work.sin[lane], work.cos[lane])
+        .jet_of_pair(work.time[lane], work.sin[lane], work.cos[lane])
 }
 
+/// One step of the search of one flight; none where the root is near.
 #[inline(always)]
-fn quadratic_root(platforms: &Platforms, work: &mut Work) {
+fn advance(platforms: &Platforms, work: &mut Work) {
     for lane in 0..LANES {
-        work.root[lane] = jet(platforms, work, lane, 0.0).radicand().sqrt();
+        work.root[lane] = jet(platforms, work, lane).radicand().sqrt();
     }
-}
-
-#[inline(always)]
-fn quadratic_step(platforms: &Platforms, work: &mut Work) {
     for lane in 0..LANES {
-        work.step[lane] = jet(platforms, work, lane, 0.0).quadratic_step(work.root[lane]);
+        work.step[lane] = jet(platforms, work, lane).quadratic_step(work.root[lane]);
     }
-}
-
-#[inline(always)]
-fn corrected_step(platforms: &Platforms, work: &mut Work) {
     for lane in 0..LANES {
-        work.step[lane] = jet(platforms, work, lane, 0.0).corrected_step(work.step[lane], work.root[lane]);
+        work.step[lane] = jet(platforms, work, lane).corrected_step(work.step[lane], work.root[lane]);
     }
-}
-
-/// Takes the step where the solver of one flight would, or none if the root is near already.
-#[inline(always)]
-fn first_step(platforms: &Platforms, work: &mut Work) {
     for lane in 0..LANES {
-        let jet = jet(platforms, work, lane, 0.0);
-        let (start, next) = (work.start[lane], work.step[lane]);
+        let jet = jet(platforms, work, lane);
+        let t = work.time[lane];
         let near = mask(jet.is_near_root());
-        let doubt = DOUBTFUL_PHASE * (1.0 + platforms.peak[lane]);
-        let behind_crest = mask(jet.third < doubt) & mask(jet.curvature > -doubt);
-        let dips = behind_crest & mask(work.fall[lane] < platforms.peak[lane]);
-        let before_crest = mask(
-            crest_interval(start - DOUBTFUL_PHASE).to_bits()
-                == crest_interval(start + next + DOUBTFUL_PHASE).to_bits(),
-        );
-        let fine = mask(jet.slope < 0.0) & mask(next > 0.0) & before_crest;
-        work.time[lane] = kept(!near, next);
-        work.regular[lane] &= (near | fine) & !dips;
+        let above = jet.gap > 0.0;
+        let lo = if above { t } else { work.lo[lane] };
+        let hi = if above { work.hi[lane] } else { t };
+        let next = t + work.step[lane];
+        let inside = mask(jet.slope < 0.0) & mask(next > lo) & mask(next < hi);
+        work.time[lane] = if near != 0 { t } else { next };
+        work.lo[lane] = lo;
+        work.hi[lane] = hi;
+        // Newton's step and bisection are left to the solver of one flight.
+        work.regular[lane] &= near | inside;
     }
 }
 
+/// The Newton step; whether all lanes that land from above are near their roots.
 #[inline(always)]
-fn newton_step(platforms: &Platforms, work: &mut Work) {
+fn newton_step(platforms: &Platforms, work: &mut Work) -> bool {
+    let mut all = u64::MAX;
     for lane in 0..LANES {
-        let jet = jet(platforms, work, lane, work.time[lane]);
+        let jet = jet(platforms, work, lane);
         let inverse = 1.0 / jet.slope;
         work.inverse[lane] = inverse;
         work.step[lane] = -(jet.gap * inverse);
-        work.regular[lane] &= mask(jet.is_near_root());
+        let near = mask(jet.is_near_root());
+        work.near[lane] = near;
+        all &= near | !ordinary(work, lane);
     }
+    all == u64::MAX
 }
 
 #[inline(always)]
 fn last_step(platforms: &Platforms, work: &mut Work) {
     for lane in 0..LANES {
-        let jet = jet(platforms, work, lane, 0.0);
+        let jet = jet(platforms, work, lane);
         work.step[lane] = jet.reverted(work.step[lane], work.inverse[lane]);
     }
 }
