@@ -4,7 +4,8 @@ mod picture;
 
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
-use bouncing_disk::{Event, InitialState, toss_trajectory};
+use bouncing_disk::core::elementary::sin;
+use bouncing_disk::{Event, InitialState, Platform, toss_trajectory};
 use serde::{Deserialize, Serialize};
 
 use super::hand_path::HandPath;
@@ -44,6 +45,21 @@ pub struct Fig01Data {
     disk_height_m: f64,
     disk_angle_rad: f64,
     path: HandPath,
+    /// Largest difference of the platform from Eq. (1), over the amplitudes.
+    equation_fault: f64,
+}
+
+/// The platform of the model against Eq. (1), over the amplitudes.
+fn equation_fault(platform: &Platform, path: &HandPath) -> f64 {
+    let points = path.phase_rad.iter().zip(path.points());
+    points
+        .map(|(phase, (angle, height))| {
+            let turned = platform.twist_amplitude() * sin(phase + platform.phase_lag());
+            let raised = platform.amplitude() * sin(*phase);
+            let angle_fault = (angle - turned).abs() / platform.twist_amplitude();
+            angle_fault.max((height - raised).abs() / platform.amplitude())
+        })
+        .fold(0.0, f64::max)
 }
 
 impl Experiment for Fig01 {
@@ -89,6 +105,7 @@ impl Experiment for Fig01 {
         let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
         let disk = scales.state(&instant.disk);
         let platform = system.platform();
+        let path = HandPath::new(platform, quality.choose(120, 720))?;
         progress.advance(1);
         Ok(Fig01Data {
             phase_lag_rad: PHASE_LAG,
@@ -101,7 +118,8 @@ impl Experiment for Fig01 {
             platform_angle_rad: platform.angle(instant.time.phase),
             disk_height_m: disk.height,
             disk_angle_rad: disk.angle,
-            path: HandPath::new(platform, quality.choose(120, 720))?,
+            equation_fault: equation_fault(platform, &path),
+            path,
             table_i,
         })
     }
@@ -114,16 +132,25 @@ impl Experiment for Fig01 {
         let gap = data.path.closing_gap(data.contact_radius_m);
         let area = data.path.enclosed_area(data.contact_radius_m);
         let stroke = data.table_i.stroke_m.value;
-        vec![Claim::statement(
-            Self::ID,
-            "Fig. 1 caption",
-            "the trajectories of a point of the platform are closed curves on the surface of a cylinder",
+        let motion = Claim::printed_statement(
+            "section1.platform_motion",
+            data.equation_fault <= ROUNDING,
+            format!(
+                "largest difference of the platform's height and angle from Eq. (1) at {} phases, over the amplitudes: {:.1e}",
+                data.path.phase_rad.len(),
+                data.equation_fault
+            ),
+        );
+        let curve = Claim::printed_statement(
+            "section1.closed_curves",
             gap <= ROUNDING * stroke && area.abs() > ROUNDING * stroke * stroke,
             format!(
                 "after one period the point is {gap:.1e} m from where it was; on the unrolled cylinder of radius a_e \
-                 its path encloses {area:.4} m²"
+                 its path encloses {:.4} m²",
+                area.abs()
             ),
-        )]
+        );
+        vec![motion, curve]
     }
 
     fn parameters(data: &Fig01Data) -> Vec<(String, String)> {

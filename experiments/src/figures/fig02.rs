@@ -12,6 +12,7 @@ use super::hand_path::HandPath;
 use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::paper;
 use crate::progress::Progress;
 
 /// The shape of a path does not depend on its size: the contact radius is 1 m here, the stroke this many of it.
@@ -21,9 +22,7 @@ const STROKE: f64 = 1.5;
 /// Any frequency gives the same path.
 const ANGULAR_FREQUENCY: f64 = 1.0;
 
-/// φ_L of (a)–(c) and θ of (d)–(f), as printed; θ of (a) is printed in Sec. IV A. The others are not in the text.
-const AMPLITUDE_ANGLE: f64 = FRAC_PI_4;
-const PHASE_LAG: f64 = -FRAC_PI_4;
+/// θ of (a)–(c) and φ_L of (d)–(f): for (a) Sec. IV A names θ, for (c) Sec. III B; the others are not in the text.
 const PHASE_LAGS: [f64; 3] = [-FRAC_PI_2, -FRAC_PI_4, 0.0];
 const AMPLITUDE_ANGLES: [f64; 3] = [0.05 * PI, 0.25 * PI, 0.45 * PI];
 
@@ -50,7 +49,6 @@ struct Trajectory {
     twist_amplitude_rad: f64,
     /// Lengths of the path are in units of the contact radius.
     path: HandPath,
-    closing_gap: f64,
     /// On the unrolled cylinder, in units of the contact radius squared; from the points of the path.
     enclosed_area: f64,
     /// π A a_e Φ sin θ, the same in closed form but for the sense.
@@ -79,7 +77,6 @@ impl Trajectory {
             amplitude_angle_rad: amplitude_angle,
             amplitude_over_contact_radius: up,
             twist_amplitude_rad: platform.twist_amplitude(),
-            closing_gap: path.closing_gap(CONTACT_RADIUS),
             enclosed_area: path.enclosed_area(CONTACT_RADIUS),
             area_of_ellipse: PI * product,
             axis_ratio: tan(0.5 * asin(doubled)),
@@ -113,8 +110,10 @@ impl Experiment for Fig02 {
 
     fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig02Data, ExperimentError> {
         let intervals = quality.choose(120, 720);
-        let lags = PHASE_LAGS.map(|lag| (lag, AMPLITUDE_ANGLE));
-        let ratios = AMPLITUDE_ANGLES.map(|angle| (PHASE_LAG, angle));
+        let printed_angle = paper::value("section1.amplitude_angle_of_fig2_abc")?;
+        let printed_lag = paper::value("section1.phase_lag_of_fig2_def")?;
+        let lags = PHASE_LAGS.map(|lag| (lag, printed_angle));
+        let ratios = AMPLITUDE_ANGLES.map(|angle| (printed_lag, angle));
         progress.start((lags.len() + ratios.len()) as u64, "trajectories");
         let mut panels = Vec::new();
         for (lag, angle) in lags.into_iter().chain(ratios) {
@@ -149,69 +148,62 @@ impl Experiment for Fig02 {
 }
 
 fn claims(data: &Fig02Data) -> Vec<Claim> {
-    let id = Fig02::ID;
     let panels = &data.panels;
-    let gap = panels.iter().map(|panel| panel.closing_gap).fold(0.0, f64::max);
-    let mut claims = vec![Claim::statement(
-        id,
-        "Fig. 1 caption",
-        "Eqs. (1) describe a family of closed curves on the surface of a cylinder",
-        gap <= ROUNDING * data.stroke_over_contact_radius,
-        format!("after one period the six points are at most {gap:.1e} a_e from where they were"),
-    )];
-    let ratio_error = panels
+    let ratio_fault = panels
         .iter()
         .map(|panel| {
             let ratio = panel.twist_amplitude_rad / panel.amplitude_over_contact_radius;
             (ratio / tan(panel.amplitude_angle_rad) - 1.0).abs()
         })
         .fold(0.0, f64::max);
-    claims.push(Claim::statement(
-        id,
-        "Sec. I",
-        "L = a_e Φ/A = tan φ_L",
-        ratio_error <= ROUNDING,
-        format!("largest relative difference of the six trajectories: {ratio_error:.1e}"),
-    ));
-    if let [ellipse, semi, line, ..] = &panels[..] {
-        let shape = |panel: &Trajectory| {
+    let ratios: Vec<_> = panels
+        .iter()
+        .map(|panel| format!("{}: {:.3}", pi(panel.amplitude_angle_rad), tan(panel.amplitude_angle_rad)))
+        .collect();
+    let shapes: Vec<_> = panels
+        .iter()
+        .map(|panel| {
             format!(
-                "θ = {}: minor over major axis {:.4}, enclosed area {:.4} a_e²",
+                "θ = {}, φ_L = {}: {:.4}, {:.4} a_e²",
                 pi(panel.phase_lag_rad),
+                pi(panel.amplitude_angle_rad),
                 panel.axis_ratio,
-                panel.enclosed_area
+                panel.enclosed_area.abs()
             )
-        };
-        let evidence =
-            format!("on the unrolled cylinder: {}; {}; {}", shape(ellipse), shape(semi), shape(line));
-        claims.push(Claim::statement(
-            id,
-            "Secs. I, III B, IV A",
-            "θ = −π/2 is an elliptical and θ = 0 a linear trajectory, a semielliptical one lies between",
+        })
+        .collect();
+    let family = match &panels[..] {
+        [ellipse, semi, line, low, middle, high] => {
             line.axis_ratio <= ROUNDING
                 && line.enclosed_area.abs() <= ROUNDING
-                && line.axis_ratio < semi.axis_ratio
-                && semi.axis_ratio < ellipse.axis_ratio,
-            evidence,
-        ));
-    }
-    let widths = panels.iter().skip(3).map(|panel| panel.twist_amplitude_rad);
-    let rising = widths.clone().zip(widths.skip(1)).all(|(one, next)| one < next);
-    claims.push(Claim::statement(
-        id,
-        "Fig. 2 caption",
-        "(d)–(f) raise the amplitude ratio L at a constant stroke",
-        rising,
-        panels
-            .iter()
-            .skip(3)
-            .map(|panel| {
-                format!("φ_L = {}: L = {:.3}", pi(panel.amplitude_angle_rad), tan(panel.amplitude_angle_rad))
-            })
-            .collect::<Vec<_>>()
-            .join("; "),
-    ));
-    claims
+                && semi.axis_ratio > line.axis_ratio
+                && ellipse.axis_ratio > semi.axis_ratio
+                && low.axis_ratio > 0.0
+                && middle.axis_ratio > low.axis_ratio
+                && high.axis_ratio > 0.0
+                && middle.axis_ratio > high.axis_ratio
+        }
+        _ => false,
+    };
+    vec![
+        Claim::printed_statement(
+            "section1.amplitude_ratio",
+            ratio_fault <= ROUNDING,
+            format!(
+                "L at the six φ_L: {}; largest relative difference of a_e Φ/A from tan φ_L: {ratio_fault:.1e}",
+                ratios.join(", ")
+            ),
+        ),
+        Claim::printed_statement(
+            "section1.family_of_motions",
+            family,
+            format!(
+                "minor over major axis and enclosed area of the ellipse on the unrolled cylinder: {}. The curve of θ = 0 \
+                 encloses nothing, an ellipse is widest at θ = −π/2, the semielliptical curves lie between",
+                shapes.join("; ")
+            ),
+        ),
+    ]
 }
 
 #[cfg(test)]

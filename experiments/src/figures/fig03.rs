@@ -3,6 +3,8 @@
 mod census;
 mod chart;
 mod cycle;
+mod laws;
+mod statements;
 
 use bouncing_disk::Transition;
 use serde::{Deserialize, Serialize};
@@ -24,10 +26,6 @@ pub struct Fig03;
 pub struct Fig03Data {
     census: Census,
     cycle: Cycle,
-}
-
-fn name(transition: &Transition) -> String {
-    format!("{:?} –{:?}→ {:?}", transition.from, transition.event, transition.to)
 }
 
 impl Experiment for Fig03 {
@@ -65,7 +63,7 @@ impl Experiment for Fig03 {
     }
 
     fn claims(data: &Fig03Data) -> Vec<Claim> {
-        claims(data)
+        statements::claims(data)
     }
 
     fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
@@ -98,78 +96,6 @@ impl Experiment for Fig03 {
         }
         Some(table)
     }
-}
-
-fn claims(data: &Fig03Data) -> Vec<Claim> {
-    let id = Fig03::ID;
-    let (census, cycle) = (&data.census, &data.cycle);
-    let counts: Vec<_> = census
-        .transitions
-        .iter()
-        .map(|counted| format!("{}: {}", name(&counted.transition), counted.number))
-        .collect();
-    let observed =
-        |transition: &Transition| census.transitions.iter().any(|seen| seen.transition == *transition);
-    let missing: Vec<_> = Transition::LEGAL.iter().filter(|legal| !observed(legal)).map(name).collect();
-    let forbidden: Vec<_> = census
-        .transitions
-        .iter()
-        .filter(|seen| !seen.transition.is_legal())
-        .map(|seen| name(&seen.transition))
-        .collect();
-    let none = |names: &[String]| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-    let contact_ends: Vec<_> = census
-        .transitions
-        .iter()
-        .filter(|seen| seen.transition.event == bouncing_disk::EventKind::Separation)
-        .map(|seen| name(&seen.transition))
-        .collect();
-    vec![
-        Claim::statement(
-            id,
-            "Sec. II B",
-            "four phases, flight, impact, sticking and sliding contact, follow each other as in Fig. 3",
-            missing.is_empty() && forbidden.is_empty(),
-            format!(
-                "of {} events in {} motions: {}; legal and never seen: {}; seen and not legal: {}; {} motions ended with \
-                 an error",
-                census.events,
-                census.motions,
-                counts.join(", "),
-                none(&missing),
-                none(&forbidden),
-                census.failures
-            ),
-        ),
-        Claim::statement(
-            id,
-            "Sec. II B",
-            "both contact phases end when N falls to zero and the disk is launched into flight",
-            contact_ends.len() == 2 && census.largest_force_at_separation <= census::FORCE_ROUNDING,
-            format!(
-                "{}; largest |N|/mg at a separation, relative to 1 + Aω²/g: {:.1e}",
-                contact_ends.join(", "),
-                census.largest_force_at_separation
-            ),
-        ),
-        Claim::statement(
-            id,
-            "Fig. 3 caption",
-            "one cycle starts with a collision, goes on with the attachment and ends with the separation",
-            cycle.collision_cycles < cycle.attachment_cycles
-                && cycle.attachment_cycles < cycle.separation_cycles,
-            format!(
-                "at Γ = {}, ε = {}: collision {:.4}, attachment {:.4} and separation {:.4} periods after the separation \
-                 before; the attachment sums infinitely many impacts, {} of them one by one",
-                cycle.axial_forcing,
-                cycle.restitution,
-                cycle.collision_cycles,
-                cycle.attachment_cycles,
-                cycle.separation_cycles,
-                cycle.impacts
-            ),
-        ),
-    ]
 }
 
 #[cfg(test)]

@@ -9,10 +9,11 @@ use bouncing_disk::InitialState;
 pub use self::data::Fig05Data;
 use self::data::{Column, Dependence, Toss};
 use super::toss_case::TossCase;
-use crate::claim::{Claim, PrintedNumber};
+use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
+use crate::printed::PrintedNumber;
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -41,6 +42,7 @@ impl Experiment for Fig05 {
             &printed.optimal_amplitude_angle_rad,
             &printed.amplitude_angle_of_fig5c_rad,
         ];
+        let phase_lags = [data::FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
         progress.start(angles.len() as u64 + 1, "columns");
         let mut columns = Vec::new();
         let mut optimum = table;
@@ -50,7 +52,7 @@ impl Experiment for Fig05 {
             if index == 1 {
                 optimum = case;
             }
-            columns.push(Column::new(text, &case, points)?);
+            columns.push(Column::new(text, &case, phase_lags, points)?);
             progress.advance(1);
         }
         let lags = data::PHASE_LAGS_NEAR_ZERO

@@ -3,27 +3,17 @@
 mod picture;
 mod stator;
 
-use std::f64::consts::PI;
-
+use bouncing_disk::core::elementary::asin;
 use serde::{Deserialize, Serialize};
 
-use crate::claim::{Claim, PrintedNumber};
+use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper::{self, TableThree};
+use crate::paper::{self, STEEL_DENSITY, TableThree};
 use crate::progress::Progress;
 
-/// Density of steel (kg/m³): not in the paper. Plain carbon steel has 7850; carbon and stainless steels lie between
-/// the other two.
-const STEEL_DENSITY: f64 = 7850.0;
+/// Carbon and stainless steels lie between these densities (kg/m³; handbook values, not in the paper).
 const STEEL_DENSITIES: [f64; 2] = [7700.0, 8000.0];
-
-/// Diameter of the rotor, a steel ball (Sec. V).
-const BALL_DIAMETER_MM: f64 = 20.0;
-
-/// The preloads of the experiments (Sec. V B), printed in mNm and read in mN, and the range of g of the simulations.
-const PRELOADS_MN: [f64; 2] = [80.0, 280.0];
-const PRELOAD_ACCELERATIONS: [f64; 2] = [0.1, 10.0];
 
 /// Fig. 8.
 #[derive(Debug)]
@@ -38,16 +28,16 @@ pub struct Fig08Data {
     steel_densities_kg_per_m3: [f64; 2],
     gravity_m_per_s2: f64,
     ball_mass_kg: f64,
-    ball_weight_mn: f64,
+    ball_weight_n: f64,
     /// For the two ends of the range of densities.
-    ball_weights_mn: [f64; 2],
+    ball_weights_n: [f64; 2],
     /// sqrt(2/5) of the radius: a homogeneous sphere.
     gyration_radius_mm: f64,
     /// Between the axis and the normal of the ball where it touches the stator.
     contact_angle_rad: f64,
     /// How far the ball reaches into the circle of contact.
     contact_depth_mm: f64,
-    preloads_mn: [f64; 2],
+    preloads_n: [f64; 2],
     /// Preload over mass.
     preload_accelerations_m_per_s2: [f64; 2],
     preload_acceleration_range_m_per_s2: [f64; 2],
@@ -75,27 +65,28 @@ impl Experiment for Fig08 {
     fn run(_quality: Quality, progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
         progress.start(1, "checks");
         let table_iii = paper::table_three()?;
-        let gravity = paper::section_five()?.gravity_m_per_s2;
-        let radius_mm = 0.5 * BALL_DIAMETER_MM;
-        let radius = 1e-3 * radius_mm;
-        let mass = |density: f64| density * (4.0 / 3.0) * PI * radius * radius * radius;
-        let weight = |density: f64| 1e3 * gravity * mass(density);
+        let section = paper::section_five()?;
+        let preloads = paper::preloads()?;
+        let gravity = section.gravity_m_per_s2;
+        let mass = section.rotor_mass_kg();
+        let radius_mm = 500.0 * section.rotor_diameter_m;
+        let volume_m3 = mass / STEEL_DENSITY;
         let contact = table_iii.contact_radius_mm;
         progress.advance(1);
         Ok(Fig08Data {
-            ball_diameter_mm: BALL_DIAMETER_MM,
+            ball_diameter_mm: 2.0 * radius_mm,
             steel_density_kg_per_m3: STEEL_DENSITY,
             steel_densities_kg_per_m3: STEEL_DENSITIES,
             gravity_m_per_s2: gravity,
-            ball_mass_kg: mass(STEEL_DENSITY),
-            ball_weight_mn: weight(STEEL_DENSITY),
-            ball_weights_mn: STEEL_DENSITIES.map(weight),
+            ball_mass_kg: mass,
+            ball_weight_n: gravity * mass,
+            ball_weights_n: STEEL_DENSITIES.map(|density| gravity * density * volume_m3),
             gyration_radius_mm: 0.4_f64.sqrt() * radius_mm,
-            contact_angle_rad: bouncing_disk::core::elementary::asin(contact / radius_mm),
+            contact_angle_rad: asin(contact / radius_mm),
             contact_depth_mm: radius_mm - (radius_mm * radius_mm - contact * contact).sqrt(),
-            preloads_mn: PRELOADS_MN,
-            preload_accelerations_m_per_s2: PRELOADS_MN.map(|preload| 1e-3 * preload / mass(STEEL_DENSITY)),
-            preload_acceleration_range_m_per_s2: PRELOAD_ACCELERATIONS,
+            preloads_n: preloads.measured_range_n,
+            preload_accelerations_m_per_s2: preloads.measured_range_n.map(|preload| preload / mass),
+            preload_acceleration_range_m_per_s2: preloads.preload_accelerations_m_per_s2,
             table_iii,
         })
     }
@@ -123,38 +114,37 @@ impl Experiment for Fig08 {
 
 fn claims(data: &Fig08Data) -> Vec<Claim> {
     let id = Fig08::ID;
-    let printed = data.table_iii.gyration_radius_mm.to_string();
-    let gravity = data.gravity_m_per_s2;
+    let milli = |newton: f64| 1e3 * newton;
     let [low, high] = data.preload_accelerations_m_per_s2;
     let [least, most] = data.preload_acceleration_range_m_per_s2;
-    let density = format!(
-        "density of steel {} kg/m³, an assumption: the paper gives none; from {} to {} kg/m³ the ball weighs {:.0} to {:.0} mN",
+    let [light, heavy] = data.ball_weights_n;
+    let [low_density, high_density] = data.steel_densities_kg_per_m3;
+    let weight = format!(
+        "the ball weighs {:.1} mN with a density of {} kg/m³, an assumption since the paper prints neither; {:.0} to {:.0} mN \
+         from {low_density} to {high_density} kg/m³",
+        milli(data.ball_weight_n),
         data.steel_density_kg_per_m3,
-        data.steel_densities_kg_per_m3[0],
-        data.steel_densities_kg_per_m3[1],
-        data.ball_weights_mn[0],
-        data.ball_weights_mn[1]
+        milli(light),
+        milli(heavy)
     );
-    let fits = PrintedNumber::read(&printed).is_some();
+    let [least_preload, most_preload] = data.preloads_n;
     vec![
-        Claim::number(
+        Claim::reading(
             id,
-            "Table III",
-            "a_g of a steel ball of 20 mm diameter",
-            "mm",
-            printed,
+            "table3.gyration_radius",
+            "a_g of a homogeneous sphere of the rotor's diameter, sqrt(2/5) of its radius",
             data.gyration_radius_mm,
-        )
-        .note(if fits { "sqrt(2/5) of the radius: a homogeneous sphere" } else { "not a number" }),
+        ),
         Claim::statement(
             id,
-            "Sec. V B",
-            "the preloads from 80 to 280 are possible with the ball's own weight as full preload, read in mN",
-            data.preloads_mn[1] < data.ball_weights_mn[0] && least <= low && high <= most && high < gravity,
+            "this work",
+            "the measured preloads, read in mN, are below the weight of the ball, and their g lies in the simulated range",
+            least_preload < most_preload && most_preload < light && least <= low && high <= most,
             format!(
-                "the ball weighs {:.1} mN ({density}); over its mass the preloads are g = {low:.2} to {high:.2} m/s², inside \
-                 the simulated {least} to {most} m/s². The printed unit, mNm, is that of a torque",
-                data.ball_weight_mn
+                "{weight}. Preloads of {:.0} to {:.0} mN over the mass are g = {low:.2} to {high:.2} m/s², simulated are \
+                 {least} to {most} m/s². The printed unit, mNm, is that of a torque",
+                milli(least_preload),
+                milli(most_preload)
             ),
         ),
     ]

@@ -9,10 +9,10 @@ use crate::draw::{Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, 
 use crate::figures::cylinder::{Cylinder, Look, curve, faint, polar};
 
 const WIDTH: f64 = 340.0;
-const HEIGHT: f64 = 300.0;
+const HEIGHT: f64 = 306.0;
 /// Azimuth and elevation of the eye (rad) and its distance in contact radii.
-const AZIMUTH: f64 = 0.6;
-const ELEVATION: f64 = 0.36;
+const AZIMUTH: f64 = 0.15;
+const ELEVATION: f64 = 0.45;
 const DISTANCE: f64 = 9.0;
 /// Half the length of the cylinders, in contact radii.
 const HALF_LENGTH: f64 = 1.6;
@@ -31,7 +31,7 @@ fn panel(data: &Trajectory, letter: &str, area: Rect) -> Drawing {
         through: true,
     };
     let thin = Stroke::new(Colour::GREY, 0.6);
-    let mut drawing = Drawing::with_equal_scales(area, (-1.25, 1.25), (-2.45, 2.0));
+    let mut drawing = Drawing::with_equal_scales(area, (-1.25, 1.25), (-2.5, 2.05));
     drawing = cylinder.drawn(drawing, &camera, &look);
     let level = (0..=360).map(|step| (AZIMUTH + f64::from(step).to_radians(), 0.0));
     drawing = curve(drawing, cylinder.runs(&camera, level), thin);

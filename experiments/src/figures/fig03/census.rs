@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{Dimensionless, DimensionlessParameters, Engine, Error, EventKind, Start, Transition};
+use bouncing_disk::{Dimensionless, DimensionlessParameters, Engine, Error, Start, Transition};
 use serde::{Deserialize, Serialize};
 
+use super::laws::Laws;
 use crate::experiment::{ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -17,9 +18,6 @@ const PHASE_LAGS: [f64; 3] = [-0.26 * PI, 0.0, FRAC_PI_2];
 const FRICTIONS: [f64; 3] = [0.0, 0.1, 0.6];
 const RESTITUTIONS: [f64; 3] = [0.0, 0.5, 0.8];
 const LOADS: [f64; 2] = [0.0, 0.05];
-
-/// A separation is where N vanishes: its sine is known to a few roundings of the peak acceleration.
-pub(super) const FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The transitions of many motions.
 #[derive(Debug, Serialize, Deserialize)]
@@ -37,8 +35,7 @@ pub(super) struct Census {
     pub(super) failures: u64,
     /// In the order of the modes and events.
     pub(super) transitions: Vec<Counted>,
-    /// |N| at a separation over 1 + A ω²/g.
-    pub(super) largest_force_at_separation: f64,
+    pub(super) laws: Laws,
 }
 
 /// A transition and how often it occurred.
@@ -88,7 +85,8 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
     let systems = systems()?;
     progress.start(systems.len() as u64, "systems");
     let mut counts: BTreeMap<Transition, u64> = BTreeMap::new();
-    let (mut motions, mut events, mut failures, mut largest_force) = (0, 0, 0, 0.0_f64);
+    let (mut motions, mut events, mut failures) = (0, 0, 0);
+    let mut laws = Laws::default();
     for system in &systems {
         for start in starts(system)? {
             motions += 1;
@@ -101,10 +99,7 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
                 };
                 events += 1;
                 *counts.entry(record.transition()).or_default() += 1;
-                if record.event.kind() == EventKind::Separation {
-                    let force = 1.0 - system.peak_acceleration() * record.time.phase.sin();
-                    largest_force = largest_force.max(force.abs() / (1.0 + system.peak_acceleration()));
-                }
+                laws.check(system, &record);
             }
         }
         progress.advance(1);
@@ -122,6 +117,6 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
         events,
         failures,
         transitions,
-        largest_force_at_separation: largest_force,
+        laws,
     })
 }

@@ -146,7 +146,7 @@ fn chart(data: &Fig03Data) -> Drawing {
     let boxes = [
         (FLIGHT, 2.0, ["Flight", r"$\ddot{x} = -g$"], Colour::SKY),
         (IMPACT, 20.0, ["Impact", r"Eqs. (6), (10)"], Colour::ORANGE),
-        (STICKING, 2.0, ["Sticking", r"$x = s, \dot{\alpha} = \dot{\beta}$"], Colour::GREEN),
+        (STICKING, 2.0, ["Sticking", r"$x = s,\;\dot{\alpha} = \dot{\beta}$"], Colour::GREEN),
         (SLIDING, 2.0, ["Sliding", r"$x = s$, Eq. (12)"], Colour::GREEN),
     ];
     for (centre, corner, lines, colour) in boxes {
@@ -162,7 +162,7 @@ fn inset(cycle: &Cycle) -> Panel {
     };
     let events = [
         (cycle.collision_cycles, cycle.collision_height, "(c)", (-0.02, -0.08), Anchor::RightCentre),
-        (cycle.attachment_cycles, cycle.attachment_height, "(a)", (-0.015, -0.16), Anchor::RightCentre),
+        (cycle.attachment_cycles, cycle.attachment_height, "(a)", (0.015, -0.16), Anchor::LeftCentre),
         (cycle.separation_cycles, cycle.separation_height, "(s)", (-0.015, 0.10), Anchor::RightCentre),
     ];
     let mut panel = Panel::new(area)

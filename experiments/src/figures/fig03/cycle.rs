@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::experiment::{ExperimentError, Quality};
 
 /// A chattering orbit of the single-toss kind (Sec. IV A).
-const AXIAL_FORCING: f64 = 0.40;
-const RESTITUTION: f64 = 0.5;
+const AXIAL_FORCING: f64 = 0.45;
 
 /// From one separation to the next; time in periods from the first one, heights in amplitudes of the platform.
 #[derive(Debug, Serialize, Deserialize)]
@@ -36,13 +35,10 @@ fn model(error: bouncing_disk::core::Error) -> ExperimentError {
 }
 
 pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
+    let restitution = crate::paper::value("section4.restitution")?;
     // The vertical motion does not depend on the rotary one.
-    let system = ForcingParameters {
-        axial_forcing: AXIAL_FORCING,
-        angular_forcing: 1.0,
-        phase_lag: 0.0,
-        restitution: RESTITUTION,
-    };
+    let system =
+        ForcingParameters { axial_forcing: AXIAL_FORCING, angular_forcing: 1.0, phase_lag: 0.0, restitution };
     let system = system.build().map_err(ExperimentError::model)?;
     let start = Start::Contact { phase: Phase::new(TOSS_START).map_err(model)?, angular_speed: 0.0 };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
@@ -54,7 +50,7 @@ pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
     let since = |time: PhaseTime| time.since(&trajectory.start()).radians() / std::f64::consts::TAU;
     let mut cycle = Cycle {
         axial_forcing: AXIAL_FORCING,
-        restitution: RESTITUTION,
+        restitution,
         time_cycles: Vec::new(),
         disk_height: Vec::new(),
         platform_height: Vec::new(),

@@ -1,6 +1,6 @@
 //! The data of Fig. 5.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_8};
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::{EventKind, InitialState, Mode, System, toss_trajectory};
@@ -10,8 +10,8 @@ use crate::experiment::ExperimentError;
 use crate::figures::toss_case::TossCase;
 use crate::paper::{SectionThree, TableOne};
 
-/// θ_1 and θ_2 of the caption.
-const PHASE_LAGS: [f64; 2] = [0.0, FRAC_PI_2];
+/// θ_1 of the caption.
+pub(super) const FIRST_PHASE_LAG: f64 = 0.0;
 
 /// Phase lags about the optimum for the remarks on torque.
 pub(super) const PHASE_LAGS_NEAR_ZERO: [f64; 5] = [-FRAC_PI_4, -FRAC_PI_8, 0.0, FRAC_PI_8, FRAC_PI_4];
@@ -47,9 +47,14 @@ pub(super) struct Column {
 }
 
 impl Column {
-    pub(super) fn new(printed: &str, case: &TossCase, points: u32) -> Result<Self, ExperimentError> {
+    pub(super) fn new(
+        printed: &str,
+        case: &TossCase,
+        phase_lags: [f64; 2],
+        points: u32,
+    ) -> Result<Self, ExperimentError> {
         let system = case.system()?;
-        let tosses = PHASE_LAGS.into_iter().map(|lag| Toss::new(&case.at_lag(lag), points));
+        let tosses = phase_lags.into_iter().map(|lag| Toss::new(&case.at_lag(lag), points));
         Ok(Self {
             printed: printed.to_owned(),
             amplitude_angle_rad: case.amplitude_angle_rad,
@@ -218,7 +223,7 @@ impl Grip {
         let friction = factor * table.friction;
         let missing = columns.iter().map(|column| {
             let case =
-                TossCase { friction, ..table.at_angle(column.amplitude_angle_rad).at_lag(PHASE_LAGS[0]) };
+                TossCase { friction, ..table.at_angle(column.amplitude_angle_rad).at_lag(FIRST_PHASE_LAG) };
             let toss = Toss::new(&case, 1)?;
             Ok::<_, ExperimentError>(
                 toss.slip_at_separation_rad_per_s / toss.hand_speed_at_separation_rad_per_s,

@@ -3,12 +3,11 @@
 use std::f64::consts::PI;
 
 use super::Fig05Data;
-use super::data::{Column, Toss};
+use super::data::{Column, Dependence, Toss};
 use crate::claim::Claim;
 use crate::table::{Cell, Table};
 
 const ID: &str = "fig05";
-const PLACE: &str = "Sec. III B";
 /// The share of the hand's speed that a dough in a firm grip may lack.
 const NEARLY_NOTHING: f64 = 0.01;
 /// The hand's speed at the lowest point, cos(3π/2 + θ), is known to this share of the largest one.
@@ -125,10 +124,8 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
     let height = values(data, |_, toss| toss.apex_height_m);
     let speed = values(data, |_, toss| toss.airborne_speed_rad_per_s);
     vec![
-        Claim::statement(
-            ID,
-            "Fig. 5 caption",
-            "the dough slips at the separation at high φ_L",
+        Claim::printed_statement(
+            "section3.slip_at_high_angle",
             data.columns.last().and_then(first).is_some_and(|toss| toss.sliding_at_separation) && rises(&slips),
             listed(data, |column, toss| {
                 format!(
@@ -139,11 +136,10 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
                     100.0 * toss.sliding_share_of_contact
                 )
             }),
-        ),
-        Claim::statement(
-            ID,
-            "Fig. 5 caption",
-            "the hand's rotation rate ωΦ is low at low φ_L",
+        )
+        .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand"),
+        Claim::printed_statement(
+            "section3.slow_hand_at_low_angle",
             rises(&hand),
             listed(data, |column, toss| {
                 format!(
@@ -152,38 +148,28 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
                 )
             }),
         ),
-        Claim::statement(
-            ID,
-            PLACE,
-            "φ_L → π/2 raises ωΦ and lowers the normal contact force, so that the dough slides at τ_sep",
-            rises(&hand) && falls(&force),
-            listed(data, |column, _| {
-                format!(
-                    "ωΦ = {:.2} rad/s, largest contact force {:.2} m g",
-                    column.largest_hand_speed_rad_per_s,
-                    1.0 + column.peak_acceleration
-                )
-            }),
+        Claim::printed_statement(
+            "section3.middle_column_is_fastest",
+            matches!(speed[..], [low, middle, high] if middle > low && middle > high),
+            listed(data, |_, toss| format!("airborne speed {:.2} rad/s", toss.airborne_speed_rad_per_s)),
+        )
+        .note("θ = 0; the fastest toss with Table I's parameters has another φ_L, see fig04"),
+        Claim::printed_statement(
+            "section3.height_falls_with_angle",
+            falls(&height),
+            listed(data, |_, toss| format!("apex {:.3} m above the hand's mean height", toss.apex_height_m)),
         ),
         Claim::statement(
             ID,
-            PLACE,
-            "of the three tosses at θ = 0 that with φ_L = 0.323π is the fastest, a compromise between slip and ωΦ",
-            matches!(speed[..], [low, best, high] if best > low && best > high),
-            listed(data, |_, toss| format!("airborne speed {:.2} rad/s", toss.airborne_speed_rad_per_s)),
-        )
-        .note("the largest speed of Table I's tosses is at another φ_L, see fig04"),
-        Claim::statement(
-            ID,
-            PLACE,
-            "a smaller φ_L gives a greater toss height",
-            falls(&height),
-            listed(data, |_, toss| format!("apex {:.3} m above the hand's mean height", toss.apex_height_m)),
+            "this work",
+            "the contact force falls as φ_L rises",
+            falls(&force),
+            listed(data, |column, _| format!("largest contact force {:.2} m g", 1.0 + column.peak_acceleration)),
         ),
     ]
 }
 
-/// Enough force and friction, and the phase of separation.
+/// Enough force and friction.
 fn limits(data: &Fig05Data) -> Vec<Claim> {
     let shares =
         |missing: &[f64]| missing.iter().map(|share| format!("{share:.1e}")).collect::<Vec<_>>().join(", ");
@@ -192,47 +178,26 @@ fn limits(data: &Fig05Data) -> Vec<Claim> {
         .iter()
         .map(|grip| format!("μ = {}: {}", grip.friction, shares(&grip.missing_share)))
         .collect();
-    let converge = (0..data.columns.len()).all(|column| {
+    let converges = (0..data.columns.len()).all(|column| {
         let missing: Vec<f64> = data
             .firm_grip
             .iter()
             .filter_map(|grip| grip.missing_share.get(column))
             .map(|share| share.abs())
             .collect();
-        falls(&missing[1..]) && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
+        // At Table I's friction a dough that is behind the hand may cross its speed as the friction grows.
+        falls(missing.get(1..).unwrap_or_default())
+            && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
     });
-    let separation = data
-        .columns
-        .iter()
-        .filter_map(|column| {
-            let toss = first(column)?;
-            let formula = bouncing_disk::core::elementary::asin(1.0 / column.peak_acceleration);
-            Some((toss.separation_phase_rad - formula).abs())
-        })
-        .fold(0.0, f64::max);
-    vec![
-        Claim::statement(
-            ID,
-            PLACE,
-            "with sufficient contact force and friction the airborne speed is the hand's speed at the separation",
-            converge,
-            format!(
-                "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
-                 θ = 0: {}; it vanishes as μ grows. Just before τ_sep it always slides, since N falls to zero",
-                grips.join("; ")
-            ),
+    vec![Claim::printed_statement(
+        "section3.no_slip_at_separation",
+        converges,
+        format!(
+            "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
+             θ = 0: {}; it vanishes as μ grows. Just before τ_sep it always slides, since N falls to zero",
+            grips.join("; ")
         ),
-        Claim::statement(
-            ID,
-            "Eq. (15)",
-            "τ_sep = arcsin(1/πΓ)",
-            separation <= 8.0 * f64::EPSILON,
-            format!(
-                "largest difference from the engine's separations: {separation:.1e} rad; {}",
-                listed(data, |_, toss| format!("τ_sep = {}", pi(toss.separation_phase_rad)))
-            ),
-        ),
-    ]
+    )]
 }
 
 /// What θ does.
@@ -248,27 +213,41 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
     let slower =
         pairs.iter().all(|(_, one, two)| two.airborne_speed_rad_per_s < one.airborne_speed_rad_per_s);
     let lags = &data.lags;
-    let at_zero = lags.iter().find(|lag| lag.phase_lag_rad == 0.0);
-    let positive_lag = at_zero.is_some_and(|zero| {
-        lags.iter()
-            .filter(|lag| lag.phase_lag_rad > 0.0)
-            .all(|lag| lag.late_gain_rad_per_s < zero.late_gain_rad_per_s)
-    });
+    let late = |wanted: fn(f64) -> bool| {
+        lags.iter().filter(move |lag| wanted(lag.phase_lag_rad)).map(|lag| lag.late_gain_rad_per_s)
+    };
+    let at_zero = late(|lag| lag == super::data::FIRST_PHASE_LAG).next();
+    let reduced = at_zero.is_some_and(|zero| late(|lag| lag > 0.0).all(|gain| gain < zero));
     let at_rest =
         ROUNDING * pairs.iter().map(|(_, one, _)| one.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
-    let negative_lag =
+    let reversed =
         lags.iter().all(|lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
-    let described = |value: &dyn Fn(&super::data::Dependence) -> f64| {
-        lags.iter()
-            .map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), value(lag)))
-            .collect::<Vec<_>>()
-            .join("; ")
+    let described = |value: fn(&Dependence) -> f64| {
+        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), value(lag)));
+        parts.collect::<Vec<_>>().join("; ")
     };
+    let angle = &data.printed.optimal_amplitude_angle_rad;
     vec![
+        Claim::printed_statement(
+            "section3.positive_lag_torque",
+            reduced,
+            format!(
+                "speed gained in the second half of the contact (rad/s), φ_L = {angle}: {}",
+                described(|lag| lag.late_gain_rad_per_s)
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.negative_lag_torque",
+            reversed,
+            format!(
+                "the dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
+                described(|lag| lag.lowest_speed_rad_per_s)
+            ),
+        ),
         Claim::statement(
             ID,
-            "Fig. 5",
-            "the toss at θ_2 = π/2 is slower than that at θ_1 = 0 at each of the three φ_L",
+            "this work",
+            "the toss at θ_2 is slower than that at θ_1 at each of the three φ_L",
             slower,
             pairs
                 .iter()
@@ -280,26 +259,6 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
                 })
                 .collect::<Vec<_>>()
                 .join("; "),
-        ),
-        Claim::statement(
-            ID,
-            PLACE,
-            "for θ > 0 the torque is reduced as the separation approaches",
-            positive_lag,
-            format!(
-                "speed gained in the second half of the contact (rad/s), φ_L = 0.323π: {}",
-                described(&|lag| lag.late_gain_rad_per_s)
-            ),
-        ),
-        Claim::statement(
-            ID,
-            PLACE,
-            "for θ < 0 there is reverse torque at τ_0",
-            negative_lag,
-            format!(
-                "the dough starts at rest; its lowest speed in contact (rad/s), φ_L = 0.323π: {}",
-                described(&|lag| lag.lowest_speed_rad_per_s)
-            ),
         ),
     ]
 }

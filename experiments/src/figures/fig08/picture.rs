@@ -139,13 +139,13 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
     drawing = leader(
         drawing,
         (x + 3.0, at(foot + 8.0).1),
-        (right, at(foot + 5.0).1),
+        (right, at(foot + 6.0).1),
         &["pretwisted beam", "(stator)"],
     );
     leader(
         drawing,
-        (x + 7.5, at(foot - 4.0).1),
-        (right, at(foot - 2.0).1),
+        (x + 7.5, at(foot - 5.0).1),
+        (right, at(foot - 5.0).1),
         &["piezoelectric", "transducer,", "axially poled"],
     )
 }
@@ -193,7 +193,7 @@ fn contact(data: &Fig08Data, area: Rect) -> Drawing {
         drawing = drawing.fill(wall.clone(), Colour::LIGHT_GREY, 1.0).stroke(wall, black());
     }
     let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
-    drawing = drawing.stroke(Path::through([(0.0, 1.3), (0.0, -1.3)]), chain);
+    drawing = drawing.stroke(Path::through([(0.0, 1.15), (0.0, -1.3)]), chain);
     let label = format!("$a_e = {}$ mm", data.table_iii.contact_radius_mm);
     drawing
         .stroke(Path::through([(touch, -0.95), (touch, -1.3)]), Stroke::new(Colour::GREY, 0.5))

@@ -67,6 +67,13 @@ impl Beam {
                 }
             }
         }
+        for side in 0..4 {
+            let (from, to) = (self.corner(side, 0.0), self.corner(side + 1, 0.0));
+            let normal = (to - from).cross(self.corner(side, share(1)) - from);
+            if camera.faces(from, normal) {
+                drawing = drawing.stroke(Path::through([from, to].map(|point| camera.project(point))), edge);
+            }
+        }
         let top = Path::through((0..4).map(|index| camera.project(self.corner(index, 1.0)))).close();
         drawing.fill(top.clone(), colour.mixed(Colour::WHITE, 0.7), 1.0).stroke(top, edge)
     }
