@@ -125,7 +125,6 @@ impl EventRecord {
 mod tests {
     use proptest::prelude::*;
 
-    use super::*;
     use crate::engine::Engine;
     use crate::testing;
 

@@ -40,7 +40,8 @@ impl Experiment for Fig03 {
         format!(
             "Model simulation flow chart: the modes flight, sticking and sliding (boxes), the impact, which is an instant \
              (rounded), and the events between them. Every arrow is a transition that the engine was seen to make: {} \
-             events of {} systems and starts were counted, and only the {} transitions drawn occurred. The inset shows a \
+             events of {} systems and starts were counted, and only the {} transitions drawn occurred \
+             (rebound and attachments share the collision). The inset shows a \
              computed trajectory of the disk (dashed line) and of the platform (solid line) for one cycle of the \
              simulation, starting with collision (c), attachment (a) after infinitely many impacts, and ending with \
              separation (s), for Γ = {}, ε = {}.",

@@ -223,7 +223,9 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
     let reversed =
         lags.iter().all(|lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
     let described = |value: fn(&Dependence) -> f64| {
-        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), value(lag)));
+        // No minus sign before a zero.
+        let shown = |number: f64| if number.abs() < at_rest { 0.0 } else { number };
+        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), shown(value(lag))));
         parts.collect::<Vec<_>>().join("; ")
     };
     let angle = &data.printed.optimal_amplitude_angle_rad;
