@@ -31,6 +31,7 @@
 
 mod annotation;
 mod axis;
+mod camera;
 mod colour;
 mod dense;
 mod drawing;
@@ -54,6 +55,7 @@ mod ticks;
 
 pub use annotation::{Anchor, Arrow, Text};
 pub use axis::{Axis, Scale};
+pub use camera::Camera;
 pub use colour::Colour;
 pub use dense::DensePoints;
 pub use drawing::{Drawing, Path};

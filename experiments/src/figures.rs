@@ -2,9 +2,16 @@
 //!
 //! A new module is declared here and listed once in [`crate::registry::all`].
 
+mod cylinder;
+pub mod fig01;
+pub mod fig02;
+pub mod fig03;
 pub mod fig04;
+pub mod fig05;
 pub mod fig06;
 pub mod fig07;
+pub mod fig08;
 pub mod fig10;
+mod hand_path;
 pub mod table2;
 mod toss_case;

@@ -292,7 +292,7 @@ structs! {
 }
 
 /// Density of steel, kg/m³: a handbook value; the paper weighs the rotor but does not print the weight.
-const STEEL_DENSITY: f64 = 7850.0;
+pub const STEEL_DENSITY: f64 = 7850.0;
 
 impl SectionFive {
     /// The mass of the rotor, kg: a solid steel ball.

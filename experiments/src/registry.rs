@@ -1,15 +1,20 @@
 //! The list of all experiments.
 
 use crate::experiment::{Entry, entry};
-use crate::figures::{fig04, fig06, fig07, fig10, table2};
+use crate::figures::{fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, table2};
 
 /// All experiments, in the order of the paper.
 pub fn all() -> Vec<Box<dyn Entry>> {
     // One line per module of `figures`: `entry::<fig06::Fig06>(),`
     vec![
+        entry::<fig01::Fig01>(),
+        entry::<fig02::Fig02>(),
+        entry::<fig03::Fig03>(),
         entry::<fig04::Fig04>(),
+        entry::<fig05::Fig05>(),
         entry::<fig06::Fig06>(),
         entry::<fig07::Fig07>(),
+        entry::<fig08::Fig08>(),
         entry::<fig10::Fig10>(),
         entry::<table2::Table2>(),
     ]

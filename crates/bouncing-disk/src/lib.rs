@@ -58,6 +58,7 @@ mod system;
 mod testing;
 mod toss;
 mod trajectory;
+mod transition;
 
 /// The math core: the vertical motion, its impact map and what is done with it.
 pub use bouncing_disk_core as core;
@@ -84,6 +85,7 @@ pub use state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use system::System;
 pub use toss::{InitialState, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 pub use trajectory::Trajectory;
+pub use transition::{EventKind, ModeKind, Transition};
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

@@ -158,9 +158,20 @@ impl Drawing {
 
     /// Adds a line through points with a head of 5 points at the last one.
     #[must_use]
-    pub fn arrow(mut self, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) -> Self {
+    pub fn arrow(self, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) -> Self {
+        self.arrow_with_head(points, stroke, 5.0)
+    }
+
+    /// Adds a line through points with a head of this length in points at the last one.
+    #[must_use]
+    pub fn arrow_with_head(
+        mut self,
+        points: impl IntoIterator<Item = (f64, f64)>,
+        stroke: Stroke,
+        head: f64,
+    ) -> Self {
         let points = points.into_iter().collect();
-        self.items.push(Item::Arrow { points, stroke, head: 5.0, double: false });
+        self.items.push(Item::Arrow { points, stroke, head, double: false });
         self
     }
 
@@ -186,6 +197,14 @@ impl Drawing {
         let lines = lines.into_iter().map(Into::into).collect();
         self.items.push(Item::Box { centre, size, corner, lines, stroke, fill });
         self
+    }
+
+    /// The local coordinates of a place on the page, for letters in the corner of a drawing with widened ranges.
+    pub fn local(&self, (left, top): (f64, f64)) -> (f64, f64) {
+        (
+            self.x.0 + (left - self.area.left) / self.area.width * (self.x.1 - self.x.0),
+            self.y.0 + (self.area.bottom() - top) / self.area.height * (self.y.1 - self.y.0),
+        )
     }
 
     fn point(&self, (x, y): (f64, f64)) -> (f64, f64) {

@@ -1,0 +1,120 @@
+//! Fig. 3: flow chart of the simulation, from the modes and events that really occur.
+
+mod census;
+mod chart;
+mod cycle;
+mod laws;
+mod statements;
+
+use bouncing_disk::Transition;
+use serde::{Deserialize, Serialize};
+
+use self::census::Census;
+use self::cycle::Cycle;
+use crate::claim::Claim;
+use crate::draw::Figure;
+use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::progress::Progress;
+use crate::table::{Cell, Table};
+
+/// Fig. 3.
+#[derive(Debug)]
+pub struct Fig03;
+
+/// The data of Fig. 3.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig03Data {
+    census: Census,
+    cycle: Cycle,
+}
+
+impl Experiment for Fig03 {
+    type Data = Fig03Data;
+
+    const ID: &'static str = "fig03";
+
+    const TITLE: &'static str = "Flow chart of the simulation";
+
+    fn caption(data: &Fig03Data) -> String {
+        let (census, cycle) = (&data.census, &data.cycle);
+        format!(
+            "Model simulation flow chart: the modes flight, sticking and sliding (boxes), the impact, which is an instant \
+             (rounded), and the events between them. Every arrow is a transition that the engine was seen to make: {} \
+             events of {} systems and starts were counted, and only the {} transitions drawn occurred \
+             (rebound and attachments share the collision). The inset shows a \
+             computed trajectory of the disk (dashed line) and of the platform (solid line) for one cycle of the \
+             simulation, starting with collision (c), attachment (a) after infinitely many impacts, and ending with \
+             separation (s), for Γ = {}, ε = {}.",
+            census.events,
+            census.motions,
+            census.transitions.len(),
+            cycle.axial_forcing,
+            cycle.restitution
+        )
+    }
+
+    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
+        let census = census::census(quality, progress)?;
+        let cycle = cycle::cycle(quality)?;
+        Ok(Fig03Data { census, cycle })
+    }
+
+    fn draw(data: &Fig03Data) -> Result<Figure, ExperimentError> {
+        Ok(chart::figure(data))
+    }
+
+    fn claims(data: &Fig03Data) -> Vec<Claim> {
+        statements::claims(data)
+    }
+
+    fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
+        let (census, cycle) = (&data.census, &data.cycle);
+        let list = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+        [
+            ("peak acceleration Aω²/g", list(&census.peak_accelerations)),
+            ("largest platform speed, in g a_e/(a_g² ω)", list(&census.twist_speeds)),
+            ("phase lag θ (rad)", list(&census.phase_lags_rad)),
+            ("friction μ", list(&census.frictions)),
+            ("restitution ε", list(&census.restitutions)),
+            ("load torque, in m g a_e", list(&census.loads)),
+            ("events of a motion", format!("at most {}", census.longest_motion)),
+            ("inset", format!("Γ = {}, ε = {}, complete chattering", cycle.axial_forcing, cycle.restitution)),
+        ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .to_vec()
+    }
+
+    fn table(data: &Fig03Data) -> Option<Table> {
+        let mut table = Table::new(["mode before", "event", "mode after", "number"]);
+        for counted in &data.census.transitions {
+            let Transition { from, event, to } = counted.transition;
+            table.push([
+                Cell::from(format!("{from:?}")),
+                format!("{event:?}").into(),
+                format!("{to:?}").into(),
+                i64::try_from(counted.number).unwrap_or(i64::MAX).into(),
+            ]);
+        }
+        Some(table)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+
+    #[test]
+    fn the_arrows_drawn_are_the_transitions_seen() {
+        let data = Fig03::run(Quality::Draft, &Silent).expect("runs");
+        let seen: Vec<_> = data.census.transitions.iter().map(|counted| counted.transition).collect();
+        let mut legal = Transition::LEGAL.to_vec();
+        legal.sort_unstable();
+        assert_eq!(seen, legal);
+        assert_eq!(
+            chart::arrows(&data.census).iter().map(|arrow| arrow.transition).collect::<Vec<_>>(),
+            seen
+        );
+        assert!(chart::arrows(&data.census).iter().all(|arrow| arrow.planned));
+    }
+}

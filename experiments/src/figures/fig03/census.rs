@@ -1,0 +1,122 @@
+//! Which transitions occur, and how often, over a range of systems and starts.
+
+use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{Dimensionless, DimensionlessParameters, Engine, Error, Start, Transition};
+use serde::{Deserialize, Serialize};
+
+use super::laws::Laws;
+use crate::experiment::{ExperimentError, Quality};
+use crate::progress::Progress;
+
+/// From a platform that never throws the disk, through period 1, chattering and chaos, to a motor.
+const PEAK_ACCELERATIONS: [f64; 9] = [0.0, 0.6, 1.0, 1.1, 1.26, 1.55, 1.75, 4.9, 20.0];
+const TWIST_SPEEDS: [f64; 4] = [0.0, 0.2, 1.0, 6.0];
+const PHASE_LAGS: [f64; 3] = [-0.26 * PI, 0.0, FRAC_PI_2];
+const FRICTIONS: [f64; 3] = [0.0, 0.1, 0.6];
+const RESTITUTIONS: [f64; 3] = [0.0, 0.5, 0.8];
+const LOADS: [f64; 2] = [0.0, 0.05];
+
+/// The transitions of many motions.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Census {
+    pub(super) peak_accelerations: Vec<f64>,
+    pub(super) twist_speeds: Vec<f64>,
+    pub(super) phase_lags_rad: Vec<f64>,
+    pub(super) frictions: Vec<f64>,
+    pub(super) restitutions: Vec<f64>,
+    pub(super) loads: Vec<f64>,
+    pub(super) longest_motion: usize,
+    pub(super) motions: u64,
+    pub(super) events: u64,
+    /// Motions that ended with an error of the engine.
+    pub(super) failures: u64,
+    /// In the order of the modes and events.
+    pub(super) transitions: Vec<Counted>,
+    pub(super) laws: Laws,
+}
+
+/// A transition and how often it occurred.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Counted {
+    pub(super) transition: Transition,
+    pub(super) number: u64,
+}
+
+fn starts(system: &Dimensionless) -> Result<[Start; 2], ExperimentError> {
+    let phase = |angle| Phase::new(angle).map_err(|error| ExperimentError::model(Error::from(error)));
+    let height = 1.0 + system.peak_acceleration();
+    Ok([
+        Start::Contact { phase: phase(1.5 * PI)?, angular_speed: 0.0 },
+        Start::Flight { phase: phase(1.0)?, gap: height, relative_velocity: 0.0, angular_speed: 0.3 },
+    ])
+}
+
+fn systems() -> Result<Vec<Dimensionless>, ExperimentError> {
+    let mut systems = Vec::new();
+    for peak_acceleration in PEAK_ACCELERATIONS {
+        for twist_speed in TWIST_SPEEDS {
+            for phase_lag in PHASE_LAGS {
+                for friction in FRICTIONS {
+                    for restitution in RESTITUTIONS {
+                        for load in LOADS {
+                            let parameters = DimensionlessParameters {
+                                peak_acceleration,
+                                twist_speed,
+                                phase_lag,
+                                friction,
+                                restitution,
+                                load,
+                            };
+                            systems.push(parameters.build().map_err(ExperimentError::model)?);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    Ok(systems)
+}
+
+pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census, ExperimentError> {
+    let longest_motion = quality.choose(60, 400);
+    let systems = systems()?;
+    progress.start(systems.len() as u64, "systems");
+    let mut counts: BTreeMap<Transition, u64> = BTreeMap::new();
+    let (mut motions, mut events, mut failures) = (0, 0, 0);
+    let mut laws = Laws::default();
+    for system in &systems {
+        for start in starts(system)? {
+            motions += 1;
+            let engine =
+                Engine::new(*system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+            for record in engine.take(longest_motion) {
+                let Ok(record) = record else {
+                    failures += 1;
+                    break;
+                };
+                events += 1;
+                *counts.entry(record.transition()).or_default() += 1;
+                laws.check(system, &record);
+            }
+        }
+        progress.advance(1);
+    }
+    let transitions = counts.into_iter().map(|(transition, number)| Counted { transition, number }).collect();
+    Ok(Census {
+        peak_accelerations: PEAK_ACCELERATIONS.to_vec(),
+        twist_speeds: TWIST_SPEEDS.to_vec(),
+        phase_lags_rad: PHASE_LAGS.to_vec(),
+        frictions: FRICTIONS.to_vec(),
+        restitutions: RESTITUTIONS.to_vec(),
+        loads: LOADS.to_vec(),
+        longest_motion,
+        motions,
+        events,
+        failures,
+        transitions,
+        laws,
+    })
+}

@@ -1,0 +1,90 @@
+//! The inset: one cycle of a disk that is thrown, chatters and rests.
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{
+    Engine, Error, EventKind, EventRecord, ForcingParameters, PhaseTime, Start, TOSS_START, Trajectory,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::experiment::{ExperimentError, Quality};
+
+/// A chattering orbit of the single-toss kind (Sec. IV A).
+const AXIAL_FORCING: f64 = 0.45;
+
+/// From one separation to the next; time in periods from the first one, heights in amplitudes of the platform.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Cycle {
+    pub(super) axial_forcing: f64,
+    pub(super) restitution: f64,
+    pub(super) time_cycles: Vec<f64>,
+    pub(super) disk_height: Vec<f64>,
+    pub(super) platform_height: Vec<f64>,
+    /// The first impact.
+    pub(super) collision_cycles: f64,
+    pub(super) collision_height: f64,
+    pub(super) attachment_cycles: f64,
+    pub(super) attachment_height: f64,
+    pub(super) separation_cycles: f64,
+    pub(super) separation_height: f64,
+    /// Impacts before those that the attachment sums.
+    pub(super) impacts: usize,
+}
+
+fn model(error: bouncing_disk::core::Error) -> ExperimentError {
+    ExperimentError::model(Error::from(error))
+}
+
+pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
+    let restitution = crate::paper::value("section4.restitution")?;
+    // The vertical motion does not depend on the rotary one.
+    let system =
+        ForcingParameters { axial_forcing: AXIAL_FORCING, angular_forcing: 1.0, phase_lag: 0.0, restitution };
+    let system = system.build().map_err(ExperimentError::model)?;
+    let start = Start::Contact { phase: Phase::new(TOSS_START).map_err(model)?, angular_speed: 0.0 };
+    let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let separation = |record: &EventRecord| record.event.kind() == EventKind::Separation;
+    Trajectory::record(&mut engine, separation).map_err(ExperimentError::model)?;
+    let trajectory = Trajectory::record(&mut engine, separation).map_err(ExperimentError::model)?;
+
+    let amplitude = system.peak_acceleration();
+    let since = |time: PhaseTime| time.since(&trajectory.start()).radians() / std::f64::consts::TAU;
+    let mut cycle = Cycle {
+        axial_forcing: AXIAL_FORCING,
+        restitution,
+        time_cycles: Vec::new(),
+        disk_height: Vec::new(),
+        platform_height: Vec::new(),
+        collision_cycles: 0.0,
+        collision_height: 0.0,
+        attachment_cycles: 0.0,
+        attachment_height: 0.0,
+        separation_cycles: 0.0,
+        separation_height: 0.0,
+        impacts: 0,
+    };
+    let samples = quality.choose(60, 240);
+    for record in trajectory.records() {
+        for step in 0..samples {
+            let snapshot = record.evaluate(&system, f64::from(step) / f64::from(samples));
+            cycle.time_cycles.push(since(snapshot.time));
+            cycle.disk_height.push(snapshot.disk.height / amplitude);
+            cycle.platform_height.push(snapshot.platform.height / amplitude);
+        }
+        let (time, height) = (since(record.time), record.after.height / amplitude);
+        match record.event.kind() {
+            EventKind::Impact => {
+                if cycle.impacts == 0 {
+                    (cycle.collision_cycles, cycle.collision_height) = (time, height);
+                }
+                cycle.impacts += 1;
+            }
+            EventKind::Attachment => (cycle.attachment_cycles, cycle.attachment_height) = (time, height),
+            EventKind::Separation => (cycle.separation_cycles, cycle.separation_height) = (time, height),
+            _ => {}
+        }
+    }
+    cycle.time_cycles.push(cycle.separation_cycles);
+    cycle.disk_height.push(cycle.separation_height);
+    cycle.platform_height.push(cycle.separation_height);
+    Ok(cycle)
+}

@@ -1,0 +1,266 @@
+//! What the paper says about Fig. 5, compared with the data.
+
+use std::f64::consts::PI;
+
+use super::Fig05Data;
+use super::data::{Column, Dependence, Toss};
+use crate::claim::Claim;
+use crate::table::{Cell, Table};
+
+const ID: &str = "fig05";
+/// The share of the hand's speed that a dough in a firm grip may lack.
+const NEARLY_NOTHING: f64 = 0.01;
+/// The hand's speed at the lowest point, cos(3π/2 + θ), is known to this share of the largest one.
+const ROUNDING: f64 = 100.0 * f64::EPSILON;
+
+fn pi(angle: f64) -> String {
+    format!("{:.3}π", angle / PI)
+}
+
+/// The toss at θ_1 of a column.
+fn first(column: &Column) -> Option<&Toss> {
+    column.tosses.first()
+}
+
+/// A quantity of the tosses at θ_1, by column, as text.
+fn listed(data: &Fig05Data, value: impl Fn(&Column, &Toss) -> String) -> String {
+    let parts = data.columns.iter().filter_map(|column| {
+        first(column).map(|toss| format!("φ_L = {}: {}", column.printed, value(column, toss)))
+    });
+    parts.collect::<Vec<_>>().join("; ")
+}
+
+fn values(data: &Fig05Data, value: impl Fn(&Column, &Toss) -> f64) -> Vec<f64> {
+    data.columns.iter().filter_map(|column| first(column).map(|toss| value(column, toss))).collect()
+}
+
+fn rises(values: &[f64]) -> bool {
+    values.windows(2).all(|pair| pair[0] < pair[1])
+}
+
+fn falls(values: &[f64]) -> bool {
+    values.windows(2).all(|pair| pair[0] > pair[1])
+}
+
+pub(super) fn caption(data: &Fig05Data) -> String {
+    format!(
+        "Details of various hand motions (dashed curves) and the resulting dough trajectories (solid curves): height, \
+         angle and angular speed in single tosses with Table I's parameters, for the amplitude ratios φ_L = {}. Two phase \
+         lags, θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs from the hand's lowest point, \
+         where the dough is at rest; shaded: dough and hand in contact, up to the phase of separation τ_sep. Heights are \
+         shown up to the landing, angles and speeds in and after the contact. The effects of a suboptimal φ_L are seen \
+         in the speeds at θ_1: slip at the separation at high φ_L, a low hand speed ωΦ at low φ_L.",
+        data.columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ")
+    )
+}
+
+pub(super) fn parameters(data: &Fig05Data) -> Vec<(String, String)> {
+    let table = &data.table_i;
+    let angles: Vec<_> = data.columns.iter().map(|column| column.printed.as_str()).collect();
+    let lags = data.columns.first().map_or(String::new(), |column| {
+        column.tosses.iter().map(|toss| pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
+    });
+    [
+        ("amplitude angle φ_L", angles.join(", ")),
+        ("phase lag θ", lags),
+        ("stroke c", format!("{} m", table.stroke_m.value)),
+        ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s.value)),
+        ("contact radius a_e", format!("{} m", table.contact_radius_m.value)),
+        ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
+        ("friction μ", table.friction.value.to_string()),
+        ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+        ("start", "lowest point of the hand, τ = 3π/2; dough at rest".to_owned()),
+    ]
+    .map(|(name, value)| (name.to_owned(), value))
+    .to_vec()
+}
+
+pub(super) fn table(data: &Fig05Data) -> Table {
+    let mut table = Table::new([
+        "phi_L (rad)",
+        "theta (rad)",
+        "separation phase (rad)",
+        "largest hand speed (rad/s)",
+        "hand speed at separation (rad/s)",
+        "airborne speed (rad/s)",
+        "slip at separation (rad/s)",
+        "sliding share of contact time",
+        "apex above mean height of hand (m)",
+        "landing time (s)",
+    ]);
+    for column in &data.columns {
+        for toss in &column.tosses {
+            table.push([
+                Cell::from(column.amplitude_angle_rad),
+                toss.phase_lag_rad.into(),
+                toss.separation_phase_rad.into(),
+                toss.largest_hand_speed_rad_per_s.into(),
+                toss.hand_speed_at_separation_rad_per_s.into(),
+                toss.airborne_speed_rad_per_s.into(),
+                toss.slip_at_separation_rad_per_s.into(),
+                toss.sliding_share_of_contact.into(),
+                toss.apex_height_m.into(),
+                toss.landing_time_s.into(),
+            ]);
+        }
+    }
+    table
+}
+
+pub(super) fn claims(data: &Fig05Data) -> Vec<Claim> {
+    let mut claims = amplitude_ratio(data);
+    claims.extend(limits(data));
+    claims.extend(phase_lag(data));
+    claims
+}
+
+/// What φ_L does.
+fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
+    let slip_share =
+        |_: &Column, toss: &Toss| toss.slip_at_separation_rad_per_s / toss.hand_speed_at_separation_rad_per_s;
+    let slips = values(data, slip_share);
+    let hand = values(data, |column, _| column.largest_hand_speed_rad_per_s);
+    let force = values(data, |column, _| column.peak_acceleration);
+    let height = values(data, |_, toss| toss.apex_height_m);
+    let speed = values(data, |_, toss| toss.airborne_speed_rad_per_s);
+    vec![
+        Claim::printed_statement(
+            "section3.slip_at_high_angle",
+            data.columns.last().and_then(first).is_some_and(|toss| toss.sliding_at_separation) && rises(&slips),
+            listed(data, |column, toss| {
+                format!(
+                    "{} at the separation, {:.2} rad/s or {:.1} % behind the hand, sliding for {:.0} % of the contact",
+                    if toss.sliding_at_separation { "slides" } else { "sticks" },
+                    toss.slip_at_separation_rad_per_s,
+                    100.0 * slip_share(column, toss),
+                    100.0 * toss.sliding_share_of_contact
+                )
+            }),
+        )
+        .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand"),
+        Claim::printed_statement(
+            "section3.slow_hand_at_low_angle",
+            rises(&hand),
+            listed(data, |column, toss| {
+                format!(
+                    "ωΦ = {:.2} rad/s, airborne speed {:.2} rad/s",
+                    column.largest_hand_speed_rad_per_s, toss.airborne_speed_rad_per_s
+                )
+            }),
+        ),
+        Claim::printed_statement(
+            "section3.middle_column_is_fastest",
+            matches!(speed[..], [low, middle, high] if middle > low && middle > high),
+            listed(data, |_, toss| format!("airborne speed {:.2} rad/s", toss.airborne_speed_rad_per_s)),
+        )
+        .note("θ = 0; the fastest toss with Table I's parameters has another φ_L, see fig04"),
+        Claim::printed_statement(
+            "section3.height_falls_with_angle",
+            falls(&height),
+            listed(data, |_, toss| format!("apex {:.3} m above the hand's mean height", toss.apex_height_m)),
+        ),
+        Claim::statement(
+            ID,
+            "this work",
+            "the contact force falls as φ_L rises",
+            falls(&force),
+            listed(data, |column, _| format!("largest contact force {:.2} m g", 1.0 + column.peak_acceleration)),
+        ),
+    ]
+}
+
+/// Enough force and friction.
+fn limits(data: &Fig05Data) -> Vec<Claim> {
+    let shares =
+        |missing: &[f64]| missing.iter().map(|share| format!("{share:.1e}")).collect::<Vec<_>>().join(", ");
+    let grips: Vec<_> = data
+        .firm_grip
+        .iter()
+        .map(|grip| format!("μ = {}: {}", grip.friction, shares(&grip.missing_share)))
+        .collect();
+    let converges = (0..data.columns.len()).all(|column| {
+        let missing: Vec<f64> = data
+            .firm_grip
+            .iter()
+            .filter_map(|grip| grip.missing_share.get(column))
+            .map(|share| share.abs())
+            .collect();
+        // At Table I's friction a dough that is behind the hand may cross its speed as the friction grows.
+        falls(missing.get(1..).unwrap_or_default())
+            && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
+    });
+    vec![Claim::printed_statement(
+        "section3.no_slip_at_separation",
+        converges,
+        format!(
+            "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
+             θ = 0: {}; it vanishes as μ grows. Just before τ_sep it always slides, since N falls to zero",
+            grips.join("; ")
+        ),
+    )]
+}
+
+/// What θ does.
+fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
+    let pairs: Vec<_> = data
+        .columns
+        .iter()
+        .filter_map(|column| match &column.tosses[..] {
+            [one, two] => Some((column, one, two)),
+            _ => None,
+        })
+        .collect();
+    let slower =
+        pairs.iter().all(|(_, one, two)| two.airborne_speed_rad_per_s < one.airborne_speed_rad_per_s);
+    let lags = &data.lags;
+    let late = |wanted: fn(f64) -> bool| {
+        lags.iter().filter(move |lag| wanted(lag.phase_lag_rad)).map(|lag| lag.late_gain_rad_per_s)
+    };
+    let at_zero = late(|lag| lag == super::data::FIRST_PHASE_LAG).next();
+    let reduced = at_zero.is_some_and(|zero| late(|lag| lag > 0.0).all(|gain| gain < zero));
+    let at_rest =
+        ROUNDING * pairs.iter().map(|(_, one, _)| one.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
+    let reversed =
+        lags.iter().all(|lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
+    let described = |value: fn(&Dependence) -> f64| {
+        // No minus sign before a zero.
+        let shown = |number: f64| if number.abs() < at_rest { 0.0 } else { number };
+        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), shown(value(lag))));
+        parts.collect::<Vec<_>>().join("; ")
+    };
+    let angle = &data.printed.optimal_amplitude_angle_rad;
+    vec![
+        Claim::printed_statement(
+            "section3.positive_lag_torque",
+            reduced,
+            format!(
+                "speed gained in the second half of the contact (rad/s), φ_L = {angle}: {}",
+                described(|lag| lag.late_gain_rad_per_s)
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.negative_lag_torque",
+            reversed,
+            format!(
+                "the dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
+                described(|lag| lag.lowest_speed_rad_per_s)
+            ),
+        ),
+        Claim::statement(
+            ID,
+            "this work",
+            "the toss at θ_2 is slower than that at θ_1 at each of the three φ_L",
+            slower,
+            pairs
+                .iter()
+                .map(|(column, one, two)| {
+                    format!(
+                        "φ_L = {}: {:.2} and {:.2} rad/s",
+                        column.printed, one.airborne_speed_rad_per_s, two.airborne_speed_rad_per_s
+                    )
+                })
+                .collect::<Vec<_>>()
+                .join("; "),
+        ),
+    ]
+}
