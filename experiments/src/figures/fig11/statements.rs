@@ -1,0 +1,355 @@
+//! What the paper says about Fig. 11.
+
+use std::f64::consts::FRAC_1_PI;
+
+use bouncing_disk::core::elementary::ln;
+
+use super::data::{Curve, Fig11Data, Point};
+use crate::claim::Claim;
+use crate::figures::motor_case::{Cycle, Form, perturbation_words, relative_range};
+use crate::figures::regression::StraightLine;
+use crate::table::{Cell, Table};
+
+const ID: &str = "fig11";
+const SECTION: &str = "Sec. V B";
+
+/// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload.
+const PROPORTIONAL_WITHIN: f64 = 0.1;
+
+/// Largest exponent (of either sign, with two standard errors) at which the steady speed counts as relatively independent of the preload:
+/// over the 3.5-fold range of preloads it then changes by 13 % at most.
+const INDEPENDENT_WITHIN: f64 = 0.1;
+
+/// A torque within this factor of another one has the same order of magnitude.
+const ORDER_OF_MAGNITUDE: f64 = 10.0;
+
+pub(super) fn caption(data: &Fig11Data) -> String {
+    let [first, last] = data.printed.preload_accelerations_m_per_s2;
+    let [from, to] = data.trend_mn();
+    format!(
+        "Effect of preload on steady-state speed and stall torque: (a), (b) ω/2π = {} kHz; (c), (d) {} kHz, which \
+         turns the paper's motor the other way. A = 10⁻⁹ (solid), 10⁻⁸ (dashed) and 10⁻⁷ m (dotted), each over all g = \
+         {first} to {last} m/s², since which g goes with which A is not printed; preload is m g with the weight of the \
+         20 mm steel ball. Dots with bars: mean and standard deviation of {} members over {} rise times, which differ \
+         in the starting phase and in the seed of a relaunch perturbation below {} g/ω; joined to guide the eye. \
+         Open circles: {} motors on a low-period chattering cycle, nearly all of a single flight (see the claims). Grey: {from} \
+         to {to} mN. The paper's measurements (crosses) are not in its text.",
+        data.motor.frequency_hz / 1e3,
+        data.printed.frequencies_hz[1] / 1e3,
+        data.members,
+        data.rises,
+        data.relaunch_perturbation,
+        data.curves
+            .iter()
+            .flat_map(|curve| &curve.points)
+            .filter(|point| point.statistics.is_low_period())
+            .count(),
+    )
+}
+
+pub(super) fn parameters(data: &Fig11Data) -> Vec<(String, String)> {
+    let motor = &data.motor;
+    let pair = |name: &str, value: String| (name.to_owned(), value);
+    vec![
+        pair("μ", motor.friction.to_string()),
+        pair("ε", motor.restitution.to_string()),
+        pair("θ", format!("{} rad", motor.phase_lag_rad)),
+        pair("ωΦ", format!("{} rad/s", motor.peak_angular_speed_rad_per_s)),
+        pair("a_e", format!("{} m", motor.contact_radius_m)),
+        pair("a_g", format!("{} m", motor.gyration_radius_m)),
+        pair("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
+        pair("preloads", data.curves.first().map_or(0, |curve| curve.points.len()).to_string()),
+        pair("members", data.members.to_string()),
+        pair("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
+        pair("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
+    ]
+}
+
+pub(super) fn table(data: &Fig11Data) -> Table {
+    let mut table = Table::new([
+        "frequency (Hz)",
+        "A (m)",
+        "g (m/s^2)",
+        "preload (mN)",
+        "Gamma",
+        "steady speed (rad/s)",
+        "its standard deviation (rad/s)",
+        "stall acceleration (rad/s^2)",
+        "its standard deviation (rad/s^2)",
+        "read from",
+        "members without fit",
+        "low-period cycle",
+    ]);
+    for curve in &data.curves {
+        for point in &curve.points {
+            let statistics = &point.statistics;
+            let stall = statistics.stall_acceleration_rad_per_s2;
+            table.push([
+                curve.frequency_hz.into(),
+                curve.amplitude_m.into(),
+                point.preload_acceleration_m_per_s2.into(),
+                point.preload_mn.into(),
+                point.axial_forcing.into(),
+                statistics.steady_speed_rad_per_s.mean.into(),
+                statistics.steady_speed_rad_per_s.deviation.into(),
+                stall.map(|spread| spread.mean).into(),
+                stall.map(|spread| spread.deviation).into(),
+                match statistics.form {
+                    Form::Exponential => "exponential",
+                    Form::Ramp => "ramp",
+                }
+                .into(),
+                Cell::Integer(statistics.unfitted as i64),
+                if statistics.is_low_period() { statistics.cycle.words().into() } else { Cell::Empty },
+            ]);
+        }
+    }
+    table
+}
+
+/// The points of a curve between the preloads of the trends; with or without those on a low-period cycle.
+fn in_range<'a>(data: &Fig11Data, curve: &'a Curve, with_locked: bool) -> Vec<&'a Point> {
+    let [from, to] = data.trend_mn();
+    let inside = curve.points.iter().filter(|point| (from..=to).contains(&point.preload_mn));
+    inside.filter(|point| with_locked || !point.statistics.is_low_period()).collect()
+}
+
+/// The straight line through the logarithms of preload and of what `of` reads, and the relative range of that.
+fn power_law(points: &[&Point], of: fn(&Point) -> Option<f64>) -> Option<(StraightLine, f64)> {
+    let read: Vec<(f64, f64)> = points
+        .iter()
+        .filter_map(|point| of(point).map(|value| (point.preload_mn, value.abs())))
+        .filter(|(_, value)| *value > 0.0)
+        .collect();
+    let logarithms: Vec<_> = read.iter().map(|(x, y)| (ln(*x), ln(*y))).collect();
+    let values: Vec<_> = read.iter().map(|point| point.1).collect();
+    StraightLine::through(&logarithms).map(|line| (line, relative_range(&values)))
+}
+
+fn stall(point: &Point) -> Option<f64> {
+    point.statistics.stall_acceleration_rad_per_s2.map(|spread| spread.mean)
+}
+
+fn speed(point: &Point) -> Option<f64> {
+    Some(point.statistics.steady_speed_rad_per_s.mean)
+}
+
+fn name(curve: &Curve) -> String {
+    format!("{:e} m", curve.amplitude_m)
+}
+
+pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
+    let mut claims = Vec::new();
+    for frequency in data.printed.frequencies_hz {
+        claims.extend(trends(data, frequency));
+    }
+    claims.push(everywhere(data));
+    claims.push(no_bouncing(data));
+    claims.push(plateau(data));
+    claims.extend(magnitudes(data));
+    for (frequency, table) in
+        data.printed.frequencies_hz.iter().zip(&data.perturbations)
+    {
+        let speeds: Vec<f64> =
+            table.iter().map(|effect| effect.statistics.steady_speed_rad_per_s.mean).collect();
+        claims.push(Claim::statement(
+            ID,
+            "our ensemble",
+            format!(
+                "at {} kHz and the middle of the preloads the steady speed does not depend on the relaunch perturbation \
+                 from 1e-5 to 1e-1 g/ω (within 5 %)",
+                frequency / 1e3
+            ),
+            relative_range(&speeds) <= 0.05,
+            format!("steady speed (rad/s), stall acceleration (rad/s²) by perturbation: {}", perturbation_words(table)),
+        ));
+    }
+    claims.push(Claim::not_computable(
+        ID,
+        "Fig. 11",
+        "measured steady speeds and stall torques (crosses)",
+        "",
+        "points",
+        "measured points are not in the text of the paper",
+    ));
+    claims
+}
+
+/// Proportional stall torque and constant speed, at one frequency.
+fn trends(data: &Fig11Data, frequency_hz: f64) -> [Claim; 2] {
+    let [from, to] = data.trend_mn();
+    let place = if frequency_hz > data.motor.frequency_hz { "Fig. 11(c), (d)" } else { "Fig. 11(a), (b)" };
+    let (mut proportional, mut independent) = (true, true);
+    let (mut stalls, mut speeds) = (Vec::new(), Vec::new());
+    for curve in data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&frequency_hz).is_eq()) {
+        let chaotic = in_range(data, curve, false);
+        let all = in_range(data, curve, true);
+        let left_out = all.len() - chaotic.len();
+        match power_law(&chaotic, stall) {
+            Some((line, _)) => {
+                proportional &= (line.slope - 1.0).abs() <= PROPORTIONAL_WITHIN;
+                stalls.push(format!(
+                    "{}: {:.3} ± {:.3} (R² = {:.4}; {} points, {left_out} on a low-period cycle left out)",
+                    name(curve),
+                    line.slope,
+                    line.slope_error,
+                    line.explained,
+                    chaotic.len(),
+                ));
+            }
+            None => proportional = false,
+        }
+        match power_law(&chaotic, speed).zip(power_law(&all, speed)) {
+            Some(((line, range), (_, full_range))) => {
+                independent &= line.slope.abs() + 2.0 * line.slope_error <= INDEPENDENT_WITHIN;
+                speeds.push(format!(
+                    "{}: exponent {:+.3} ± {:.3}, range {:.1} % of the mean ({:.1} % with the {left_out} on a \
+                     low-period cycle)",
+                    name(curve),
+                    line.slope,
+                    line.slope_error,
+                    100.0 * range,
+                    100.0 * full_range,
+                ));
+            }
+            None => independent = false,
+        }
+    }
+    let khz = frequency_hz / 1e3;
+    [
+        Claim::statement(
+            ID,
+            format!("{SECTION}, {place}"),
+            format!("at {khz} kHz the stall torque is proportional to preload between {from} and {to} mN"),
+            proportional,
+            format!("exponent of stall acceleration against preload: {}", stalls.join("; ")),
+        ),
+        Claim::statement(
+            ID,
+            format!("{SECTION}, {place}"),
+            format!(
+                "at {khz} kHz the steady speed is relatively independent of preload between {from} and {to} mN"
+            ),
+            independent,
+            speeds.join("; "),
+        ),
+    ]
+}
+
+/// The same of all motors, with those on a low-period cycle.
+fn everywhere(data: &Fig11Data) -> Claim {
+    let points: Vec<&Point> = data.curves.iter().flat_map(|curve| &curve.points).collect();
+    let low: Vec<&&Point> = points.iter().filter(|point| point.statistics.is_low_period()).collect();
+    let one_flight = low.iter().filter(|point| point.statistics.cycle.is_one_flight());
+    let fractions: Vec<f64> = one_flight.map(|point| point.axial_forcing.rem_euclid(1.0)).collect();
+    let (least, most) = extent(&fractions);
+    let others =
+        points.iter().filter(|point| !point.statistics.is_low_period()).filter_map(|point| speed(point));
+    let (slow, fast) = extent(&others.collect::<Vec<_>>());
+    let (low_slow, low_fast) = extent(&low.iter().filter_map(|point| speed(point)).collect::<Vec<_>>());
+    Claim::statement(
+        ID,
+        SECTION,
+        "the trends hold at every preload and amplitude, also where the chattering is of low period",
+        low.iter().all(|point| speed(point).is_some_and(|speed| (slow..=fast).contains(&speed))),
+        format!(
+            "{} of {} motors are on a low-period cycle, {} of them of a single flight: it lasts about Γ periods, and where the \
+             fraction of Γ is {least:.3} to {most:.3} it ends near τ = π, where the stator recedes as fast as the rotor \
+             falls. Such a rotor lands softly, rides up with the stator through a half cycle in which cos τ takes both \
+             signs equally, and hardly turns: {low_slow:.1} to {low_fast:.1} rad/s, all others {slow:.1} to {fast:.1} rad/s",
+            low.len(),
+            points.len(),
+            fractions.len(),
+        ),
+    )
+}
+
+/// Smallest and largest value.
+fn extent(values: &[f64]) -> (f64, f64) {
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
+}
+
+fn no_bouncing(data: &Fig11Data) -> Claim {
+    let holds = data
+        .end_of_bouncing
+        .iter()
+        .all(|gentle| (gentle.axial_forcing < FRAC_1_PI) == (gentle.cycle == Cycle::AtRest));
+    let evidence = data
+        .end_of_bouncing
+        .iter()
+        .map(|gentle| format!("πΓ = {:.3}: {}", gentle.axial_forcing / FRAC_1_PI, gentle.cycle.words()));
+    Claim::statement(
+        ID,
+        SECTION,
+        "the rotor does not bounce when Γ < 1/π",
+        holds,
+        format!("at full preload, from rest: {}", evidence.collect::<Vec<_>>().join("; ")),
+    )
+}
+
+/// The features of the measurement that the simulations fail to reproduce.
+fn plateau(data: &Fig11Data) -> Claim {
+    let first =
+        data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&data.motor.frequency_hz).is_eq());
+    let mut none = true;
+    let mut words = Vec::new();
+    for curve in first {
+        let high: Vec<&Point> = curve
+            .points
+            .iter()
+            .filter(|point| point.preload_mn > 200.0 && !point.statistics.is_low_period())
+            .collect();
+        if let Some((line, _)) = power_law(&high, stall) {
+            none &= line.slope > 0.5;
+            words.push(format!("{}: {:.2} ± {:.2}", name(curve), line.slope, line.slope_error));
+        }
+    }
+    Claim::statement(
+        ID,
+        SECTION,
+        "the simulations fail to reproduce the plateau of the stall torque above 200 mN at 70 kHz",
+        none && !words.is_empty(),
+        format!("exponent of stall acceleration against preload above 200 mN: {}", words.join("; ")),
+    )
+}
+
+fn magnitudes(data: &Fig11Data) -> Vec<Claim> {
+    let points = || data.curves.iter().flat_map(|curve| in_range(data, curve, false));
+    let inertia = data.moment_of_inertia();
+    let torques: Vec<f64> = points().filter_map(stall).map(|value| 1e6 * inertia * value).collect();
+    let speeds: Vec<f64> = points().filter_map(speed).collect();
+    let ((low, high), (slow, fast)) = (extent(&torques), extent(&speeds));
+    let share = |point: &Point, errors: f64| {
+        let limit = data.motor.largest_acceleration() / data.motor.preload_acceleration_m_per_s2;
+        let spread = point.statistics.stall_acceleration_rad_per_s2?;
+        let value = spread.mean - errors * spread.standard_error;
+        Some(value / (limit * point.preload_acceleration_m_per_s2))
+    };
+    let (least, most) = extent(&points().filter_map(|point| share(point, 0.0)).collect::<Vec<_>>());
+    let (_, surely) = extent(&points().filter_map(|point| share(point, 2.0)).collect::<Vec<_>>());
+    vec![
+        Claim::not_computable(
+            ID,
+            SECTION,
+            "the predictions are of the same order of magnitude as the measurements",
+            "",
+            "true",
+            format!(
+                "the measurements are not in the text; ours between 80 and 280 mN: {slow:.1} to {fast:.1} rad/s and \
+                 {low:.1} to {high:.1} µN m"
+            ),
+        ),
+        Claim::statement(
+            ID,
+            "Sec. V C",
+            "the stall torque has the order of magnitude of its limit μ a_e m g and does not exceed it",
+            surely <= 1.0 && least >= 1.0 / ORDER_OF_MAGNITUDE,
+            format!(
+                "{least:.2} to {most:.2} of μ a_e m g over all amplitudes and both frequencies; two standard errors \
+                 below the means, {surely:.2} at most"
+            ),
+        ),
+    ]
+}
