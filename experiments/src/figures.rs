@@ -8,6 +8,7 @@ pub mod fig07;
 pub mod fig10;
 pub mod fig11;
 pub mod fig12;
+pub mod fig13;
 mod impulse;
 mod motor_case;
 mod regression;

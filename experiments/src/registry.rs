@@ -1,7 +1,7 @@
 //! The list of all experiments.
 
 use crate::experiment::{Entry, entry};
-use crate::figures::{fig04, fig06, fig07, fig10, fig11, fig12, table2};
+use crate::figures::{fig04, fig06, fig07, fig10, fig11, fig12, fig13, table2};
 
 /// All experiments, in the order of the paper.
 pub fn all() -> Vec<Box<dyn Entry>> {
@@ -13,6 +13,7 @@ pub fn all() -> Vec<Box<dyn Entry>> {
         entry::<fig10::Fig10>(),
         entry::<fig11::Fig11>(),
         entry::<fig12::Fig12>(),
+        entry::<fig13::Fig13>(),
         entry::<table2::Table2>(),
     ]
 }

@@ -30,7 +30,7 @@ macro_rules! snapshots {
     };
 }
 
-snapshots![fig04, fig06, fig07, fig10, fig11, fig12, table2];
+snapshots![fig04, fig06, fig07, fig10, fig11, fig12, fig13, table2];
 
 /// Fields, by experiment, that depend on the last bits of a linear-algebra library. A path names the keys from the
 /// data downwards; indices of arrays are not part of it. Everything below a path is left out of all digests.

@@ -3,7 +3,7 @@
 use super::data::{Fig12Data, Shown};
 use crate::draw::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker,
-    Panel, Rect, Scatter, Text,
+    Panel, Rect, Scatter, Text, Ticks,
 };
 use crate::figures::exponent;
 
@@ -90,9 +90,24 @@ fn zoomed(area: Rect, shown: &Shown) -> Panel {
 fn speeds(area: Rect, shown: &Shown) -> Panel {
     let zoom = &shown.zoom;
     let points = zoom.time_s.iter().copied().zip(zoom.speed_rad_per_s.iter().copied());
+    let slowest = zoom.speed_rad_per_s.iter().copied().fold(f64::INFINITY, f64::min);
+    let fastest = zoom.speed_rad_per_s.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let y = Axis::around([slowest, fastest]).label(r"$\dot{\alpha}$ (rad/s)");
     zoomed(area, shown)
-        .y(Axis::around(zoom.speed_rad_per_s.iter().copied()).label(r"$\dot{\alpha}$ (rad/s)"))
+        .y(y.ticks(Ticks::every(tick_step(fastest - slowest))))
         .layer(Line::new(points).width(0.8))
+}
+
+/// A round step that divides `range` into at most four parts.
+fn tick_step(range: f64) -> f64 {
+    let mut step = 1e-6;
+    for factor in [2.0, 2.5, 2.0].into_iter().cycle().take(60) {
+        if 4.0 * step >= range {
+            break;
+        }
+        step *= factor;
+    }
+    step
 }
 
 /// The height of the rotor in the zoom; the stator's is too small to be seen.

@@ -34,7 +34,7 @@ const IMPULSES: usize = 20_000;
 /// Samples of a zoom, and its flights.
 const ZOOM_SAMPLES: usize = 1_500;
 const ZOOM_FLIGHTS: usize = 12;
-/// The zoom starts at this share of the time to the steady speed.
+/// The zoom starts at this share of the time to the steady speed; of the long-period case, of the rise time.
 const ZOOM_AT: f64 = 0.5;
 /// The speed has reached its last value when it differs from it by this share.
 const REACHED_WITHIN: f64 = 0.02;
@@ -180,7 +180,7 @@ fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentEr
         largest_acceleration_rad_per_s2: motor.largest_acceleration(),
         duration_s,
         fits: fits(&motor, duration_s)?,
-        zoom: zoom(&motor, cycle, ZOOM_AT * prediction.reached_s)?,
+        zoom: zoom(&motor, cycle, ZOOM_AT * if low { prediction.reached_s } else { motor.rise_time_s() })?,
         flight_time_s,
         flight_speed_rad_per_s,
         prediction,
