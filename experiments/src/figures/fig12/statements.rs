@@ -6,7 +6,6 @@ use crate::figures::motor_case::{Cycle, perturbation_words};
 
 const ID: &str = "fig12";
 const SECTION: &str = "Sec. V C";
-const CAPTION: &str = "Fig. 12 caption";
 
 /// A straight line and the transition count as predicted within this share.
 const PREDICTED_WITHIN: f64 = 0.05;
@@ -86,17 +85,13 @@ fn shares(rounding: &Rounding) -> String {
 pub(super) fn claims(data: &Fig12Data) -> Vec<Claim> {
     let (long, low) = (&data.long_period, &data.low_period);
     vec![
-        Claim::statement(
-            ID,
-            CAPTION,
-            "A = 10⁻⁷ m, g = 0.5 m/s² gives long-period chattering",
+        Claim::printed_statement(
+            "section5.long_period_case",
             !is_low(data, long.cycle),
             format!("classified by the collisions of the unperturbed motor: {}", readings(data)),
         ),
-        Claim::statement(
-            ID,
-            CAPTION,
-            "A = 10⁻⁸ m, g = 1 m/s² gives low-period chattering",
+        Claim::printed_statement(
+            "section5.low_period_case",
             printed_low(data).is_some_and(|reading| is_low(data, reading.cycle)),
             format!(
                 "{}. The last places of the arithmetic decide: {}. A relative change of {:.1e} gives the cycle of {} that is \
@@ -118,10 +113,8 @@ pub(super) fn claims(data: &Fig12Data) -> Vec<Claim> {
 
 fn exponential(long: &Shown) -> Claim {
     let fits = &long.fits;
-    Claim::statement(
-        ID,
-        SECTION,
-        "long-period chattering gives the form α̇_ss(1 − e^(−t/t_c))",
+    Claim::printed_statement(
+        "section5.exponential_in_long_period",
         fits.exponential_residual_rad_per_s < fits.ramp_residual_rad_per_s,
         format!(
             "root mean square deviation from the exponential {:.3} rad/s, from a linear rise to a constant {:.3} rad/s",
@@ -132,10 +125,8 @@ fn exponential(long: &Shown) -> Claim {
 
 fn linear(low: &Shown) -> Claim {
     let (fits, prediction) = (&low.fits, &low.prediction);
-    Claim::statement(
-        ID,
-        SECTION,
-        "low-period chattering gives a linear rise of the speed",
+    Claim::printed_statement(
+        "section5.linear_rise",
         fits.ramp_residual_rad_per_s < fits.exponential_residual_rad_per_s
             && (fits.slope_rad_per_s2 / prediction.slope_rad_per_s2 - 1.0).abs() <= PREDICTED_WITHIN,
         format!(
@@ -157,10 +148,8 @@ fn linear(low: &Shown) -> Claim {
 fn abrupt(low: &Shown) -> Claim {
     let (fits, prediction) = (&low.fits, &low.prediction);
     let reached = fits.reached_s;
-    Claim::statement(
-        ID,
-        SECTION,
-        "abrupt transition to steady rotation when the rotor reaches the rotary speed of the stator at impact",
+    Claim::printed_statement(
+        "section5.abrupt_steady_state",
         reached.is_some_and(|time| (time / prediction.reached_s - 1.0).abs() <= PREDICTED_WITHIN)
             && (fits.last_speed_rad_per_s / prediction.steady_speed_rad_per_s - 1.0).abs()
                 <= PREDICTED_WITHIN,
@@ -189,10 +178,8 @@ fn lines(low: &Shown) -> Claim {
             _ => None,
         })
         .collect();
-    Claim::statement(
-        ID,
-        SECTION,
-        "the speed forms multiple lines as the rotor cycles through collisions with different impact speeds",
+    Claim::printed_statement(
+        "section5.multiple_lines",
         both_ways && rises.len() > 1,
         format!(
             "{} flights in a cycle, each with its own line; impacts with at least 1 % of the impulse of a cycle (τ/2π, share, \

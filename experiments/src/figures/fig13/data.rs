@@ -3,13 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
-use crate::paper::MotorFigures;
 
 /// The data of Fig. 13.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Fig13Data {
     pub(super) motor: MotorCase,
-    pub(super) figures: MotorFigures,
+    /// ε below which the paper finds low-period chattering prevalent.
+    pub(super) prevalent_below_restitution: f64,
     pub(super) members: usize,
     pub(super) rises: f64,
     pub(super) relaunch_perturbation: f64,
@@ -95,6 +95,9 @@ pub(super) struct SweepPoint {
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
     /// Share of the normal impulse within π/4 of τ = 0.
     pub(super) impulse_share_near_zero: f64,
+    /// Means over the impacts that are not summed.
+    pub(super) mean_impact_speed_m_per_s: f64,
+    pub(super) mean_impact_interval_s: f64,
 }
 
 impl SweepPoint {

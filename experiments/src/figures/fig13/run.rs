@@ -35,12 +35,12 @@ const SHORT_CYCLE: f64 = 0.01;
 const AMPLITUDE_HALF_WIDTH: f64 = 0.05;
 
 pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
-    let figures = paper::motor_figures()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?);
+    let section = paper::section_five()?;
+    let motor = MotorCase::default_of(&paper::table_three()?, &section);
     let members = quality.choose(4, 16);
     let impacts = quality.choose(4_000, 40_000);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
-    let grids = Parameter::ALL.map(|parameter| values(parameter, &figures.amplitudes_of_fig11_m, quality));
+    let grids = Parameter::ALL.map(|parameter| values(parameter, &section.amplitudes_of_fig10_m, quality));
     progress.start(grids.iter().map(|grid| grid.len() as u64).sum::<u64>() + 3, "motors");
 
     let mut sweeps = Vec::new();
@@ -48,8 +48,11 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
         let mut points = Vec::new();
         for value in grid {
             let case = parameter.set(&motor, value);
-            let impulses =
-                Impulses::of(case.system()?.dimensionless().map(), impacts, relaunch_perturbation)?;
+            let system = case.system()?;
+            let impulses = Impulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
+            let count = impulses.impacts.len() as f64;
+            let speeds = impulses.impacts.iter().map(|(_, impulse)| impulse / (1.0 + case.restitution));
+            let mean_impact_speed_m_per_s = system.scales().velocity * speeds.sum::<f64>() / count;
             let (predicted_speed_ratio, predicted_stall_acceleration_rad_per_s2) = predict(&case, &impulses);
             points.push(SweepPoint {
                 value,
@@ -58,6 +61,8 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
                 broken: case.statistics(RISES, members, BREAKING_PERTURBATION)?,
                 predicted_speed_ratio,
                 predicted_stall_acceleration_rad_per_s2,
+                mean_impact_speed_m_per_s,
+                mean_impact_interval_s: system.scales().time * impulses.duration / count,
                 impulse_share_near_zero: impulses.share_near_zero(FRAC_PI_4),
             });
             progress.advance(1);
@@ -98,7 +103,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
     Ok(Fig13Data {
         default: motor.statistics(RISES, 2 * members, relaunch_perturbation)?,
         motor,
-        figures,
+        prevalent_below_restitution: paper::value("section5.low_period_restitution")?,
         members,
         rises: RISES,
         relaunch_perturbation,
