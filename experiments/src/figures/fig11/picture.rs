@@ -11,9 +11,9 @@ use crate::figures::exponent;
 const STYLES: [(Colour, Dash); 3] =
     [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
 
-/// Upper ends of the axes: speed, and stall acceleration.
-const HIGHEST_SPEED: f64 = 33.0;
-const HIGHEST_STALL: f64 = 36.0;
+/// Ends of the axes: speed, and stall acceleration.
+const SPEEDS: (f64, f64) = (-5.0, 43.0);
+const STALLS: (f64, f64) = (-4.0, 36.0);
 
 /// The value and half-length of the error bar of a point.
 type Reading = fn(&Point) -> Option<(f64, f64)>;
@@ -49,29 +49,29 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             };
             let [from, to] = data.trend_mn();
             Panel::new(grid.cell(row, column)).x(x).top(top).y(y).letter(letter).layer(
-                Band::new([(from, 0.0, HIGHEST_STALL), (to, 0.0, HIGHEST_STALL)])
+                Band::new([(from, SPEEDS.0, SPEEDS.1), (to, SPEEDS.0, SPEEDS.1)])
                     .colour(Colour::PALE_GREY)
                     .opacity(0.6),
             )
         };
-        let speeds = Axis::linear(0.0, HIGHEST_SPEED)
+        let speeds = Axis::linear(SPEEDS.0, SPEEDS.1)
             .ticks(Ticks::every(10.0))
             .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
-        let stalls = || Axis::linear(0.0, HIGHEST_STALL).ticks(Ticks::every(10.0));
+        let stalls = || Axis::linear(STALLS.0, STALLS.1).ticks(Ticks::every(10.0));
         let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
         let left = frame(0, ["a", "c"][row], speeds)
             .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, steady_speed)))
             .layer(label.clone());
-        let torque = 1e6 * HIGHEST_STALL * data.moment_of_inertia();
+        let torque = 1e6 * data.moment_of_inertia();
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
-                Axis::linear(0.0, torque)
+                Axis::linear(torque * STALLS.0, torque * STALLS.1)
                     .ticks(Ticks::every(10.0))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
             .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, stall)))
             .layer(label);
-        let right = if row == 0 { right.legend(Legend::at(Corner::BottomRight)) } else { right };
+        let left = if row == 0 { left.legend(Legend::at(Corner::TopRight)) } else { left };
         figure = figure.panel(left).panel(right);
     }
     figure
@@ -83,7 +83,7 @@ fn layers(curve: &Curve, index: usize, reading: Reading) -> Vec<Layer> {
     let read = |low_period: bool| -> Vec<(f64, f64, f64)> {
         let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
         wanted
-            .filter_map(|point| reading(point).map(|(value, error)| (point.preload_mn, value.abs(), error)))
+            .filter_map(|point| reading(point).map(|(value, error)| (point.preload_mn, value, error)))
             .collect()
     };
     let dots = read(false);
@@ -95,7 +95,7 @@ fn layers(curve: &Curve, index: usize, reading: Reading) -> Vec<Layer> {
             .size(3.4)
     };
     let circles = scatter(&low_period).marker(Marker::Circle).filled_white();
-    let circles = if index == 0 { circles.name("low-period cycle") } else { circles };
+    let circles = if index + 1 == STYLES.len() { circles.name("low-period cycle") } else { circles };
     vec![
         Line::new(dots.iter().map(|(x, y, _)| (*x, *y)))
             .colour(colour)

@@ -46,7 +46,7 @@ fn whole(area: Rect, shown: &Shown, printed_amplitude: f64, low_period: bool) ->
     let panel = Panel::new(area)
         .x(Axis::linear(0.0, shown.duration_s).label(r"$t$ (s)"))
         .y(Axis::linear(0.0, y).label(r"$\dot{\alpha}$ (rad/s)"))
-        .layer(Text::at_axes(0.97, 0.06, amplitude).anchor(Anchor::RightCentre));
+        .layer(Text::at_axes(0.97, 0.1, amplitude).anchor(Anchor::RightCentre));
     let window = Band::new([(from, 0.0, y), (until, 0.0, y)]).colour(Colour::SKY).opacity(0.5);
     let panel = panel.layer(window);
     let panel = if low_period {
@@ -77,7 +77,7 @@ fn whole(area: Rect, shown: &Shown, printed_amplitude: f64, low_period: bool) ->
             Line::new(smooth).colour(Colour::BLACK).dash(Dash::Dashed).width(1.2).name("exponential fit"),
         )
     };
-    panel.legend(Legend::at(Corner::BottomRight).inset(26.0))
+    panel.legend(Legend::at(Corner::BottomRight).inset(32.0))
 }
 
 fn zoomed(area: Rect, shown: &Shown) -> Panel {
