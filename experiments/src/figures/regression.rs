@@ -26,7 +26,7 @@ impl StraightLine {
             xy += dx * dy;
             yy += dy * dy;
         }
-        if !(xx > 0.0) {
+        if xx <= 0.0 || xx.is_nan() {
             return None;
         }
         let slope = xy / xx;
