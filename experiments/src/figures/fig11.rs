@@ -3,6 +3,7 @@
 mod data;
 mod picture;
 mod statements;
+mod trends;
 
 pub use self::data::Fig11Data;
 use crate::claim::Claim;

@@ -1,8 +1,11 @@
 //! Fig. 13: sensitivity of the motor to the five estimated parameters.
 
 mod data;
+mod orbits;
 mod picture;
+mod reading;
 mod run;
+mod sensitivity;
 mod statements;
 
 pub use self::data::Fig13Data;
