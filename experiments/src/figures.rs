@@ -12,6 +12,18 @@ pub mod fig06;
 pub mod fig07;
 pub mod fig08;
 pub mod fig10;
+pub mod fig11;
+pub mod fig12;
+pub mod fig13;
 mod hand_path;
+mod impulse;
+mod motor_case;
+mod regression;
 pub mod table2;
 mod toss_case;
+
+/// The power of ten of a number that is one.
+fn exponent(value: f64) -> String {
+    let text = format!("{value:e}");
+    text.split_once('e').map_or(text.clone(), |(_, power)| power.replace('-', "\u{2212}"))
+}

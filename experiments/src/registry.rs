@@ -1,7 +1,9 @@
 //! The list of all experiments.
 
 use crate::experiment::{Entry, entry};
-use crate::figures::{fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, table2};
+use crate::figures::{
+    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, table2,
+};
 
 /// All experiments, in the order of the paper.
 pub fn all() -> Vec<Box<dyn Entry>> {
@@ -16,6 +18,9 @@ pub fn all() -> Vec<Box<dyn Entry>> {
         entry::<fig07::Fig07>(),
         entry::<fig08::Fig08>(),
         entry::<fig10::Fig10>(),
+        entry::<fig11::Fig11>(),
+        entry::<fig12::Fig12>(),
+        entry::<fig13::Fig13>(),
         entry::<table2::Table2>(),
     ]
 }

@@ -22,7 +22,7 @@ use crate::state::{DiskState, LongSum, Mode, SlipDirection, Snapshot};
 
 /// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the platform's
 /// largest one, is the platform's: four units in the last place.
-const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
+pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 
 /// Where the motion goes next.
 #[derive(Debug, Clone, Copy, PartialEq)]

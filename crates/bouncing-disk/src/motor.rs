@@ -324,6 +324,30 @@ mod tests {
         }
     }
 
+    /// At its lowest point the stator turns with the speed of the resting rotor, up to rounding. Friction cannot hold
+    /// the rotor there, and must not seem to.
+    #[test]
+    fn rotor_starts_as_the_engine_at_the_lowest_point() {
+        let system = motor(1e-8, 0.0);
+        let policy = ChatterPolicy::Complete;
+        for angle in [0.75 * TAU, 0.75 * TAU * (1.0 - f64::EPSILON), 0.75 * TAU * (1.0 + f64::EPSILON)] {
+            let phase = Phase::new(angle).expect("finite");
+            let mut rotor = Rotor::at_rest(system.dimensionless(), phase, 0.0, policy).expect("legal");
+            while rotor.advance().expect("no failure") != RotorStep::Separation {}
+            let start = Start::Contact { phase, angular_speed: 0.0 };
+            let mut engine = Engine::new(system, start, policy).expect("legal");
+            let record = loop {
+                let record = engine.advance().expect("no failure").expect("it separates");
+                if record.event == crate::Event::Separation {
+                    break record;
+                }
+            };
+            let difference = (record.after.angular_speed - rotor.speed()).abs();
+            assert!(difference <= 1e-12 * system.dimensionless().twist_speed(), "{difference}");
+            assert!(rotor.speed() < 0.01 * system.dimensionless().twist_speed());
+        }
+    }
+
     #[test]
     fn curve_keeps_the_angle_turned() {
         let mut bins = Bins::new(1.0, 10);

@@ -8,6 +8,7 @@ use bouncing_disk_core::{ChatterPolicy, Orbit, OrbitEvent, Phase, Stick};
 use crate::chatter::Chatter;
 use crate::contact::{Friction, Spent};
 use crate::dimensionless::Dimensionless;
+use crate::engine::SAME_SPEED;
 use crate::error::Error;
 use crate::impact::{axial_impulse, friction_impact};
 use crate::phase_time::{PhaseSpan, PhaseTime};
@@ -70,6 +71,10 @@ impl Rotor {
             }
             separation =
                 Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
+        }
+        let platform_speed = system.platform_angular_speed(phase);
+        if (speed - platform_speed).abs() <= SAME_SPEED * (speed.abs() + system.twist_speed()) {
+            rotor.speed = platform_speed;
         }
         rotor.contact = Some((rotor.contact_mode(phase), separation));
         Ok(rotor)
@@ -195,13 +200,13 @@ impl Rotor {
     fn advance_contact(&mut self, mode: Mode, separation: Option<PhaseTime>) -> Result<RotorStep, Error> {
         let phase = self.now.phase;
         let limit = separation.map(|at| at.since(&self.now).radians());
+        let slip = self.speed - self.system.platform_angular_speed(phase);
+        let at_rest = SlipDirection::of(slip).is_none();
         let span = match mode {
-            Mode::Sliding(direction) => {
-                let slip = self.speed - self.system.platform_angular_speed(phase);
-                self.friction
-                    .slip_end(direction, phase, direction.sign() * slip, limit)?
-                    .map(|span| (span, None))
-            }
+            Mode::Sliding(direction) => self
+                .friction
+                .slip_end(direction, phase, direction.sign() * slip, limit)?
+                .map(|span| (span, None)),
             Mode::Sticking | Mode::Flight => self
                 .friction
                 .stick_end(phase)
@@ -231,7 +236,9 @@ impl Rotor {
             (Some(direction), _) => Mode::Sliding(direction),
             (None, Mode::Sliding(direction)) => {
                 self.speed = self.system.platform_angular_speed(time.phase);
-                let spent = if span == PhaseSpan::ZERO { Spent::Both } else { Spent::One(direction) };
+                // As in the engine: only a slip that begins and ends at the same instant is one of rounding.
+                let idle = span == PhaseSpan::ZERO && at_rest;
+                let spent = if idle { Spent::Both } else { Spent::One(direction) };
                 self.friction.onset(time.phase, spent).map_or(Mode::Sticking, Mode::Sliding)
             }
             (None, Mode::Sticking | Mode::Flight) => mode,

@@ -1,4 +1,4 @@
-//! A panel: two or three axes in a frame, and layers.
+//! A panel: two to four axes in a frame, and layers.
 
 use super::annotation::Anchor;
 use super::axis::Axis;
@@ -25,6 +25,7 @@ pub struct Panel {
     x: Axis,
     y: Axis,
     right: Option<Axis>,
+    top: Option<Axis>,
     /// A layer and whether it belongs to the axis on the right.
     layers: Vec<(Layer, bool)>,
     letter: Option<(String, Corner)>,
@@ -49,6 +50,7 @@ impl Panel {
             x: Axis::default(),
             y: Axis::default(),
             right: None,
+            top: None,
             layers: Vec::new(),
             letter: None,
             title: None,
@@ -75,6 +77,13 @@ impl Panel {
     #[must_use]
     pub fn right(mut self, axis: Axis) -> Self {
         self.right = Some(axis);
+        self
+    }
+
+    /// Adds a second horizontal axis, above: another unit of the same quantity. Layers keep to the lower one.
+    #[must_use]
+    pub fn top(mut self, axis: Axis) -> Self {
+        self.top = Some(axis);
         self
     }
 
@@ -149,7 +158,15 @@ impl Panel {
         self.render_layers(svg, text_size)?;
         let stroke = Stroke::new(Colour::BLACK, FRAME_WIDTH);
         let mut marks = String::new();
-        self.push_marks(&mut marks, &self.x, &x_ticks.ticks, &[Edge::Bottom, Edge::Top]);
+        let top_ticks =
+            self.top.as_ref().map(|axis| axis.choose_ticks(area.width, 5.0 * text_size)).transpose()?;
+        match (&self.top, &top_ticks) {
+            (Some(axis), Some(ticks)) => {
+                self.push_marks(&mut marks, &self.x, &x_ticks.ticks, &[Edge::Bottom]);
+                self.push_marks(&mut marks, axis, &ticks.ticks, &[Edge::Top]);
+            }
+            _ => self.push_marks(&mut marks, &self.x, &x_ticks.ticks, &[Edge::Bottom, Edge::Top]),
+        }
         match (&self.right, &right_ticks) {
             (Some(axis), Some(ticks)) => {
                 self.push_marks(&mut marks, &self.y, &y_ticks.ticks, &[Edge::Left]);
@@ -163,6 +180,9 @@ impl Panel {
         self.render_axis(svg, &self.y, &y_ticks, Edge::Left, page, text_size)?;
         if let (Some(axis), Some(ticks)) = (&self.right, &right_ticks) {
             self.render_axis(svg, axis, ticks, Edge::Right, page, text_size)?;
+        }
+        if let (Some(axis), Some(ticks)) = (&self.top, &top_ticks) {
+            self.render_axis(svg, axis, ticks, Edge::Top, page, text_size)?;
         }
         let frame = Frame { area, x: &self.x, y: &self.y, text_size };
         if let Some(legend) = &self.legend {
@@ -257,9 +277,8 @@ impl Panel {
             let fraction = axis.fraction(tick.value);
             let (x, y) = (area.left + fraction * area.width, area.bottom() - fraction * area.height);
             let (place, anchor) = match edge {
-                Edge::Bottom | Edge::Top => {
-                    ((x, area.bottom() + NUMBER_DISTANCE + 0.75 * size), Anchor::Middle)
-                }
+                Edge::Bottom => ((x, area.bottom() + NUMBER_DISTANCE + 0.75 * size), Anchor::Middle),
+                Edge::Top => ((x, area.top - NUMBER_DISTANCE), Anchor::Middle),
                 Edge::Left => ((area.left - NUMBER_DISTANCE, y), Anchor::RightCentre),
                 Edge::Right => ((area.right() + NUMBER_DISTANCE, y), Anchor::LeftCentre),
             };
@@ -270,9 +289,10 @@ impl Panel {
         if let (Some(power), true) = (scale.power, axis.shows_numbers()) {
             let label = Label::new(&format!("$\\times 10^{{{power}}}$"));
             let (place, anchor) = match edge {
-                Edge::Bottom | Edge::Top => {
+                Edge::Bottom => {
                     ((area.right(), area.bottom() + NUMBER_DISTANCE + 1.85 * size), Anchor::Right)
                 }
+                Edge::Top => ((area.right(), area.top - NUMBER_DISTANCE - 1.1 * size), Anchor::Right),
                 Edge::Left => ((area.left, area.top - 3.5), Anchor::Left),
                 Edge::Right => ((area.right(), area.top - 3.5), Anchor::Right),
             };
@@ -281,10 +301,15 @@ impl Panel {
         // However wide the numbers are, the label stays on the page.
         let mut style = TextStyle::new(text_size, Anchor::Middle);
         let place = match edge {
-            Edge::Bottom | Edge::Top => {
+            Edge::Bottom => {
                 let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + 0.7 * size } else { 0.0 };
                 let distance = axis.distance().unwrap_or(numbers + 1.45 * text_size);
                 (middle_x, (area.bottom() + distance).min(page.1 - 0.3 * text_size))
+            }
+            Edge::Top => {
+                let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + 0.7 * size } else { 0.0 };
+                let distance = axis.distance().unwrap_or(numbers + 0.45 * text_size);
+                (middle_x, (area.top - distance).max(text_size))
             }
             Edge::Left => {
                 style.rotation = 90.0;

@@ -15,6 +15,7 @@ use crate::draw::{
     Ticks,
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::exponent;
 use crate::ledger;
 use crate::paper::{self, SectionFive, TableThree};
 use crate::progress::Progress;
@@ -431,12 +432,6 @@ fn sampled(duration: f64, curve: impl Fn(f64) -> f64) -> impl Iterator<Item = (f
         let time = duration * f64::from(i) / 200.0;
         (time, curve(time))
     })
-}
-
-/// The power of ten of a number that is one.
-fn exponent(value: f64) -> String {
-    let text = format!("{value:e}");
-    text.split_once('e').map_or(text.clone(), |(_, power)| power.replace('-', "\u{2212}"))
 }
 
 fn claims(data: &Fig10Data) -> Vec<Claim> {

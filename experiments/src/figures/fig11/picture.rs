@@ -1,0 +1,109 @@
+//! The drawing of Fig. 11.
+
+use super::data::{Curve, Fig11Data, Point};
+use crate::draw::{
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins, Marker,
+    Panel, Scatter, Text, Ticks,
+};
+use crate::figures::exponent;
+
+/// Colour and dashes of the three amplitudes, as the caption lists them.
+const STYLES: [(Colour, Dash); 3] =
+    [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
+
+/// Ends of the axes: speed, and stall acceleration.
+const SPEEDS: (f64, f64) = (-5.0, 43.0);
+const STALLS: (f64, f64) = (-4.0, 36.0);
+
+/// The value and half-length of the error bar of a point.
+type Reading = fn(&Point) -> Option<(f64, f64)>;
+
+fn steady_speed(point: &Point) -> Option<(f64, f64)> {
+    let spread = point.statistics.steady_speed_rad_per_s;
+    Some((spread.mean, spread.deviation))
+}
+
+fn stall(point: &Point) -> Option<(f64, f64)> {
+    point.statistics.stall_acceleration_rad_per_s2.map(|spread| (spread.mean, spread.deviation))
+}
+
+pub(super) fn draw(data: &Fig11Data) -> Figure {
+    const HEIGHT: f64 = 400.0;
+    let margins = Margins { left: 42.0, right: 48.0, top: 38.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 2).margins(margins).gaps(54.0, 14.0);
+    let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    let frequencies = data.printed.frequencies_hz;
+    for (row, frequency) in frequencies.into_iter().enumerate() {
+        let curves: Vec<&Curve> =
+            data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&frequency).is_eq()).collect();
+        let frame = |column: usize, letter: &str, y: Axis| {
+            let [_, last] = data.printed.preload_accelerations_m_per_s2;
+            let to_mn = 1e3 * data.rotor_mass_kg;
+            let (low, high) = (0.0, 1.03 * last);
+            let x = Axis::linear(low, high * to_mn).ticks(Ticks::every(80.0).minor(4));
+            let top = Axis::linear(low, high).ticks(Ticks::every(2.0).minor(4));
+            let (x, top) = if row == 0 {
+                (x.without_numbers(), top.label(r"$g$ (m/s$^2$)"))
+            } else {
+                (x.label("preload (mN)"), top.without_numbers())
+            };
+            let [from, to] = data.trend_mn();
+            Panel::new(grid.cell(row, column)).x(x).top(top).y(y).letter(letter).layer(
+                Band::new([(from, SPEEDS.0, SPEEDS.1), (to, SPEEDS.0, SPEEDS.1)])
+                    .colour(Colour::PALE_GREY)
+                    .opacity(0.6),
+            )
+        };
+        let speeds = Axis::linear(SPEEDS.0, SPEEDS.1)
+            .ticks(Ticks::every(10.0))
+            .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
+        let stalls = || Axis::linear(STALLS.0, STALLS.1).ticks(Ticks::every(10.0));
+        let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
+        let left = frame(0, ["a", "c"][row], speeds)
+            .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, steady_speed)))
+            .layer(label.clone());
+        let torque = 1e6 * data.moment_of_inertia();
+        let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
+            .right(
+                Axis::linear(torque * STALLS.0, torque * STALLS.1)
+                    .ticks(Ticks::every(10.0))
+                    .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
+            )
+            .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, stall)))
+            .layer(label);
+        let left = if row == 0 { left.legend(Legend::at(Corner::TopRight)) } else { left };
+        figure = figure.panel(left).panel(right);
+    }
+    figure
+}
+
+/// The line of one amplitude, its points with error bars, and those where the motor repeats a low-period cycle.
+fn layers(curve: &Curve, index: usize, reading: Reading) -> Vec<Layer> {
+    let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
+    let read = |low_period: bool| -> Vec<(f64, f64, f64)> {
+        let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
+        wanted
+            .filter_map(|point| reading(point).map(|(value, error)| (point.preload_mn, value, error)))
+            .collect()
+    };
+    let dots = read(false);
+    let low_period = read(true);
+    let scatter = |points: &[(f64, f64, f64)]| {
+        Scatter::new(points.iter().map(|(x, y, _)| (*x, *y)))
+            .errors_y(points.iter().map(|point| point.2))
+            .colour(colour)
+            .size(3.4)
+    };
+    let circles = scatter(&low_period).marker(Marker::Circle).filled_white();
+    let circles = if index + 1 == STYLES.len() { circles.name("low-period cycle") } else { circles };
+    vec![
+        Line::new(dots.iter().map(|(x, y, _)| (*x, *y)))
+            .colour(colour)
+            .width(0.8)
+            .dash(dash)
+            .name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m)))
+            .into(),
+        scatter(&dots).into(),
+        circles.into(),
+    ]
+}

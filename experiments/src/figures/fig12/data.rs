@@ -1,0 +1,114 @@
+//! The numbers of Fig. 12.
+
+use serde::{Deserialize, Serialize};
+
+use crate::figures::motor_case::{Cycle, MotorCase, PerturbationEffect};
+use crate::paper::ChatteringCases;
+
+/// The data of Fig. 12.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig12Data {
+    pub(super) cases: ChatteringCases,
+    /// The printed long-period case.
+    pub(super) long_period: Shown,
+    /// The low-period case, at the amplitude next to the printed one that repeats a low-period cycle.
+    pub(super) low_period: Shown,
+    /// The printed values of both cases, each under every reading.
+    pub(super) printed: Vec<Reading>,
+    /// Both cases: how often a change of the amplitude in its last places makes a low-period cycle.
+    pub(super) rounding: Vec<Rounding>,
+    /// Most flights of a cycle that counts as one of low period.
+    pub(super) low_period_flights: usize,
+    /// The motor of the low-period case against the size of the relaunch perturbation.
+    pub(super) perturbations: Vec<PerturbationEffect>,
+    /// The low-period case of Fig. 10(a): default values with A = 1 nm.
+    pub(super) smallest_of_fig10: Cycle,
+    pub(super) smallest_of_fig10_peak_acceleration: f64,
+}
+
+/// A printed case under one reading of its frequency and one chattering policy.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Reading {
+    pub(super) amplitude_m: f64,
+    pub(super) preload_acceleration_m_per_s2: f64,
+    pub(super) angular_frequency_rad_per_s: f64,
+    pub(super) papers_cut: bool,
+    pub(super) cycle: Cycle,
+}
+
+/// The cycles at amplitudes that differ from the printed one in the last places.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Rounding {
+    pub(super) amplitude_m: f64,
+    pub(super) preload_acceleration_m_per_s2: f64,
+    /// Relative distance of neighbouring amplitudes.
+    pub(super) step: f64,
+    pub(super) amplitudes: usize,
+    /// Number of flights, and the share of amplitudes with cycles of no more.
+    pub(super) share_up_to: Vec<(usize, f64)>,
+}
+
+/// A motor whose transient is drawn. Nothing perturbs it.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Shown {
+    pub(super) motor: MotorCase,
+    /// Amplitude over the printed one minus 1.
+    pub(super) amplitude_offset: f64,
+    pub(super) axial_forcing: f64,
+    pub(super) cycle: Cycle,
+    pub(super) cycle_duration_s: Option<f64>,
+    pub(super) largest_acceleration_rad_per_s2: f64,
+    pub(super) duration_s: f64,
+    /// Each flight longer than half a period: its start and the speed during it.
+    pub(super) flight_time_s: Vec<f64>,
+    pub(super) flight_speed_rad_per_s: Vec<f64>,
+    /// The same motor averaged over equal intervals, and its fits.
+    pub(super) fits: Fits,
+    /// What the impulses of one cycle predict.
+    pub(super) prediction: Prediction,
+    pub(super) zoom: Zoom,
+}
+
+/// The two forms fitted to the same curve.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Fits {
+    pub(super) exponential_steady_speed_rad_per_s: f64,
+    pub(super) time_constant_s: f64,
+    pub(super) exponential_residual_rad_per_s: f64,
+    pub(super) ramp_steady_speed_rad_per_s: f64,
+    pub(super) rise_time_s: f64,
+    pub(super) ramp_residual_rad_per_s: f64,
+    /// Mean over the last fifth.
+    pub(super) last_speed_rad_per_s: f64,
+    /// Straight line through the first half of the rise.
+    pub(super) slope_rad_per_s2: f64,
+    pub(super) slope_error_rad_per_s2: f64,
+    /// First time at which the speed is within 2 % of the last one.
+    pub(super) reached_s: Option<f64>,
+}
+
+/// Straight pieces from the impulses of one cycle (module `impulse`).
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Prediction {
+    /// S(0): net share of the normal impulse that pushes a slow rotor forwards.
+    pub(super) net_share_at_rest: f64,
+    /// μ a_e g/a_g² S(0).
+    pub(super) slope_rad_per_s2: f64,
+    pub(super) steady_speed_rad_per_s: f64,
+    /// When the pieces reach it.
+    pub(super) reached_s: f64,
+    pub(super) time_s: Vec<f64>,
+    pub(super) speed_rad_per_s: Vec<f64>,
+    /// Each impact of at least a hundredth of the cycle's impulse: phase/2π, share of the impulse and cos(τ + θ).
+    pub(super) impacts: Vec<(f64, f64, f64)>,
+    /// Impulses of the cycle over weight times its duration, minus 1.
+    pub(super) balance: f64,
+}
+
+/// A short part of the rise.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Zoom {
+    pub(super) time_s: Vec<f64>,
+    pub(super) speed_rad_per_s: Vec<f64>,
+    pub(super) height_m: Vec<f64>,
+}

@@ -1,0 +1,284 @@
+//! The computation of Fig. 12.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{
+    CollisionEvent, Collisions, Engine, RampFit, Start, Trajectory, TransientSettings, transient,
+};
+
+use super::data::{Fig12Data, Fits, Prediction, Reading, Rounding, Shown, Zoom};
+use crate::experiment::{ExperimentError, Quality};
+use crate::figures::impulse::Impulses;
+use crate::figures::motor_case::{Cycle, MotorCase, core_error, perturbation_table};
+use crate::figures::regression::StraightLine;
+use crate::paper;
+use crate::progress::Progress;
+
+/// Most flights of a low-period cycle: what the rounding of double precision still decides.
+const LOW_PERIOD_FLIGHTS: usize = 4;
+/// Relative distance of the amplitudes that are tried.
+const AMPLITUDE_STEP: f64 = 1e-13;
+/// Most amplitudes tried on each side.
+const MOST_STEPS: u32 = 5_000;
+/// Flights for which shares are counted.
+const FLIGHT_COUNTS: [usize; 7] = [1, 2, 3, 4, 10, 20, 50];
+/// Relaunch perturbations (g/ω) of the low-period case.
+const PERTURBATIONS: [f64; 8] = [0.0, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3, 1e-2, 1e-1];
+/// Duration drawn, in rise times ωΦ a_g²/(μ a_e g).
+const LONG_RISES: f64 = 6.0;
+/// Duration drawn of the low-period case, in predicted times to the steady speed.
+const LOW_RISES: f64 = 1.6;
+/// Impulses for the prediction of a long cycle.
+const IMPULSES: usize = 20_000;
+/// Samples of a zoom, and its flights.
+const ZOOM_SAMPLES: usize = 1_500;
+const ZOOM_FLIGHTS: usize = 12;
+/// The zoom starts at this share of the time to the steady speed; of the long-period case, of the rise time.
+const ZOOM_AT: f64 = 0.5;
+/// The speed has reached its last value when it differs from it by this share.
+const REACHED_WITHIN: f64 = 0.02;
+
+pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
+    let cases = paper::chattering_cases()?;
+    let section = paper::section_five()?;
+    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let long = MotorCase {
+        amplitude_m: cases.amplitudes_m[0],
+        preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[0],
+        ..motor
+    };
+    let low = MotorCase {
+        amplitude_m: cases.amplitudes_m[1],
+        preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
+        ..motor
+    };
+    progress.start(6, "cases");
+    let mut printed = Vec::new();
+    for case in [long, low] {
+        // ω read as 2π times 70 kHz, and as 70 000 rad/s.
+        for frequency_hz in [case.frequency_hz, case.frequency_hz / TAU] {
+            for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
+                printed.push(Reading {
+                    amplitude_m: case.amplitude_m,
+                    preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
+                    angular_frequency_rad_per_s: TAU * frequency_hz,
+                    papers_cut: policy == ChatterPolicy::Paper,
+                    cycle: MotorCase { frequency_hz, ..case }.cycle(policy)?,
+                });
+            }
+        }
+    }
+    progress.advance(1);
+    let rounding = [long, low]
+        .iter()
+        .map(|case| rounding(case, quality.choose(100, 2_000)))
+        .collect::<Result<Vec<_>, _>>()?;
+    progress.advance(1);
+    let near = nearest_low_period(&low)?;
+    progress.advance(1);
+    let long_period = shown(long, long.amplitude_m)?;
+    progress.advance(1);
+    let low_period = shown(near, low.amplitude_m)?;
+    progress.advance(1);
+    let perturbations = perturbation_table(&near, &PERTURBATIONS, 6.0, quality.choose(4, 16))?;
+    progress.advance(1);
+    let smallest = MotorCase { amplitude_m: section.amplitudes_of_fig10_m[0], ..motor };
+    Ok(Fig12Data {
+        cases,
+        long_period,
+        low_period,
+        printed,
+        rounding,
+        low_period_flights: LOW_PERIOD_FLIGHTS,
+        perturbations,
+        smallest_of_fig10: smallest.cycle(ChatterPolicy::Complete)?,
+        smallest_of_fig10_peak_acceleration: smallest.system()?.peak_acceleration(),
+    })
+}
+
+/// The motor at the amplitude `step` relative steps from that of `case`.
+fn beside(case: &MotorCase, step: f64) -> MotorCase {
+    MotorCase { amplitude_m: case.amplitude_m * (1.0 + AMPLITUDE_STEP * step), ..*case }
+}
+
+/// The cycles of amplitudes next to that of `case`, on both sides.
+fn rounding(case: &MotorCase, amplitudes: u32) -> Result<Rounding, ExperimentError> {
+    let mut flights = Vec::new();
+    for index in 0..amplitudes {
+        let step = f64::from(index) - 0.5 * f64::from(amplitudes - 1);
+        flights.push(beside(case, step).cycle(ChatterPolicy::Complete)?.flights());
+    }
+    let share = |&count: &usize| {
+        let within = flights.iter().filter(|flights| flights.is_some_and(|flights| flights <= count)).count();
+        (count, within as f64 / flights.len() as f64)
+    };
+    Ok(Rounding {
+        amplitude_m: case.amplitude_m,
+        preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
+        step: AMPLITUDE_STEP,
+        amplitudes: flights.len(),
+        share_up_to: FLIGHT_COUNTS.iter().map(share).collect(),
+    })
+}
+
+/// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a low-period cycle of more than
+/// one flight; `case` itself if there is none within [`MOST_STEPS`].
+fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
+    for step in 0..MOST_STEPS {
+        for sign in [1.0, -1.0] {
+            let near = beside(case, sign * f64::from(step));
+            let flights = near.cycle(ChatterPolicy::Complete)?.flights();
+            if flights.is_some_and(|flights| (2..=LOW_PERIOD_FLIGHTS).contains(&flights)) {
+                return Ok(near);
+            }
+        }
+    }
+    Ok(*case)
+}
+
+/// A rotor at rest on the stator at its lowest point.
+fn start() -> Result<Start, ExperimentError> {
+    Ok(Start::Contact { phase: Phase::new(1.5 * PI).map_err(core_error)?, angular_speed: 0.0 })
+}
+
+fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {
+    let system = motor.system()?;
+    let cycle = motor.cycle(ChatterPolicy::Complete)?;
+    let low = cycle.flights().is_some_and(|flights| flights <= LOW_PERIOD_FLIGHTS);
+    let prediction = predict(&motor, low)?;
+    let duration_s = if low { LOW_RISES * prediction.reached_s } else { LONG_RISES * motor.rise_time_s() };
+
+    let scales = system.scales();
+    let mut collisions =
+        Collisions::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let (mut flight_time_s, mut flight_speed_rad_per_s) = (Vec::new(), Vec::new());
+    let mut last = None;
+    while let Some(event) = collisions.advance().map_err(ExperimentError::model)? {
+        let time = match event {
+            CollisionEvent::Collision(collision) => {
+                let long = |from| collision.time.since(&from).radians() > PI;
+                if let Some(from) = last.filter(|from| long(*from)) {
+                    flight_time_s.push(scales.time_seconds(from));
+                    flight_speed_rad_per_s.push(scales.angular_speed * collision.angular_speed);
+                }
+                collision.time
+            }
+            CollisionEvent::Attachment { time, .. } | CollisionEvent::Separation { time, .. } => time,
+            _ => continue,
+        };
+        last = Some(time);
+        if scales.time_seconds(time) > duration_s {
+            break;
+        }
+    }
+    Ok(Shown {
+        amplitude_offset: motor.amplitude_m / printed_amplitude - 1.0,
+        axial_forcing: system.axial_forcing(),
+        cycle,
+        cycle_duration_s: cycle.platform_periods().map(|periods| periods as f64 / motor.frequency_hz),
+        largest_acceleration_rad_per_s2: motor.largest_acceleration(),
+        duration_s,
+        fits: fits(&motor, duration_s)?,
+        zoom: zoom(&motor, cycle, ZOOM_AT * if low { prediction.reached_s } else { motor.rise_time_s() })?,
+        flight_time_s,
+        flight_speed_rad_per_s,
+        prediction,
+        motor,
+    })
+}
+
+fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
+    let settings = TransientSettings {
+        duration,
+        intervals: 400,
+        relaunch_perturbation: 0.0,
+        ..TransientSettings::default()
+    };
+    let phase = Phase::new(1.5 * PI).map_err(core_error)?;
+    let curve = transient(&motor.system()?, phase, &settings).map_err(ExperimentError::model)?;
+    let exponential = curve.fit().map_err(ExperimentError::model)?;
+    let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+    let last = curve.mean_over_last(0.2);
+    let points = || curve.times.iter().copied().zip(curve.speeds.iter().copied());
+    let rise: Vec<(f64, f64)> = points().take_while(|(_, speed)| *speed < 0.5 * last).collect();
+    let line = StraightLine::through(&rise);
+    Ok(Fits {
+        exponential_steady_speed_rad_per_s: exponential.steady_speed,
+        time_constant_s: exponential.time_constant,
+        exponential_residual_rad_per_s: exponential.residual,
+        ramp_steady_speed_rad_per_s: ramp.steady_speed,
+        rise_time_s: ramp.rise_time,
+        ramp_residual_rad_per_s: ramp.residual,
+        last_speed_rad_per_s: last,
+        slope_rad_per_s2: line.map_or(0.0, |line| line.slope),
+        slope_error_rad_per_s2: line.map_or(0.0, |line| line.slope_error),
+        reached_s: points()
+            .find(|(_, speed)| (speed - last).abs() <= REACHED_WITHIN * last.abs())
+            .map(|point| point.0),
+    })
+}
+
+fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, ExperimentError> {
+    let system = motor.system()?;
+    let impulses = Impulses::of(system.dimensionless().map(), if low_period { 1 } else { IMPULSES }, 0.0)?;
+    let levels = impulses.levels(motor.phase_lag_rad);
+    let total = impulses.total();
+    let (rise, top) = (motor.rise_time_s(), motor.peak_angular_speed_rad_per_s);
+    let steady = levels.steady_speed();
+    let (times, speeds) = levels.transient(LONG_RISES, 6_000);
+    let reached = times.iter().zip(&speeds).find(|(_, speed)| **speed >= (1.0 - REACHED_WITHIN) * steady);
+    let thin = |values: &[f64], unit: f64| values.iter().step_by(20).map(|value| unit * value).collect();
+    let impacts = impulses.impacts.iter().filter(|(_, impulse)| low_period && *impulse >= 0.01 * total);
+    Ok(Prediction {
+        net_share_at_rest: levels.net_share(0.0),
+        slope_rad_per_s2: motor.largest_acceleration() * levels.net_share(0.0),
+        steady_speed_rad_per_s: top * steady,
+        reached_s: rise * reached.map_or(LONG_RISES, |(time, _)| *time),
+        time_s: thin(&times, rise),
+        speed_rad_per_s: thin(&speeds, top),
+        impacts: impacts
+            .map(|(phase, impulse)| {
+                let level = bouncing_disk::core::elementary::cos(phase + motor.phase_lag_rad);
+                (phase / TAU, impulse / total, level)
+            })
+            .collect(),
+        balance: total / impulses.duration - 1.0,
+    })
+}
+
+/// Speed and height from the first separation after `from_s` on.
+fn zoom(motor: &MotorCase, cycle: Cycle, from_s: f64) -> Result<Zoom, ExperimentError> {
+    let system = motor.system()?;
+    let scales = system.scales();
+    let mut engine =
+        Engine::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut started = false;
+    while let Some(record) = engine.advance().map_err(ExperimentError::model)? {
+        started = scales.time_seconds(record.time) >= from_s;
+        if started && record.event == bouncing_disk::Event::Separation {
+            break;
+        }
+    }
+    // Three cycles of low period, else a number of flights.
+    let low = cycle.flights().filter(|flights| *flights <= LOW_PERIOD_FLIGHTS);
+    let flights = low.map_or(ZOOM_FLIGHTS, |flights| 3 * flights);
+    let mut seen = 0;
+    let record = Trajectory::record(&mut engine, |record| {
+        let flight = matches!(record.event, bouncing_disk::Event::Impact { .. });
+        seen += usize::from(flight && record.span.radians() > PI);
+        seen >= flights && (low.is_none() || record.event == bouncing_disk::Event::Separation)
+    })
+    .map_err(ExperimentError::model)?;
+    let mut zoom = Zoom { time_s: Vec::new(), speed_rad_per_s: Vec::new(), height_m: Vec::new() };
+    if !started {
+        return Ok(zoom);
+    }
+    for snapshot in record.uniform(ZOOM_SAMPLES) {
+        let state = scales.state(&snapshot.disk);
+        zoom.time_s.push(scales.time_seconds(snapshot.time));
+        zoom.speed_rad_per_s.push(state.angular_speed);
+        zoom.height_m.push(state.height);
+    }
+    Ok(zoom)
+}

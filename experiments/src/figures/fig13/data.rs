@@ -1,0 +1,142 @@
+//! The numbers of Fig. 13.
+
+use serde::{Deserialize, Serialize};
+
+use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
+
+/// The data of Fig. 13.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig13Data {
+    pub(super) motor: MotorCase,
+    /// ε below which the paper finds low-period chattering prevalent.
+    pub(super) prevalent_below_restitution: f64,
+    pub(super) members: usize,
+    pub(super) rises: f64,
+    pub(super) relaunch_perturbation: f64,
+    /// The second perturbation, in units of g/ω, which breaks most low-period cycles.
+    pub(super) breaking_perturbation: f64,
+    pub(super) default: MotorStatistics,
+    /// In the order of the panels.
+    pub(super) sweeps: Vec<Sweep>,
+    /// Where the impulse falls in the cycle, for three ε.
+    pub(super) impulses: Vec<ImpulsePhases>,
+    /// How common short cycles are, by ε.
+    pub(super) prevalence: Vec<Prevalence>,
+    /// The default motor, and one with a low-period cycle.
+    pub(super) perturbations: Vec<PerturbedMotor>,
+}
+
+/// A parameter of Fig. 13.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Parameter {
+    Friction,
+    Restitution,
+    PhaseLag,
+    Amplitude,
+    PeakAngularSpeed,
+}
+
+impl Parameter {
+    pub(super) const ALL: [Self; 5] =
+        [Self::Friction, Self::Restitution, Self::PhaseLag, Self::Amplitude, Self::PeakAngularSpeed];
+
+    /// The paper's symbol.
+    pub(super) const fn symbol(self) -> &'static str {
+        match self {
+            Self::Friction => "μ",
+            Self::Restitution => "ε",
+            Self::PhaseLag => "θ",
+            Self::Amplitude => "A",
+            Self::PeakAngularSpeed => "ωΦ",
+        }
+    }
+
+    pub(super) const fn unit(self) -> &'static str {
+        match self {
+            Self::Friction | Self::Restitution => "",
+            Self::PhaseLag => "rad",
+            Self::Amplitude => "m",
+            Self::PeakAngularSpeed => "rad/s",
+        }
+    }
+
+    /// The motor with this parameter changed.
+    pub(super) const fn set(self, motor: &MotorCase, value: f64) -> MotorCase {
+        let mut case = *motor;
+        *(match self {
+            Self::Friction => &mut case.friction,
+            Self::Restitution => &mut case.restitution,
+            Self::PhaseLag => &mut case.phase_lag_rad,
+            Self::Amplitude => &mut case.amplitude_m,
+            Self::PeakAngularSpeed => &mut case.peak_angular_speed_rad_per_s,
+        }) = value;
+        case
+    }
+}
+
+/// One panel.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Sweep {
+    pub(super) parameter: Parameter,
+    pub(super) points: Vec<SweepPoint>,
+}
+
+/// One value of the parameter.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct SweepPoint {
+    pub(super) value: f64,
+    pub(super) peak_angular_speed_rad_per_s: f64,
+    pub(super) statistics: MotorStatistics,
+    /// The same with the breaking perturbation.
+    pub(super) broken: MotorStatistics,
+    /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
+    pub(super) predicted_speed_ratio: f64,
+    pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
+    /// Share of the normal impulse within π/4 of τ = 0.
+    pub(super) impulse_share_near_zero: f64,
+    /// Means over the impacts that are not summed.
+    pub(super) mean_impact_speed_m_per_s: f64,
+    pub(super) mean_impact_interval_s: f64,
+}
+
+impl SweepPoint {
+    pub(super) fn speed_ratio(&self) -> f64 {
+        self.statistics.steady_speed_rad_per_s.mean / self.peak_angular_speed_rad_per_s
+    }
+
+    pub(super) fn stall(&self) -> Option<f64> {
+        self.statistics.stall_acceleration_rad_per_s2.map(|spread| spread.mean)
+    }
+}
+
+/// Normal impulse by phase.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct ImpulsePhases {
+    pub(super) restitution: f64,
+    /// Shares in equal parts of the cycle from τ = −π to π.
+    pub(super) shares: Vec<f64>,
+    pub(super) share_near_zero: f64,
+    /// Share that comes in contact and in summed chattering.
+    pub(super) contact_share: f64,
+}
+
+/// The cycles of unperturbed motors whose amplitudes all print as the default one.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Prevalence {
+    pub(super) restitution: f64,
+    pub(super) amplitudes: usize,
+    /// Number of flights, and the share of motors with cycles of no more.
+    pub(super) share_up_to: Vec<(usize, f64)>,
+    /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in lines.
+    pub(super) share_of_short: f64,
+    /// Half of the motors have cycles of no more flights; `None` if that is not known of half of them.
+    pub(super) median_flights: Option<usize>,
+}
+
+/// A motor against the size of the relaunch perturbation.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct PerturbedMotor {
+    pub(super) restitution: f64,
+    pub(super) effects: Vec<PerturbationEffect>,
+}

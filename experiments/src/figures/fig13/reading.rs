@@ -1,0 +1,51 @@
+//! Reading off the sweeps of Fig. 13.
+
+use bouncing_disk::core::elementary::ln;
+
+use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
+use crate::figures::regression::StraightLine;
+
+pub(super) fn sweep_points(data: &Fig13Data) -> impl Iterator<Item = &SweepPoint> {
+    data.sweeps.iter().flat_map(|sweep| &sweep.points)
+}
+
+pub(super) fn sweep(data: &Fig13Data, parameter: Parameter) -> Option<&Sweep> {
+    data.sweeps.iter().find(|sweep| sweep.parameter == parameter)
+}
+
+/// What is read from a point: the steady speed in rad/s, or the stall acceleration.
+pub(super) type Reading = fn(&SweepPoint) -> Option<f64>;
+
+pub(super) fn speed(point: &SweepPoint) -> Option<f64> {
+    Some(point.statistics.steady_speed_rad_per_s.mean)
+}
+
+pub(super) fn stall(point: &SweepPoint) -> Option<f64> {
+    point.stall()
+}
+
+/// The points that no low-period cycle governs, as (value, reading).
+pub(super) fn read(data: &Fig13Data, parameter: Parameter, of: Reading) -> Vec<(f64, f64)> {
+    let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+    let chaotic = points.iter().filter(|point| !point.statistics.is_low_period());
+    chaotic.filter_map(|point| of(point).map(|value| (point.value, value))).collect()
+}
+
+/// Elasticity: the exponent of a power law through all positive points.
+pub(super) fn elasticity(data: &Fig13Data, parameter: Parameter, of: Reading) -> Option<StraightLine> {
+    let points: Vec<(f64, f64)> = read(data, parameter, of)
+        .into_iter()
+        .filter(|(value, reading)| *value > 0.0 && *reading > 0.0)
+        .map(|(value, reading)| (ln(value), ln(reading)))
+        .collect();
+    StraightLine::through(&points)
+}
+
+pub(super) fn words(line: Option<StraightLine>) -> String {
+    line.map_or_else(|| "no fit".to_owned(), |line| format!("{:+.3} ± {:.3}", line.slope, line.slope_error))
+}
+
+/// Smallest and largest value.
+pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+}

@@ -1,0 +1,229 @@
+//! How steady speed and stall torque depend on the parameters.
+
+use bouncing_disk::core::elementary::cos;
+
+use super::data::{Fig13Data, Parameter, SweepPoint};
+use super::reading::{Reading, elasticity, extent, read, speed, stall, sweep, sweep_points, words};
+use super::statements::{ID, SECTION};
+use crate::claim::Claim;
+use crate::figures::motor_case::relative_range;
+use crate::figures::regression::StraightLine;
+
+/// An exponent below this, with two standard errors, counts as no significant effect: over two decades of A the
+/// quantity then changes by less than a factor 1.6.
+const INSIGNIFICANT: f64 = 0.1;
+
+/// An exponent this near to 1 counts as proportional.
+const PROPORTIONAL_WITHIN: f64 = 0.1;
+
+/// A change over the range by more than this share of the default value is significant.
+const SIGNIFICANT: f64 = 0.3;
+
+/// Least share of the variance that a curve explains to be called that curve.
+const EXPLAINED: f64 = 0.95;
+
+/// y = c cos θ by least squares: c, and the share of the variance that it explains.
+fn cosine_fit(points: &[(f64, f64)]) -> (f64, f64) {
+    let (mut products, mut squares) = (0.0, 0.0);
+    for (angle, value) in points {
+        products += cos(*angle) * value;
+        squares += cos(*angle) * cos(*angle);
+    }
+    let factor = products / squares;
+    let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64;
+    let (mut rest, mut all) = (0.0, 0.0);
+    for (angle, value) in points {
+        let (off, from_mean) = (value - factor * cos(*angle), value - mean);
+        rest += off * off;
+        all += from_mean * from_mean;
+    }
+    (factor, 1.0 - rest / all)
+}
+
+pub(super) fn cosine(data: &Fig13Data) -> Claim {
+    let top = data.motor.peak_angular_speed_rad_per_s;
+    let ratio: Vec<_> = read(data, Parameter::PhaseLag, speed)
+        .into_iter()
+        .map(|(angle, speed)| (angle, speed / top))
+        .collect();
+    let (factor, explained) = cosine_fit(&ratio);
+    let (stall_factor, stall_explained) = cosine_fit(&read(data, Parameter::PhaseLag, stall));
+    let off = |point: &&(f64, f64)| (point.1 - factor * cos(point.0)).abs();
+    let worst = ratio.iter().max_by(|one, other| off(one).total_cmp(&off(other)));
+    Claim::printed_statement(
+        "section5.cosine_of_phase_lag",
+        explained >= EXPLAINED,
+        format!(
+            "steady speed/(ωΦ) = {factor:.3} cos θ explains {:.2} % of the variance, stall acceleration = {stall_factor:.1} cos θ \
+             {:.2} % of its; {} The curve is not even in θ, since the impulses do not fall evenly about τ = 0",
+            100.0 * explained,
+            100.0 * stall_explained,
+            worst.map_or_else(String::new, |point| format!(
+                "the speed ratio is farthest off at θ = {:.2}π, {:.3} against {:.3}.",
+                point.0 / std::f64::consts::PI,
+                point.1,
+                factor * cos(point.0)
+            )),
+        ),
+    )
+}
+
+pub(super) fn amplitude(data: &Fig13Data) -> Claim {
+    let lines = [speed as Reading, stall].map(|of| elasticity(data, Parameter::Amplitude, of));
+    let range = |of: Reading| {
+        let values: Vec<f64> = read(data, Parameter::Amplitude, of).iter().map(|point| point.1).collect();
+        100.0 * relative_range(&values)
+    };
+    let low = sweep(data, Parameter::Amplitude)
+        .map_or(0, |sweep| sweep.points.iter().filter(|point| point.statistics.is_low_period()).count());
+    Claim::printed_statement(
+        "section5.amplitude_insensitivity",
+        lines
+            .iter()
+            .all(|line| line.is_some_and(|line| line.slope.abs() + 2.0 * line.slope_error < INSIGNIFICANT)),
+        format!(
+            "exponents {} (range {:.0} %) and {} (range {:.0} %); {low} low-period motors left out",
+            words(lines[0]),
+            range(speed),
+            words(lines[1]),
+            range(stall),
+        ),
+    )
+}
+
+pub(super) fn twist(data: &Fig13Data) -> Claim {
+    let line = elasticity(data, Parameter::PeakAngularSpeed, stall);
+    Claim::printed_statement(
+        "section5.torque_independent_of_twist",
+        line.is_some_and(|line| line.slope.abs() + 2.0 * line.slope_error < INSIGNIFICANT),
+        format!(
+            "exponent {}; that of the steady speed {}",
+            words(line),
+            words(elasticity(data, Parameter::PeakAngularSpeed, speed))
+        ),
+    )
+}
+
+pub(super) fn friction(data: &Fig13Data) -> Claim {
+    let line = elasticity(data, Parameter::Friction, stall);
+    let straight = StraightLine::through(&read(data, Parameter::Friction, stall));
+    Claim::printed_statement(
+        "section5.torque_linear_in_friction",
+        line.is_some_and(|line| (line.slope - 1.0).abs() <= PROPORTIONAL_WITHIN)
+            && straight.is_some_and(|line| line.explained >= EXPLAINED),
+        format!(
+            "exponent {}; straight line R² = {:.4}, intercept {:.2} rad/s²; the steady speed has the exponent {}",
+            words(line),
+            straight.map_or(f64::NAN, |line| line.explained),
+            straight.map_or(f64::NAN, |line| line.intercept),
+            words(elasticity(data, Parameter::Friction, speed)),
+        ),
+    )
+}
+
+/// The change of a reading over the range of each parameter, relative to the default value; largest first.
+fn changes(data: &Fig13Data, of: Reading) -> Vec<(Parameter, f64)> {
+    let default = of(&default_point(data)).unwrap_or(f64::NAN);
+    let mut changes: Vec<(Parameter, f64)> = Parameter::ALL
+        .into_iter()
+        .map(|parameter| {
+            let (low, high) = extent(read(data, parameter, of).iter().map(|point| point.1));
+            (parameter, (high - low) / default)
+        })
+        .collect();
+    changes.sort_by(|one, other| other.1.total_cmp(&one.1));
+    changes
+}
+
+/// That the parameters `named` are those with the largest changes.
+pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Reading, named: [Parameter; 3]) -> Claim {
+    let changes = changes(data, of);
+    let ranked = changes.iter().map(|(parameter, change)| {
+        let exponent = if *parameter == Parameter::PhaseLag {
+            String::new()
+        } else {
+            format!(", exponent {}", words(elasticity(data, *parameter, of)))
+        };
+        format!("{} {change:.2}{exponent}", parameter.symbol())
+    });
+    let ranked = ranked.collect::<Vec<_>>().join("; ");
+    Claim::printed_statement(
+        key,
+        changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter)),
+        format!(
+            "change over the range drawn, relative to the default value: {ranked} (low-period motors left out). The ranges are \
+             ours"
+        ),
+    )
+}
+
+/// That only θ and ε change both the steady speed, in units of ωΦ or not, and the stall torque.
+pub(super) fn both(data: &Fig13Data) -> Claim {
+    let (speeds, stalls) = (changes(data, speed), changes(data, stall));
+    let significant = |changes: &[(Parameter, f64)], parameter: Parameter| {
+        changes.iter().any(|(other, change)| *other == parameter && *change > SIGNIFICANT)
+    };
+    let both: Vec<Parameter> = Parameter::ALL
+        .into_iter()
+        .filter(|parameter| significant(&speeds, *parameter) && significant(&stalls, *parameter))
+        .collect();
+    Claim::printed_statement(
+        "section5.both_sensitivity",
+        both == [Parameter::Restitution, Parameter::PhaseLag],
+        format!(
+            "changes of more than {SIGNIFICANT} of the default value in both: {}",
+            both.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
+        ),
+    )
+}
+
+/// The default motor as a point.
+fn default_point(data: &Fig13Data) -> SweepPoint {
+    SweepPoint {
+        value: f64::NAN,
+        peak_angular_speed_rad_per_s: data.motor.peak_angular_speed_rad_per_s,
+        statistics: data.default,
+        broken: data.default,
+        predicted_speed_ratio: f64::NAN,
+        predicted_stall_acceleration_rad_per_s2: None,
+        impulse_share_near_zero: f64::NAN,
+        mean_impact_speed_m_per_s: f64::NAN,
+        mean_impact_interval_s: f64::NAN,
+    }
+}
+
+pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
+    let ratio = sweep_points(data).map(|point| point.speed_ratio().abs()).fold(0.0, f64::max);
+    Claim::printed_statement(
+        "section5.speed_limit",
+        ratio <= 1.0,
+        format!("largest steady speed over {} motors: {ratio:.3} ωΦ", sweep_points(data).count()),
+    )
+}
+
+/// The quotient α̇_ss/t_c against the acceleration that friction can give.
+pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
+    let mut largest = (0.0, String::new());
+    for sweep in &data.sweeps {
+        for point in &sweep.points {
+            let Some(spread) = point.statistics.stall_acceleration_rad_per_s2 else { continue };
+            let limit = sweep.parameter.set(&data.motor, point.value).largest_acceleration();
+            let share = (spread.mean.abs() - 2.0 * spread.standard_error) / limit;
+            if share > largest.0 {
+                largest = (share, format!("{} = {:.3}", sweep.parameter.symbol(), point.value));
+            }
+        }
+    }
+    let (share, place) = largest;
+    Claim::statement(
+        ID,
+        SECTION,
+        "the quotient α̇_ss/t_c stays below the limit μ a_e g/a_g² of the stall torque",
+        share <= 1.0,
+        format!(
+            "two standard errors below the mean it is {share:.3} of the limit at {place}. The normal impulse per time is the weight, \
+             whatever the orbit, so no motor accelerates faster than the limit; but where the speed rises in lines rather than \
+             exponentially, at small ε, the fit makes more of α̇_ss/t_c than any acceleration"
+        ),
+    )
+}

@@ -1,0 +1,146 @@
+//! What the paper says about Fig. 13.
+
+use super::data::{Fig13Data, Parameter};
+use super::reading::{speed, stall, sweep_points};
+use super::{orbits, sensitivity};
+use crate::claim::Claim;
+use crate::figures::motor_case::{perturbation_words, relative_range};
+use crate::table::{Cell, Table};
+
+pub(super) const ID: &str = "fig13";
+
+pub(super) const SECTION: &str = "Sec. V C";
+
+pub(super) fn caption(data: &Fig13Data) -> String {
+    let left_out: usize = sweep_points(data).filter(|point| point.stall().is_none()).count();
+    let low: usize = sweep_points(data).filter(|point| point.statistics.is_low_period()).count();
+    format!(
+        "Effect of varying (a) μ, (b) ε, (c) θ, (d) A and (e) ωΦ about the default values (μ = {}, ε = {}, θ = {}, A = {:e} m, \
+         ωΦ = {} rad/s, g = {} m/s², {} kHz). Crosses, left scales: steady-state speed over ωΦ; dots, right scales: stall torque \
+         as an acceleration. Mean and standard deviation of {} members over {} rise times, relaunch perturbation below {} \
+         g/ω. Pale: {low} motors on a low-period cycle. {left_out} motors have no meaningful fit and no dot. Dotted: \
+         what the phases of the normal impulse predict. (f) Distribution of the normal impulse over the cycle of the stator. \
+         The paper's ranges are not in its text; these are ours.",
+        data.motor.friction,
+        data.motor.restitution,
+        data.motor.phase_lag_rad,
+        data.motor.amplitude_m,
+        data.motor.peak_angular_speed_rad_per_s,
+        data.motor.preload_acceleration_m_per_s2,
+        data.motor.frequency_hz / 1e3,
+        data.members,
+        data.rises,
+        data.relaunch_perturbation,
+    )
+}
+
+pub(super) fn parameters(data: &Fig13Data) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    for sweep in &data.sweeps {
+        if let (Some(first), Some(last)) = (sweep.points.first(), sweep.points.last()) {
+            let value = format!(
+                "{:.3e} to {:.3e} {}, {} values",
+                first.value,
+                last.value,
+                sweep.parameter.unit(),
+                sweep.points.len()
+            );
+            rows.push((sweep.parameter.symbol().to_owned(), value));
+        }
+    }
+    rows.push(("members".to_owned(), data.members.to_string()));
+    rows.push(("duration".to_owned(), format!("{} ωΦ a_g²/(μ a_e g)", data.rises)));
+    rows.push((
+        "relaunch perturbation".to_owned(),
+        format!("{} and {} g/ω", data.relaunch_perturbation, data.breaking_perturbation),
+    ));
+    rows
+}
+
+pub(super) fn table(data: &Fig13Data) -> Table {
+    let mut table = Table::new([
+        "parameter",
+        "value (SI)",
+        "steady speed / (omega Phi)",
+        "its standard deviation",
+        "stall acceleration (rad/s^2)",
+        "its standard deviation (rad/s^2)",
+        "members without fit",
+        "low-period cycle",
+        "speed ratio, cycles broken",
+        "predicted speed ratio",
+        "predicted stall acceleration (rad/s^2)",
+    ]);
+    for sweep in &data.sweeps {
+        for point in &sweep.points {
+            let (statistics, top) = (&point.statistics, point.peak_angular_speed_rad_per_s);
+            let stall = statistics.stall_acceleration_rad_per_s2;
+            table.push([
+                sweep.parameter.symbol().into(),
+                point.value.into(),
+                point.speed_ratio().into(),
+                (statistics.steady_speed_rad_per_s.deviation / top).into(),
+                stall.map(|spread| spread.mean).into(),
+                stall.map(|spread| spread.deviation).into(),
+                Cell::Integer(statistics.unfitted as i64),
+                if statistics.is_low_period() { statistics.cycle.words().into() } else { Cell::Empty },
+                (point.broken.steady_speed_rad_per_s.mean / top).into(),
+                point.predicted_speed_ratio.into(),
+                point.predicted_stall_acceleration_rad_per_s2.into(),
+            ]);
+        }
+    }
+    table
+}
+
+pub(super) fn claims(data: &Fig13Data) -> Vec<Claim> {
+    let mut claims = vec![
+        sensitivity::cosine(data),
+        sensitivity::amplitude(data),
+        sensitivity::twist(data),
+        sensitivity::friction(data),
+        sensitivity::both(data),
+        sensitivity::speed_limit(data),
+        sensitivity::torque_limit(data),
+        orbits::slower_collisions(data),
+        orbits::intervals(data),
+        orbits::restitution_lowers_both(data),
+        orbits::simplistic(data),
+        orbits::form(data),
+    ];
+    claims.extend(orbits::prevalent(data));
+    claims.extend(orbits::phases_of_impulse(data));
+    claims.push(sensitivity::most_sensitive(
+        data,
+        "section5.speed_sensitivity",
+        speed,
+        [Parameter::PhaseLag, Parameter::Restitution, Parameter::PeakAngularSpeed],
+    ));
+    claims.push(sensitivity::most_sensitive(
+        data,
+        "section5.torque_sensitivity",
+        stall,
+        [Parameter::PhaseLag, Parameter::Restitution, Parameter::Friction],
+    ));
+    for motor in &data.perturbations {
+        let effects: Vec<_> =
+            motor.effects.iter().filter(|effect| effect.relaunch_perturbation >= 1e-5).collect();
+        let speeds: Vec<f64> =
+            effects.iter().map(|effect| effect.statistics.steady_speed_rad_per_s.mean).collect();
+        claims.push(Claim::statement(
+            ID,
+            "our ensemble",
+            format!(
+                "at ε = {} the steady speed does not depend on the relaunch perturbation from 1e-5 to 1e-1 g/ω (within 5 %)",
+                motor.restitution
+            ),
+            relative_range(&speeds) <= 0.05,
+            format!(
+                "steady speed (rad/s), stall acceleration (rad/s²) by perturbation: {}. Low-period cycles, where they are common, \
+                 survive small perturbations and not large ones",
+                perturbation_words(&motor.effects)
+            ),
+        ));
+    }
+    claims
+}

@@ -1,0 +1,359 @@
+//! A motor about Table III, and the statistics of its transients.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{
+    DiskParameters, Ensemble, ExponentialFit, MultiTossSettings, OrbitClass, PlatformParameters, RampFit,
+    Spread, Start, System, TransientSettings, ensemble, multi_toss,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::experiment::ExperimentError;
+use crate::paper::{SectionFive, TableThree};
+
+/// A fit whose constant exceeds this share of the duration, or whose residual exceeds this share of its steady
+/// speed, has no meaning: the speed does not settle, or it is not told apart from zero.
+const LARGEST_CONSTANT: f64 = 0.5;
+/// See [`LARGEST_CONSTANT`].
+const LARGEST_RESIDUAL: f64 = 0.25;
+
+/// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
+/// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
+const LOCKED_WITHIN: f64 = 0.05;
+/// See [`LOCKED_WITHIN`].
+const LOCKED_FLIGHTS: usize = 8;
+
+/// Impacts in which an unperturbed cycle is looked for.
+const EXAMINED_IMPACTS: usize = 2_048;
+
+/// The inputs of Sec. V A, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MotorCase {
+    pub(crate) friction: f64,
+    pub(crate) restitution: f64,
+    pub(crate) phase_lag_rad: f64,
+    pub(crate) amplitude_m: f64,
+    pub(crate) peak_angular_speed_rad_per_s: f64,
+    pub(crate) contact_radius_m: f64,
+    pub(crate) gyration_radius_m: f64,
+    pub(crate) preload_acceleration_m_per_s2: f64,
+    pub(crate) frequency_hz: f64,
+}
+
+impl MotorCase {
+    /// The default motor: Table III with its 70 read as ω/2π in kHz, and gravity as the preload.
+    pub(crate) fn default_of(table: &TableThree, section: &SectionFive) -> Self {
+        Self {
+            friction: table.friction,
+            restitution: table.restitution,
+            phase_lag_rad: table.phase_lag_rad,
+            amplitude_m: table.amplitude_m,
+            peak_angular_speed_rad_per_s: table.peak_angular_speed_rad_per_s,
+            contact_radius_m: 1e-3 * table.contact_radius_mm,
+            gyration_radius_m: 1e-3 * table.gyration_radius_mm,
+            preload_acceleration_m_per_s2: section.gravity_m_per_s2,
+            frequency_hz: section.default_frequency_hz,
+        }
+    }
+
+    pub(crate) fn system(&self) -> Result<System, ExperimentError> {
+        let angular_frequency = TAU * self.frequency_hz;
+        let platform = PlatformParameters {
+            amplitude: self.amplitude_m,
+            twist_amplitude: self.peak_angular_speed_rad_per_s / angular_frequency,
+            angular_frequency,
+            phase_lag: self.phase_lag_rad,
+        };
+        let disk = DiskParameters {
+            contact_radius: self.contact_radius_m,
+            gyration_radius: self.gyration_radius_m,
+            friction: self.friction,
+            restitution: self.restitution,
+            preload_acceleration: self.preload_acceleration_m_per_s2,
+            load_acceleration: 0.0,
+        };
+        let build = || System::new(platform.build()?, disk.build()?);
+        build().map_err(ExperimentError::model)
+    }
+
+    /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time. The normal impulse per time
+    /// is the weight, whatever the orbit; so nothing accelerates the rotor more.
+    pub(crate) fn largest_acceleration(&self) -> f64 {
+        let radius = self.gyration_radius_m;
+        self.friction * self.contact_radius_m * self.preload_acceleration_m_per_s2 / (radius * radius)
+    }
+
+    /// The time (s) in which that acceleration gives the stator's largest speed ωΦ.
+    pub(crate) fn rise_time_s(&self) -> f64 {
+        self.peak_angular_speed_rad_per_s / self.largest_acceleration()
+    }
+
+    /// The cycle of the motor that nothing perturbs.
+    pub(crate) fn cycle(&self, policy: ChatterPolicy) -> Result<Cycle, ExperimentError> {
+        let settings = MultiTossSettings {
+            policy,
+            transient_impacts: 0,
+            examined_impacts: EXAMINED_IMPACTS,
+            ..MultiTossSettings::default()
+        };
+        let start = Start::Contact {
+            phase: Phase::new(1.5 * std::f64::consts::PI).map_err(core_error)?,
+            angular_speed: 0.0,
+        };
+        let orbit = multi_toss(self.system()?, start, settings).map_err(ExperimentError::model)?;
+        Ok(match orbit.class {
+            OrbitClass::Chattering { impacts_per_cycle, platform_periods, long_flights } => {
+                Cycle::Chattering { impacts: impacts_per_cycle, platform_periods, long_flights }
+            }
+            OrbitClass::Periodic { period, platform_periods, .. } => {
+                Cycle::Periodic { impacts: period, platform_periods }
+            }
+            OrbitClass::AtRest => Cycle::AtRest,
+            _ => Cycle::Longer,
+        })
+    }
+
+    /// Transients of `members` motors over `rises` rise times, and their statistics.
+    pub(crate) fn statistics(
+        &self,
+        rises: f64,
+        members: usize,
+        relaunch_perturbation: f64,
+    ) -> Result<MotorStatistics, ExperimentError> {
+        let settings = TransientSettings {
+            duration: rises * self.rise_time_s(),
+            intervals: 240,
+            relaunch_perturbation,
+            ..TransientSettings::default()
+        };
+        let runs = ensemble(&self.system()?, &settings, members).map_err(ExperimentError::model)?;
+        let cycle = self.cycle(settings.policy)?;
+        MotorStatistics::of(&runs, cycle, self.frequency_hz, settings.duration)
+    }
+}
+
+/// An error of the core as one of this crate.
+pub(crate) fn core_error(error: bouncing_disk::core::Error) -> ExperimentError {
+    ExperimentError::model(bouncing_disk::Error::from(error))
+}
+
+/// What `multi_toss` says that the unperturbed motor repeats.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "class", rename_all = "snake_case")]
+pub(crate) enum Cycle {
+    /// From rest to rest.
+    Chattering { impacts: usize, platform_periods: u64, long_flights: usize },
+    /// Without rest.
+    Periodic { impacts: usize, platform_periods: u64 },
+    /// Nothing within the impacts examined.
+    Longer,
+    /// The rotor does not bounce.
+    AtRest,
+}
+
+impl Cycle {
+    /// Its duration in periods of the platform.
+    pub(crate) fn platform_periods(self) -> Option<u64> {
+        match self {
+            Self::Chattering { platform_periods, .. } | Self::Periodic { platform_periods, .. } => {
+                Some(platform_periods)
+            }
+            Self::Longer | Self::AtRest => None,
+        }
+    }
+
+    /// Its flights of more than half a period; of a periodic orbit its impacts.
+    pub(crate) fn flights(self) -> Option<usize> {
+        match self {
+            Self::Chattering { long_flights, .. } => Some(long_flights),
+            Self::Periodic { impacts, .. } => Some(impacts),
+            Self::Longer | Self::AtRest => None,
+        }
+    }
+
+    /// Whether every flight ends in a rest.
+    pub(crate) fn is_one_flight(self) -> bool {
+        matches!(self, Self::Chattering { long_flights: 1, .. })
+    }
+
+    /// In words.
+    pub(crate) fn words(self) -> String {
+        match self {
+            Self::Chattering { impacts, platform_periods, long_flights } => {
+                format!("{long_flights} long flights, {impacts} impacts, {platform_periods} periods")
+            }
+            Self::Periodic { impacts, platform_periods } => {
+                format!("{impacts} impacts in {platform_periods} periods without rest")
+            }
+            Self::Longer => format!("more than {} impacts", EXAMINED_IMPACTS / 2),
+            Self::AtRest => "no bouncing".to_owned(),
+        }
+    }
+}
+
+/// Which curve a stall acceleration was read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Form {
+    /// α̇_ss(1 − e^(−t/t_c)): stall acceleration α̇_ss/t_c.
+    Exponential,
+    /// α̇_ss min(t/t_r, 1): stall acceleration α̇_ss/t_r. Only for a low-period cycle that survives the perturbation.
+    Ramp,
+}
+
+/// Ensemble statistics of one motor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MotorStatistics {
+    /// From the fits; where less than half of the members can be fitted, the mean over the last half of each.
+    pub(crate) steady_speed_rad_per_s: Spread,
+    /// Over the members that can be fitted; `None` where less than half can.
+    pub(crate) stall_acceleration_rad_per_s2: Option<Spread>,
+    pub(crate) form: Form,
+    /// Members without a meaningful fit.
+    pub(crate) unfitted: usize,
+    /// The cycle without perturbation.
+    pub(crate) cycle: Cycle,
+    /// Whether the perturbed members repeat that cycle, too.
+    pub(crate) locked: bool,
+}
+
+impl MotorStatistics {
+    fn of(runs: &Ensemble, cycle: Cycle, frequency_hz: f64, duration: f64) -> Result<Self, ExperimentError> {
+        let ramps = runs
+            .curves
+            .iter()
+            .map(|curve| RampFit::new(&curve.times, &curve.speeds))
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(ExperimentError::model)?;
+        let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
+        let between = duration * frequency_hz * runs.curves.len() as f64 / separations.max(1) as f64;
+        let locked = matches!(cycle, Cycle::Chattering { .. })
+            && cycle.flights().is_some_and(|flights| flights <= LOCKED_FLIGHTS)
+            && cycle
+                .platform_periods()
+                .is_some_and(|periods| (between / periods as f64 - 1.0).abs() <= LOCKED_WITHIN);
+        let squares =
+            |residuals: &mut dyn Iterator<Item = f64>| residuals.map(|value| value * value).sum::<f64>();
+        let exponential = squares(&mut runs.fits.iter().map(|fit: &ExponentialFit| fit.residual));
+        let ramp = squares(&mut ramps.iter().map(|fit| fit.residual));
+        let form = if locked && ramp < exponential { Form::Ramp } else { Form::Exponential };
+        let fits: Vec<(f64, f64, f64)> = match form {
+            Form::Exponential => {
+                runs.fits.iter().map(|fit| (fit.steady_speed, fit.time_constant, fit.residual)).collect()
+            }
+            Form::Ramp => ramps.iter().map(|fit| (fit.steady_speed, fit.rise_time, fit.residual)).collect(),
+        };
+        let fitted: Vec<_> = fits
+            .iter()
+            .filter(|(steady, constant, residual)| {
+                *constant < LARGEST_CONSTANT * duration && *residual < LARGEST_RESIDUAL * steady.abs()
+            })
+            .collect();
+        let enough = 2 * fitted.len() >= fits.len();
+        let steady: Vec<f64> = if enough {
+            fitted.iter().map(|fit| fit.0).collect()
+        } else {
+            runs.curves.iter().map(|curve| curve.mean_over_last(0.5)).collect()
+        };
+        let stall: Vec<f64> = fitted.iter().map(|fit| fit.0 / fit.1).collect();
+        Ok(Self {
+            steady_speed_rad_per_s: Spread::of(&steady),
+            stall_acceleration_rad_per_s2: enough.then(|| Spread::of(&stall)),
+            form,
+            unfitted: fits.len() - fitted.len(),
+            cycle,
+            locked,
+        })
+    }
+}
+
+impl MotorStatistics {
+    /// Whether a low-period cycle governs the motor: one that the perturbation does not break, or one of a single
+    /// flight, which it breaks only now and then.
+    pub(crate) fn is_low_period(&self) -> bool {
+        self.locked || self.cycle.is_one_flight()
+    }
+}
+
+/// Steady speed and stall acceleration for one size of the relaunch perturbation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PerturbationEffect {
+    /// In units of g/ω.
+    pub(crate) relaunch_perturbation: f64,
+    pub(crate) statistics: MotorStatistics,
+}
+
+/// The statistics of `case` for several sizes of the relaunch perturbation.
+pub(crate) fn perturbation_table(
+    case: &MotorCase,
+    sizes: &[f64],
+    rises: f64,
+    members: usize,
+) -> Result<Vec<PerturbationEffect>, ExperimentError> {
+    let effect = |&relaunch_perturbation: &f64| {
+        let statistics = case.statistics(rises, members, relaunch_perturbation)?;
+        Ok(PerturbationEffect { relaunch_perturbation, statistics })
+    };
+    sizes.iter().map(effect).collect()
+}
+
+/// The table in one line: speeds and stall accelerations with their standard errors.
+pub(crate) fn perturbation_words(table: &[PerturbationEffect]) -> String {
+    let words = table.iter().map(|effect| {
+        let speed = effect.statistics.steady_speed_rad_per_s;
+        let stall = effect.statistics.stall_acceleration_rad_per_s2.map_or_else(
+            || "no fit".to_owned(),
+            |stall| format!("{:.1} ± {:.1}", stall.mean, stall.standard_error),
+        );
+        format!(
+            "{:e}: {:.2} ± {:.2}, {stall}",
+            effect.relaunch_perturbation, speed.mean, speed.standard_error
+        )
+    });
+    words.collect::<Vec<_>>().join("; ")
+}
+
+/// Largest minus smallest over the mean of all values.
+pub(crate) fn relative_range(values: &[f64]) -> f64 {
+    let (low, high) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    (high - low) / mean.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::paper;
+
+    fn motor() -> MotorCase {
+        let (table, section) = (paper::table_three().expect("reads"), paper::section_five().expect("reads"));
+        MotorCase::default_of(&table, &section)
+    }
+
+    #[test]
+    fn a_gentle_stator_never_throws_the_rotor() {
+        let case = MotorCase { amplitude_m: 4e-11, ..motor() };
+        assert!(case.system().expect("legal").axial_forcing() < std::f64::consts::FRAC_1_PI);
+        assert_eq!(case.cycle(ChatterPolicy::Complete).expect("no failure"), Cycle::AtRest);
+    }
+
+    #[test]
+    fn a_plastic_rotor_repeats_a_ramp_and_is_fitted_by_one() {
+        let case = MotorCase { restitution: 0.0, ..motor() };
+        let statistics = case.statistics(6.0, 2, 1e-3).expect("no failure");
+        assert!(statistics.locked && statistics.form == Form::Ramp, "{statistics:?}");
+        let stall = statistics.stall_acceleration_rad_per_s2.expect("fitted").mean;
+        assert!((stall / case.largest_acceleration() - 1.0).abs() < 0.02, "{stall}");
+    }
+
+    #[test]
+    fn a_quarter_of_a_turn_leaves_nothing_to_fit() {
+        let case = MotorCase { phase_lag_rad: std::f64::consts::FRAC_PI_2, ..motor() };
+        let statistics = case.statistics(6.0, 4, 1e-3).expect("no failure");
+        assert!(statistics.steady_speed_rad_per_s.mean.abs() < 0.4 * case.peak_angular_speed_rad_per_s);
+        assert_eq!(statistics.stall_acceleration_rad_per_s2.is_none(), statistics.unfitted > 2);
+    }
+}
