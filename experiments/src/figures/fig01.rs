@@ -74,8 +74,8 @@ impl Experiment for Fig01 {
             "The displacement variables of the bouncing-disk system and of pizza tossing, drawn in perspective and to \
              scale from a computed toss. (a) The disk (x, α) above the oscillating platform (s, β) at the phase τ = {:.3} \
              rad, {:.0} % of its flight after the separation: x = {:.3} m, s = {:.3} m, α = {:.2} rad, β = {:.2} rad. \
-             Heights are measured from the platform's mean height, angles from the line on which marks on disk and \
-             platform lie when β = 0. (b) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
+             Heights are measured from the platform's mean height, angles from the line on which the \
+             platform's mark lies when β = 0; the disk's mark lay over it at the start. (b) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
              closed curve on the surface of a cylinder, with the amplitudes A and a_e Φ; the dot is the point at the \
              instant of (a), the arrows show the sense of the motion, what lies behind the cylinder is dotted. \
              Parameters of Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses no area; the \
