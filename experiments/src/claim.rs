@@ -125,7 +125,7 @@ impl Claim {
             let printed = entry.printed.as_deref().unwrap_or_default();
             Self::number(id, &entry.place, quantity, &entry.unit, printed, computed)
         })
-        .as_reading()
+        .into_reading()
     }
 
     /// Like [`reading`](Self::reading) for the uncertainty of the entry, the number behind the ±.
@@ -135,7 +135,7 @@ impl Claim {
             let printed = printed.map_or("", |(_, uncertainty)| uncertainty.trim());
             Self::number(id, &entry.place, quantity, &entry.unit, printed, computed)
         })
-        .as_reading()
+        .into_reading()
     }
 
     fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
@@ -151,7 +151,7 @@ impl Claim {
         Self { source: Source::Entry(key.to_owned()), ..claim }
     }
 
-    fn as_reading(self) -> Self {
+    fn into_reading(self) -> Self {
         match self.source {
             Source::Entry(key) => Self { source: Source::Reading(key), ..self },
             _ => self,

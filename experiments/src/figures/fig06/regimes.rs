@@ -203,7 +203,11 @@ fn merged(data: &Fig06Data) -> Vec<Claim> {
     let coexisting = data
         .followed
         .iter()
-        .filter(|followed| data.chattering.iter().any(|slice| slice.axial_forcing == followed.axial_forcing))
+        .filter(|followed| {
+            // Both come from the same list of forcings.
+            let same = |forcing: f64| forcing.to_bits() == followed.axial_forcing.to_bits();
+            data.chattering.iter().any(|slice| same(slice.axial_forcing))
+        })
         .count();
     vec![
         Claim::printed_statement(
