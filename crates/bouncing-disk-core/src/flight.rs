@@ -245,11 +245,11 @@ impl Vibration {
         let (sin, cos) = sin_cos_bounded(falling.angle);
         // Slopes at both ends; between them the gap lies above both tangents, so above where these meet.
         let (first, last) = (falling.speed - p * cos, (falling.speed - end) + self.separation_speed);
-        let gap = p - p * sin;
-        let meet = (gap - falling.gap_over(self.separation_depth, end) + last * end) / (last - first);
+        let gap_at_end = falling.gap_over(self.separation_depth, end);
+        let lowest = CrestForm::lowest_of_tangents(p - p * sin, gap_at_end, first, last, end);
         if first < 0.0
             && last > 0.0
-            && gap + first * meet <= self.doubtful_gap
+            && lowest <= self.doubtful_gap
             && let Some(hi) = falling.dip(0.0, end, evaluations)
         {
             return Bracket { lo: 0.0, hi };

@@ -236,6 +236,13 @@ impl CrestForm {
         (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
     }
 
+    /// Where the tangents at both ends of a convex piece of length `end` meet: the gap lies above it.
+    #[inline(always)]
+    pub(crate) fn lowest_of_tangents(gap: f64, gap_at_end: f64, first: f64, last: f64, end: f64) -> f64 {
+        let meet = (gap - gap_at_end + last * end) / (last - first);
+        gap + first * meet
+    }
+
     /// Gap and derivatives at `t`, where the phase has this pair.
     #[inline(always)]
     pub(crate) fn jet_of_pair(&self, t: f64, sin: f64, cos: f64) -> Jet {

@@ -115,7 +115,7 @@ fn fall_to_crest_height(platforms: &Platforms, launches: &Launches, work: &mut W
     }
 }
 
-/// The window of the root, as `impact_from_above` and `bracket_behind_crest` find it, except where a dip is possible.
+/// The window of the root, as `impact_from_above` and `bracket_behind_crest` find it, except where a dip must be searched.
 #[inline(always)]
 fn window(platforms: &Platforms, work: &mut Work) {
     let mut any = 0;
@@ -139,12 +139,17 @@ fn window(platforms: &Platforms, work: &mut Work) {
         let behind = mask(turned > CREST) & mask(turned < retention) & mask(fall < peak);
         let end = retention - turned;
         let falling = CrestForm { peak, angle: turned, speed: -fall, depth: 0.0 };
-        let passed = mask(falling.gap_over(platforms.separation_depth[lane], end) <= 0.0);
-        let falls_faster = mask((-fall - end) + platforms.separation_speed[lane] <= 0.0);
+        let gap_at_end = falling.gap_over(platforms.separation_depth[lane], end);
+        let passed = mask(gap_at_end <= 0.0);
+        let (sin, cos) = sin_cos_of_lane(turned);
+        let first = -fall - peak * cos;
+        let last = (-fall - end) + platforms.separation_speed[lane];
+        let lowest = CrestForm::lowest_of_tangents(peak - peak * sin, gap_at_end, first, last, end);
+        let dips = mask(first < 0.0) & mask(last > 0.0) & mask(lowest <= platforms.doubtful_gap[lane]);
         work.lo[lane] = kept(behind & !passed, end);
         work.time[lane] = work.lo[lane];
         work.hi[lane] = if behind & passed != 0 { end } else { work.hi[lane] };
-        work.regular[lane] &= !behind | passed | falls_faster;
+        work.regular[lane] &= !behind | passed | !dips;
     }
 }
 
@@ -182,16 +187,17 @@ fn advance(platforms: &Platforms, work: &mut Work) {
         let lo = if above { t } else { work.lo[lane] };
         let hi = if above { work.hi[lane] } else { t };
         let next = t + work.step[lane];
-        let inside = mask(jet.slope < 0.0) & mask(next > lo) & mask(next < hi);
+        let falls = mask(jet.slope < 0.0);
+        let inside = falls & mask(next > lo) & mask(next < hi);
+        let next = if inside != 0 { next } else { 0.5 * (lo + hi) };
         work.time[lane] = if near != 0 { t } else { next };
         work.lo[lane] = lo;
         work.hi[lane] = hi;
-        // Newton's step and bisection are left to the solver of one flight.
-        work.regular[lane] &= near | inside;
+        // Newton's step is left to the solver of one flight.
+        work.regular[lane] &= near | !falls | mask(work.root[lane] > 0.0);
     }
 }
 
-/// The Newton step; whether all lanes that land from above are near their roots.
 #[inline(always)]
 fn newton_step(platforms: &Platforms, work: &mut Work) -> bool {
     let mut all = u64::MAX;

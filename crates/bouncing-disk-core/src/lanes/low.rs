@@ -116,10 +116,12 @@ fn window(low: &mut Low, lanes: usize) {
         low.clears[k] = certain & !concave & mask(at_crest > doubt);
         low.near[k] = 0;
     }
+    if low.clears[..lanes].iter().all(|&clears| clears == 0) {
+        return;
+    }
     // Above the crest, without a dip before it where the gap does not first fall and then rise.
     for k in 0..lanes {
-        let slope = form(low, k).slope_of_lane(low.lo[k]);
-        low.step[k] = slope;
+        low.step[k] = form(low, k).slope_of_lane(low.lo[k]);
     }
     for k in 0..lanes {
         let slope = form(low, k).slope_of_lane(low.hi[k]);
