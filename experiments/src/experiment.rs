@@ -133,6 +133,10 @@ pub trait Experiment: Sync + Send + 'static {
     /// A short title for the gallery and for lists.
     const TITLE: &'static str;
 
+    /// What the figure shows, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number
+    /// of the claim that answers this entry of the [ledger](crate::ledger).
+    const READING: &'static str;
+
     /// The caption, plain text with Unicode Greek.
     fn caption(data: &Self::Data) -> String;
 
@@ -209,6 +213,9 @@ pub trait Outcome: Send + Sync {
     /// See [`Experiment::caption`].
     fn caption(&self) -> String;
 
+    /// See [`Experiment::READING`].
+    fn reading(&self) -> &'static str;
+
     /// See [`Experiment::parameters`].
     fn parameters(&self) -> Vec<(String, String)>;
 
@@ -260,6 +267,10 @@ impl<E: Experiment> Outcome for Typed<E> {
 
     fn caption(&self) -> String {
         E::caption(&self.0)
+    }
+
+    fn reading(&self) -> &'static str {
+        E::READING
     }
 
     fn parameters(&self) -> Vec<(String, String)> {

@@ -8,7 +8,8 @@
 //! * `claims` compares every number the paper prints with the computed one ([`Claim`]); what is printed stands in the
 //!   [`ledger`] alone.
 //!
-//! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery.
+//! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery, [`results`] the
+//! committed page.
 
 pub mod claim;
 pub mod draw;
@@ -24,6 +25,7 @@ pub mod printed;
 pub mod product;
 pub mod progress;
 pub mod registry;
+pub mod results;
 pub mod stamp;
 pub mod summary;
 pub mod table;

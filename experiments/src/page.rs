@@ -130,19 +130,7 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
          <th>Printed</th><th>Computed</th><th>Tolerance</th><th>Verdict</th><th>Note</th></tr></thead>\n<tbody>\n",
     );
     for claim in claims {
-        let computed = match claim.computed() {
-            Computed::Number(number) => with_unit(&like(claim.printed_text(), *number, 6), claim.unit()),
-            Computed::Boolean(true) => "holds".to_owned(),
-            Computed::Boolean(false) => "does not hold".to_owned(),
-            Computed::Text(text) => text.clone(),
-            Computed::Nothing => "—".to_owned(),
-        };
-        let printed = match claim.computed() {
-            Computed::Boolean(_) => "stated".to_owned(),
-            _ => with_unit(claim.printed_text(), claim.unit()),
-        };
-        let tolerance =
-            claim.tolerance().map_or("—".to_owned(), |tolerance| like(claim.printed_text(), tolerance, 2));
+        let ClaimTexts { computed, printed, tolerance } = ClaimTexts::new(claim);
         let verdict = claim.verdict().name();
         let cells = [
             ("Place", "", claim.place()),
@@ -168,8 +156,34 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
     page.push_str("</tbody>\n</table>\n");
 }
 
+/// The numbers of a claim as one reads them.
+pub(crate) struct ClaimTexts {
+    pub(crate) computed: String,
+    pub(crate) printed: String,
+    pub(crate) tolerance: String,
+}
+
+impl ClaimTexts {
+    pub(crate) fn new(claim: &Claim) -> Self {
+        let computed = match claim.computed() {
+            Computed::Number(number) => with_unit(&like(claim.printed_text(), *number, 6), claim.unit()),
+            Computed::Boolean(true) => "holds".to_owned(),
+            Computed::Boolean(false) => "does not hold".to_owned(),
+            Computed::Text(text) => text.clone(),
+            Computed::Nothing => "—".to_owned(),
+        };
+        let printed = match claim.computed() {
+            Computed::Boolean(_) => "stated".to_owned(),
+            _ => with_unit(claim.printed_text(), claim.unit()),
+        };
+        let tolerance =
+            claim.tolerance().map_or("—".to_owned(), |tolerance| like(claim.printed_text(), tolerance, 2));
+        Self { computed, printed, tolerance }
+    }
+}
+
 /// "Fig. 6" for `fig06`, "Table II" for `table2`, the identifier for anything else.
-fn name(id: &str) -> String {
+pub(crate) fn name(id: &str) -> String {
     let number = |digits: &str| digits.parse::<u32>().ok();
     if let Some(figure) = id.strip_prefix("fig").and_then(number) {
         return format!("Fig. {figure}");
@@ -192,7 +206,7 @@ fn with_unit(number: &str, unit: &str) -> String {
 }
 
 /// A number with so many significant digits, as a multiple of π where the printed one is.
-fn like(printed: &str, number: f64, digits: usize) -> String {
+pub(crate) fn like(printed: &str, number: f64, digits: usize) -> String {
     if printed.contains('π') {
         format!("{}π", significant(number / std::f64::consts::PI, digits))
     } else {

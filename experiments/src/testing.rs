@@ -22,6 +22,7 @@ impl Experiment for Demo {
     type Data = DemoData;
     const ID: &'static str = "demo";
     const TITLE: &'static str = "A demonstration";
+    const READING: &'static str = "It shows that | is escaped.";
 
     fn caption(data: &DemoData) -> String {
         format!("{} phases of impact τ_imp & Γ < 1.", data.impact_phase_rad.len())
@@ -77,6 +78,7 @@ impl Experiment for Broken {
     type Data = BrokenData;
     const ID: &'static str = "broken";
     const TITLE: &'static str = "An experiment that fails";
+    const READING: &'static str = "";
 
     fn caption(_: &BrokenData) -> String {
         String::new()

@@ -9,6 +9,7 @@ use bouncing_disk_experiments::Quality;
 use bouncing_disk_experiments::experiment::Entry;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
+use bouncing_disk_experiments::results;
 use bouncing_disk_experiments::summary::Summary;
 use clap::Args;
 
@@ -17,6 +18,12 @@ use crate::work::{self, Finished};
 
 /// The folder of the figures, relative to the root of the workspace.
 const DEFAULT_FOLDER: &str = "target/figures";
+/// The documentation, relative to the root of the workspace.
+const DOCS_FOLDER: &str = "docs";
+/// Where `--docs` makes the drafts whose digests it stores, in the output folder.
+const DRAFTS_FOLDER: &str = "draft";
+/// What repairs the documentation.
+const DOCS_COMMAND: &str = "cargo xtask figures --docs";
 /// The exit status for a wrong command line, the same as that of the argument parser.
 const USAGE: u8 = 2;
 
@@ -35,9 +42,12 @@ pub(crate) struct Options {
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
-    /// Write nothing; fail when an output is missing or out of date
+    /// Write nothing; fail when an output, docs/results.md or a picture in docs/figures is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
+    /// Make everything and write docs/results.md and docs/figures from it
+    #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
+    docs: bool,
     /// Make figures again even when they are up to date
     #[arg(long)]
     force: bool,
@@ -48,11 +58,7 @@ pub(crate) struct Options {
 
 impl Options {
     fn folder(&self) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| {
-            // The package of this program lies in the root.
-            let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-            package.parent().unwrap_or(package).join(DEFAULT_FOLDER)
-        })
+        self.out.clone().unwrap_or_else(|| in_workspace(DEFAULT_FOLDER))
     }
 
     /// The command that makes the given figures with the same options.
@@ -75,6 +81,12 @@ impl Options {
     }
 }
 
+/// A path relative to the root of the workspace, where the package of this program lies.
+fn in_workspace(path: &str) -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package).join(path)
+}
+
 /// Does what the options ask for.
 pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let entries = registry::all();
@@ -91,7 +103,44 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     if options.check {
         return check(options, &entries, &selected);
     }
-    make(options, &entries, &selected)
+    start_threads(options)?;
+    let folder = OutputFolder::create(options.folder())?;
+    if options.docs {
+        return write_docs(options, &entries, &selected, &folder);
+    }
+    make(options, options.quality, &entries, &selected, &folder)
+}
+
+/// Makes everything in both qualities and the documentation from it.
+fn write_docs(
+    options: &Options,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    folder: &OutputFolder,
+) -> anyhow::Result<ExitCode> {
+    let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
+    for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
+        let code = make(options, quality, entries, selected, folder)?;
+        if code != ExitCode::SUCCESS {
+            println!("the documentation is left as it was");
+            return Ok(code);
+        }
+    }
+    let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
+    results::write(entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
+    println!("{} is up to date", docs.path().join(results::RESULTS_FILE).display());
+    Ok(ExitCode::SUCCESS)
+}
+
+fn start_threads(options: &Options) -> anyhow::Result<()> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads(options))
+        .build_global()
+        .context("cannot start the computing threads")
+}
+
+fn threads(options: &Options) -> usize {
+    options.threads.map_or_else(available_threads, NonZeroUsize::get)
 }
 
 fn list(options: &Options, selected: &[&dyn Entry]) -> ExitCode {
@@ -120,8 +169,19 @@ fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry])
     for name in &common {
         println!("{name}: missing or out of date");
     }
+    let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
+    let committed = results::outdated(selected, options.quality, &folder, &docs)?;
+    for name in &committed {
+        println!("{DOCS_FOLDER}/{name}: missing or out of date");
+    }
+    if !committed.is_empty() {
+        println!("to repair: {DOCS_COMMAND}");
+    }
     if outdated.is_empty() && common.is_empty() {
-        println!("all outputs in {} are up to date", folder.path().display());
+        if !committed.is_empty() {
+            return Ok(ExitCode::FAILURE);
+        }
+        println!("all outputs in {} and the documentation are up to date", folder.path().display());
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
@@ -134,30 +194,30 @@ fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry])
     Ok(ExitCode::FAILURE)
 }
 
-fn make(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry]) -> anyhow::Result<ExitCode> {
-    let folder = OutputFolder::create(options.folder())?;
-    let threads = options.threads.map_or_else(available_threads, NonZeroUsize::get);
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build_global()
-        .context("cannot start the computing threads")?;
+fn make(
+    options: &Options,
+    quality: Quality,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    folder: &OutputFolder,
+) -> anyhow::Result<ExitCode> {
     let (current, due): (Vec<_>, Vec<_>) = selected
         .iter()
         .copied()
-        .partition(|entry| !options.force && folder.check(entry.id(), options.quality).is_ok());
+        .partition(|entry| !options.force && folder.check(entry.id(), quality).is_ok());
     for entry in &current {
         println!("{:<8} up to date", entry.id());
     }
     let report = Report::new();
-    let finished = work::make_all(&due, options.quality, &folder, threads, &report);
+    let finished = work::make_all(&due, quality, folder, threads(options), &report);
     report.close();
-    let summary = Summary::of(entries, &folder)?;
-    summary.write(&folder)?;
+    let summary = Summary::of(entries, folder)?;
+    summary.write(folder)?;
     for (id, reason) in &summary.left_out {
         println!("{id}: not in the gallery and in claims.json: {reason}");
         println!("    make it again: {}", options.command(&[id]));
     }
-    Ok(conclude(options, &finished, &folder))
+    Ok(conclude(options, &finished, folder))
 }
 
 /// Prints the times and the failures.
@@ -199,6 +259,7 @@ mod tests {
             out: out.map(PathBuf::from),
             list: false,
             check: false,
+            docs: false,
             force: false,
             threads: None,
         }

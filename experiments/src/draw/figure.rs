@@ -98,6 +98,15 @@ impl Figure {
     ///
     /// As [`Figure::to_svg`], and when rendering fails.
     pub fn to_png(&self) -> Result<Vec<u8>, DrawError> {
-        picture::png(&self.to_svg()?)
+        picture::png(&self.to_svg()?, f32::MAX)
+    }
+
+    /// As [`Figure::to_png`], made smaller where it would be wider than so many pixels.
+    ///
+    /// # Errors
+    ///
+    /// As [`Figure::to_png`].
+    pub fn to_png_within(&self, pixels: u16) -> Result<Vec<u8>, DrawError> {
+        picture::png(&self.to_svg()?, f32::from(pixels))
     }
 }

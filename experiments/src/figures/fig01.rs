@@ -68,6 +68,7 @@ impl Experiment for Fig01 {
     const ID: &'static str = "fig01";
 
     const TITLE: &'static str = "The displacement variables of the bouncing disk";
+    const READING: &str = include_str!("fig01/reading.md");
 
     fn caption(data: &Fig01Data) -> String {
         format!(

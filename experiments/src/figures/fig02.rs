@@ -95,6 +95,7 @@ impl Experiment for Fig02 {
     const ID: &'static str = "fig02";
 
     const TITLE: &'static str = "Trajectories of tossing hands and stators";
+    const READING: &str = include_str!("fig02/reading.md");
 
     fn caption(data: &Fig02Data) -> String {
         format!(

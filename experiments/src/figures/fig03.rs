@@ -34,6 +34,7 @@ impl Experiment for Fig03 {
     const ID: &'static str = "fig03";
 
     const TITLE: &'static str = "Flow chart of the simulation";
+    const READING: &str = include_str!("fig03/reading.md");
 
     fn caption(data: &Fig03Data) -> String {
         let (census, cycle) = (&data.census, &data.cycle);

@@ -35,6 +35,7 @@ impl Experiment for Fig04 {
     type Data = Fig04Data;
     const ID: &'static str = "fig04";
     const TITLE: &'static str = "The performance of single tosses";
+    const READING: &str = include_str!("fig04/reading.md");
 
     fn caption(data: &Fig04Data) -> String {
         statements::caption(data)

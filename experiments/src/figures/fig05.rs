@@ -27,6 +27,7 @@ impl Experiment for Fig05 {
     const ID: &'static str = "fig05";
 
     const TITLE: &'static str = "Hand motions and the resulting dough trajectories";
+    const READING: &str = include_str!("fig05/reading.md");
 
     fn caption(data: &Fig05Data) -> String {
         statements::caption(data)

@@ -22,6 +22,7 @@ impl Experiment for Fig06 {
     type Data = Fig06Data;
     const ID: &'static str = "fig06";
     const TITLE: &'static str = "Bifurcation diagrams";
+    const READING: &str = include_str!("fig06/reading.md");
 
     fn caption(data: &Fig06Data) -> String {
         statements::caption(data)

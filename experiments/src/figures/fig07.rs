@@ -26,6 +26,7 @@ impl Experiment for Fig07 {
     type Data = Fig07Data;
     const ID: &'static str = "fig07";
     const TITLE: &'static str = "Basins of attraction";
+    const READING: &str = include_str!("fig07/reading.md");
 
     fn caption(data: &Fig07Data) -> String {
         statements::caption(data)

@@ -49,6 +49,7 @@ impl Experiment for Fig08 {
     const ID: &'static str = "fig08";
 
     const TITLE: &'static str = "Geometric details of the ultrasonic motor";
+    const READING: &str = include_str!("fig08/reading.md");
 
     fn caption(data: &Fig08Data) -> String {
         format!(

@@ -236,6 +236,7 @@ impl Experiment for Fig10 {
     const ID: &'static str = "fig10";
 
     const TITLE: &'static str = "Transient speed curves of the ultrasonic motor";
+    const READING: &str = include_str!("fig10/reading.md");
 
     fn caption(data: &Fig10Data) -> String {
         format!(
@@ -403,7 +404,7 @@ fn drawn(area: Rect, letter: &str, reading: &Reading, panel: &Transient) -> Pane
         .map(|(&time, (&low, &high))| (time, low, high));
     let member =
         panel.member_time_s.iter().zip(&panel.member_speed_rad_per_s).map(|(&time, &speed)| (time, speed));
-    let note = |y: f64, text: String| Text::at_axes(0.96, y, text).anchor(Anchor::Right);
+    let note = |y: f64, text: String| Text::at_axes(0.94, y, text).anchor(Anchor::Right);
     let ensemble = |spread: &Spread, digits: usize| {
         format!("{:.digits$} \\pm {:.digits$}", spread.mean, spread.deviation)
     };

@@ -20,6 +20,7 @@ impl Experiment for Fig11 {
     type Data = Fig11Data;
     const ID: &'static str = "fig11";
     const TITLE: &'static str = "Effect of preload on steady-state speed and stall torque";
+    const READING: &str = include_str!("fig11/reading.md");
 
     fn caption(data: &Fig11Data) -> String {
         statements::caption(data)

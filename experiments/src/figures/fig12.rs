@@ -19,6 +19,7 @@ impl Experiment for Fig12 {
     type Data = Fig12Data;
     const ID: &'static str = "fig12";
     const TITLE: &'static str = "Speed transients of long-period and low-period chattering";
+    const READING: &str = include_str!("fig12/reading.md");
 
     fn caption(data: &Fig12Data) -> String {
         statements::caption(data)

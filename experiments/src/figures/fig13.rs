@@ -23,6 +23,7 @@ impl Experiment for Fig13 {
     type Data = Fig13Data;
     const ID: &'static str = "fig13";
     const TITLE: &'static str = "Effect of the estimated parameters on steady-state speed and stall torque";
+    const READING: &str = include_str!("fig13/reading.md");
 
     fn caption(data: &Fig13Data) -> String {
         statements::caption(data)

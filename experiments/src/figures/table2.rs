@@ -251,6 +251,7 @@ impl Experiment for Table2 {
     type Data = Table2Data;
     const ID: &'static str = "table2";
     const TITLE: &'static str = "Effects of input parameter uncertainties";
+    const READING: &str = include_str!("table2/reading.md");
 
     fn caption(data: &Table2Data) -> String {
         format!(

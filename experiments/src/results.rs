@@ -1,0 +1,357 @@
+//! `docs/results.md`: figure by figure the picture, what it shows, the parameters, and printed against computed.
+//!
+//! The page and its pictures are committed, made in paper quality. Whether they are out of date must be known without
+//! the minutes that takes: [`Digests`], written with them, holds for each figure a digest of what it was made from in
+//! *both* qualities, data, drawing and text. Any change of a number, a line or a word changes the digest of the draft, too.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+
+use crate::claim::{Claim, Computed, Source, Verdict};
+use crate::experiment::{Entry, ExperimentError, Outcome, Quality, chain};
+use crate::output::{OutputError, OutputFolder};
+use crate::page::{ClaimTexts, like, name};
+use crate::product;
+
+/// The page, in the folder of the documentation.
+pub const RESULTS_FILE: &str = "results.md";
+/// The folder of its pictures, beside it.
+pub const PICTURES_FOLDER: &str = "figures";
+/// The digests, in the folder of the pictures.
+pub const DIGESTS_FILE: &str = "digests.json";
+/// The largest width of a picture in pixels: keeps each below 300 kB.
+const PICTURE_WIDTH: u16 = 1400;
+
+/// Why the page could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResultsError {
+    /// A figure that the page needs is not there or cannot be drawn.
+    #[error("{id}")]
+    Figure {
+        /// The figure.
+        id: String,
+        /// What went wrong.
+        source: ExperimentError,
+    },
+    /// There are no files of a figure in the output folder.
+    #[error("{id} has not been made")]
+    Missing {
+        /// The figure.
+        id: String,
+    },
+    /// A reading names an entry of the ledger that no claim of the figure answers by a number.
+    #[error("the reading of {id} names {key}, which no claim of it answers by a number")]
+    Reading {
+        /// The figure.
+        id: String,
+        /// The entry.
+        key: String,
+    },
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The digests cannot be written as JSON.
+    #[error("cannot write the digests")]
+    Digests(#[source] serde_json::Error),
+}
+
+/// What the committed page and pictures were made from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Digests {
+    /// Digest of the page.
+    pub results: String,
+    /// By identifier of the figure.
+    pub figures: BTreeMap<String, FigureDigests>,
+}
+
+/// What the section and the picture of one figure were made from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FigureDigests {
+    /// Digest of data, drawing and section in draft quality.
+    pub draft: String,
+    /// The same in paper quality, of which the picture is.
+    pub paper: String,
+    /// Digest of the picture's file.
+    pub picture: String,
+}
+
+/// A digest that does not depend on machine or compiler (FNV-1a, 64 bits).
+pub fn digest(bytes: &[u8]) -> String {
+    let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    format!("{:016x}", bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix))
+}
+
+/// A figure as it lies in an output folder.
+struct Made {
+    outcome: Box<dyn Outcome>,
+    digest: String,
+    section: String,
+}
+
+fn made(entry: &dyn Entry, folder: &OutputFolder) -> Result<Made, ResultsError> {
+    let id = entry.id();
+    let missing = || ResultsError::Missing { id: id.to_owned() };
+    let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
+    let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
+    let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
+    let (outcome, _) = product::read(entry, &data).map_err(failed)?;
+    let section = section(entry, &*outcome)?;
+    let mut all = data;
+    all.extend(drawing);
+    all.extend(section.as_bytes());
+    Ok(Made { outcome, digest: digest(&all), section })
+}
+
+/// Writes the page, its pictures and their digests into `docs` from the figures in both output folders.
+///
+/// # Errors
+///
+/// When a figure is missing in one of them or cannot be drawn, or the system refuses.
+pub fn write(
+    entries: &[Box<dyn Entry>],
+    paper: &OutputFolder,
+    draft: &OutputFolder,
+    docs: &OutputFolder,
+) -> Result<(), ResultsError> {
+    let pictures = OutputFolder::create(docs.path().join(PICTURES_FOLDER))?;
+    let mut digests = Digests::default();
+    let (mut sections, mut claims) = (String::new(), Vec::new());
+    for entry in entries {
+        let id = entry.id();
+        let failed = |source: ExperimentError| ResultsError::Figure { id: id.to_owned(), source };
+        let made_in_draft = made(&**entry, draft)?;
+        let made = made(&**entry, paper)?;
+        let figure = made.outcome.draw().map_err(failed)?;
+        let picture = figure.to_png_within(PICTURE_WIDTH).map_err(|error| failed(error.into()))?;
+        let figure =
+            FigureDigests { draft: made_in_draft.digest, paper: made.digest, picture: digest(&picture) };
+        pictures.write(&picture_name(id), &picture)?;
+        digests.figures.insert(id.to_owned(), figure);
+        sections.push_str(&made.section);
+        claims.push((id, made.outcome.claims()));
+    }
+    let page = format!("{}{sections}", head(&claims));
+    digests.results = digest(page.as_bytes());
+    docs.write(RESULTS_FILE, page.as_bytes())?;
+    let text = serde_json::to_vec_pretty(&digests).map_err(ResultsError::Digests)?;
+    Ok(pictures.write(DIGESTS_FILE, &[text.as_slice(), b"\n"].concat())?)
+}
+
+/// Names of committed files that are missing, were edited, or were made from other figures than those of `quality`
+/// in `folder`. Of figures that have not been made there, the picture's file alone is checked.
+///
+/// # Errors
+///
+/// When a file exists and cannot be read.
+pub fn outdated(
+    entries: &[&dyn Entry],
+    quality: Quality,
+    folder: &OutputFolder,
+    docs: &OutputFolder,
+) -> Result<Vec<String>, ResultsError> {
+    let pictures = OutputFolder::existing(docs.path().join(PICTURES_FOLDER));
+    let stored = pictures.read(DIGESTS_FILE)?;
+    let digests: Digests =
+        stored.as_deref().and_then(|bytes| serde_json::from_slice(bytes).ok()).unwrap_or_default();
+    let mut outdated = Vec::new();
+    let page = docs.read(RESULTS_FILE)?;
+    if page.is_none_or(|page| digest(&page) != digests.results) {
+        outdated.push(RESULTS_FILE.to_owned());
+    }
+    for entry in entries {
+        let id = entry.id();
+        let known = digests.figures.get(id).cloned().unwrap_or_default();
+        let expected = match quality {
+            Quality::Draft => &known.draft,
+            Quality::Paper => &known.paper,
+        };
+        let picture = pictures.read(&picture_name(id))?;
+        let current = match made(*entry, folder) {
+            Ok(made) => made.digest == *expected,
+            Err(ResultsError::Missing { .. }) => true,
+            Err(ResultsError::Output(error)) => return Err(error.into()),
+            Err(_) => false,
+        };
+        if !current || picture.is_none_or(|picture| digest(&picture) != known.picture) {
+            outdated.push(format!("{PICTURES_FOLDER}/{}", picture_name(id)));
+        }
+    }
+    Ok(outdated)
+}
+
+fn picture_name(id: &str) -> String {
+    format!("{id}.png")
+}
+
+/// Title, explanation and the table of verdicts.
+fn head(claims: &[(&str, Vec<Claim>)]) -> String {
+    let mut text = "# Results\n\n\
+        Every figure and table of K.-C. Liu, J. Friend and L. Yeo, Phys. Rev. E **80**, 046201 (2009), computed anew, and every number\n\
+        and testable statement that the paper prints, compared with ours. A number counts as reproduced when ours agrees within half a unit\n\
+        of its last printed digit, unless another tolerance is given. Why a number differs stands in its note and in [errata.md](errata.md).\n\
+        This page is generated in paper quality by `cargo xtask figures --docs`; `cargo xtask figures --check` says whether it is up to date.\n\n\
+        | | reproduced | differs | not computable |\n| --- | --- | --- | --- |\n"
+        .to_owned();
+    let count = |claims: &[Claim], verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
+    let verdicts = [Verdict::Reproduced, Verdict::Differs, Verdict::NotComputable];
+    let mut totals = [0; 3];
+    for (id, claims) in claims {
+        let counts = verdicts.map(|verdict| count(claims, verdict));
+        for (total, count) in totals.iter_mut().zip(counts) {
+            *total += count;
+        }
+        let [reproduced, differs, not_computable] = counts;
+        let _ = writeln!(text, "| [{}](#{id}) | {reproduced} | {differs} | {not_computable} |", name(id));
+    }
+    let [reproduced, differs, not_computable] = totals;
+    let _ = writeln!(text, "| together | {reproduced} | {differs} | {not_computable} |");
+    text
+}
+
+/// The section of one figure.
+fn section(entry: &dyn Entry, outcome: &dyn Outcome) -> Result<String, ResultsError> {
+    let (id, title, claims) = (entry.id(), entry.title(), outcome.claims());
+    let reading = reading(id, outcome.reading(), &claims)?;
+    let mut text = format!(
+        "\n<a id=\"{id}\"></a>\n\n## {}. {title}\n\n![{title}]({PICTURES_FOLDER}/{})\n\n{reading}\n\n*Caption.* {}\n",
+        name(id),
+        picture_name(id),
+        outcome.caption()
+    );
+    let parameters = outcome.parameters();
+    if !parameters.is_empty() {
+        text.push_str("\n| parameter | value |\n| --- | --- |\n");
+        for (name, value) in parameters {
+            let _ = writeln!(text, "| {} | {} |", cell(&name), cell(&value));
+        }
+    }
+    if !claims.is_empty() {
+        text.push_str(
+            "\n| place | quantity | printed | computed | tolerance | verdict | note |\n\
+             | --- | --- | --- | --- | --- | --- | --- |\n",
+        );
+    }
+    for claim in &claims {
+        let ClaimTexts { computed, printed, tolerance } = ClaimTexts::new(claim);
+        let verdict = match claim.verdict() {
+            Verdict::Differs => "**differs**".to_owned(),
+            verdict => verdict.name().replace('-', " "),
+        };
+        let cells =
+            [claim.place(), claim.quantity(), &printed, &computed, &tolerance, &verdict, claim.remarks()];
+        let _ = writeln!(text, "| {} |", cells.map(cell).join(" | "));
+    }
+    Ok(text)
+}
+
+/// The text of a cell of a Markdown table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|").replace('\n', " ").replace('*', "\\*")
+}
+
+/// The paragraph with the computed numbers put in, to four digits.
+fn reading(id: &str, template: &str, claims: &[Claim]) -> Result<String, ResultsError> {
+    let mut text = String::new();
+    let mut rest = template.trim();
+    while let Some((before, after)) = rest.split_once('{') {
+        let Some((key, behind)) = after.split_once('}') else { break };
+        let answers = |claim: &&Claim| matches!(claim.source(), Source::Entry(own) if own == key);
+        let Some((claim, Computed::Number(number))) =
+            claims.iter().find(answers).map(|claim| (claim, claim.computed()))
+        else {
+            return Err(ResultsError::Reading { id: id.to_owned(), key: key.to_owned() });
+        };
+        text.push_str(before);
+        text.push_str(&like(claim.printed_text(), *number, 4));
+        rest = behind;
+    }
+    text.push_str(rest);
+    Ok(text)
+}
+
+/// All causes of an error, for a program that prints it.
+pub fn explained(error: &ResultsError) -> String {
+    chain(error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+    use crate::testing::demo_entries;
+
+    struct Folders {
+        paper: OutputFolder,
+        draft: OutputFolder,
+        docs: OutputFolder,
+    }
+
+    fn folders(test: &str) -> (Folders, Vec<Box<dyn Entry>>) {
+        let path = std::env::temp_dir().join(format!("bouncing-disk-results-{test}-{}", std::process::id()));
+        let create = |name: &str| OutputFolder::create(path.join(name)).expect("writable");
+        let folders = Folders { paper: create("paper"), draft: create("draft"), docs: create("docs") };
+        let mut entries = demo_entries();
+        entries.truncate(1);
+        for (folder, quality) in [(&folders.paper, Quality::Paper), (&folders.draft, Quality::Draft)] {
+            let files = product::make(&*entries[0], quality, &Silent).expect("works");
+            folder.write_set("demo", quality, 0.1, &files).expect("writable");
+        }
+        write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        (folders, entries)
+    }
+
+    fn check(folders: &Folders, entries: &[Box<dyn Entry>], quality: Quality) -> Vec<String> {
+        let folder = match quality {
+            Quality::Draft => &folders.draft,
+            Quality::Paper => &folders.paper,
+        };
+        let entries: Vec<&dyn Entry> = entries.iter().map(|entry| &**entry).collect();
+        outdated(&entries, quality, folder, &folders.docs).expect("readable")
+    }
+
+    #[test]
+    fn the_page_holds_picture_reading_parameters_and_verdicts() {
+        let (folders, entries) = folders("page");
+        let page = folders.docs.read(RESULTS_FILE).expect("readable").expect("written");
+        let page = String::from_utf8(page).expect("text");
+        assert!(page.contains("![A demonstration](figures/demo.png)"), "{page}");
+        assert!(page.contains("It shows that | is escaped."), "{page}");
+        assert!(page.contains("| restitution ε | 0.5 |"), "{page}");
+        assert!(page.contains("| Sec. 1 | last phase | 0.36\u{a0}rad |"), "{page}");
+        assert!(page.contains("| together | 1 | 0 | 0 |"), "{page}");
+        for quality in [Quality::Draft, Quality::Paper] {
+            assert!(check(&folders, &entries, quality).is_empty());
+        }
+    }
+
+    #[test]
+    fn every_way_to_be_out_of_date_is_seen() {
+        let (folders, entries) = folders("stale");
+        let picture = "figures/demo.png".to_owned();
+        let pictures = OutputFolder::existing(folders.docs.path().join(PICTURES_FOLDER));
+        folders.docs.write(RESULTS_FILE, b"edited").expect("writable");
+        assert_eq!(check(&folders, &entries, Quality::Draft), [RESULTS_FILE.to_owned()]);
+        write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        pictures.write("demo.png", b"edited").expect("writable");
+        assert_eq!(check(&folders, &entries, Quality::Draft), std::slice::from_ref(&picture));
+        write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        // Another drawing of the draft alone.
+        folders.draft.write("demo.svg", b"<svg/>").expect("writable");
+        assert_eq!(check(&folders, &entries, Quality::Draft), std::slice::from_ref(&picture));
+        assert!(check(&folders, &entries, Quality::Paper).is_empty());
+        pictures.write(DIGESTS_FILE, b"").expect("writable");
+        assert_eq!(check(&folders, &entries, Quality::Paper), [RESULTS_FILE.to_owned(), picture]);
+    }
+
+    #[test]
+    fn a_reading_takes_its_numbers_from_the_claims() {
+        let claims = [Claim::printed("section4.merging", 0.560_750_7)];
+        let text = reading("fig06", "Lost at {section4.merging}, for good.", &claims).expect("answered");
+        assert_eq!(text, "Lost at 0.5608, for good.");
+        let error = reading("fig06", "{section4.doubling_1}", &claims).expect_err("not answered");
+        assert!(explained(&error).contains("section4.doubling_1"), "{error}");
+    }
+}
