@@ -42,8 +42,8 @@ pub enum ResultsError {
         /// The figure.
         id: String,
     },
-    /// A reading names an entry of the ledger that no claim of the figure answers by a number.
-    #[error("the reading of {id} names {key}, which no claim of it answers by a number")]
+    /// A reading names an entry of the ledger that no claim of the figure compares by a number.
+    #[error("the reading of {id} names {key}, which no claim of it compares by a number")]
     Reading {
         /// The figure.
         id: String,
@@ -258,7 +258,7 @@ fn reading(id: &str, template: &str, claims: &[Claim]) -> Result<String, Results
     let mut rest = template.trim();
     while let Some((before, after)) = rest.split_once('{') {
         let Some((key, behind)) = after.split_once('}') else { break };
-        let answers = |claim: &&Claim| matches!(claim.source(), Source::Entry(own) if own == key);
+        let answers = |claim: &&Claim| matches!(claim.source(), Source::Entry(own) | Source::Reading(own) if own == key);
         let Some((claim, Computed::Number(number))) =
             claims.iter().find(answers).map(|claim| (claim, claim.computed()))
         else {
