@@ -4,6 +4,7 @@ use crate::experiment::{Entry, entry};
 use crate::figures::{
     fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, table2,
 };
+use crate::measured::Layout;
 
 /// All experiments, in the order of the paper.
 pub fn all() -> Vec<Box<dyn Entry>> {
@@ -23,6 +24,11 @@ pub fn all() -> Vec<Box<dyn Entry>> {
         entry::<fig13::Fig13>(),
         entry::<table2::Table2>(),
     ]
+}
+
+/// The files of measurements that all experiments together can show.
+pub fn measurements(entries: &[Box<dyn Entry>]) -> Vec<Layout> {
+    entries.iter().flat_map(|entry| entry.measurements().iter().copied()).collect()
 }
 
 /// An identifier that no experiment has.

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
-use bouncing_disk_experiments::Quality;
 use bouncing_disk_experiments::experiment::Entry;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
+use bouncing_disk_experiments::stamp::Stale;
 use bouncing_disk_experiments::summary::Summary;
+use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
 use crate::report::Report;
@@ -17,6 +18,8 @@ use crate::work::{self, Finished};
 
 /// The folder of the figures, relative to the root of the workspace.
 const DEFAULT_FOLDER: &str = "target/figures";
+/// The folder of a user's measurements, relative to the root of the workspace.
+const MEASURED_FOLDER: &str = "data/measured";
 /// The exit status for a wrong command line, the same as that of the argument parser.
 const USAGE: u8 = 2;
 
@@ -32,6 +35,9 @@ pub(crate) struct Options {
     /// The output folder [default: target/figures]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// The folder with your own measurements [default: data/measured]
+    #[arg(long, value_name = "DIR")]
+    measured: Option<PathBuf>,
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
@@ -48,11 +54,11 @@ pub(crate) struct Options {
 
 impl Options {
     fn folder(&self) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| {
-            // The package of this program lies in the root.
-            let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-            package.parent().unwrap_or(package).join(DEFAULT_FOLDER)
-        })
+        self.out.clone().unwrap_or_else(|| in_workspace(DEFAULT_FOLDER))
+    }
+
+    fn measured_folder(&self) -> PathBuf {
+        self.measured.clone().unwrap_or_else(|| in_workspace(MEASURED_FOLDER))
     }
 
     /// The command that makes the given figures with the same options.
@@ -65,14 +71,22 @@ impl Options {
         if self.quality != Quality::default() {
             command.push_str(&format!(" --quality {}", self.quality));
         }
-        if let Some(out) = &self.out {
-            let out = out.to_string_lossy();
-            let quoted = out.contains(|c: char| c.is_whitespace() || c == '\'');
-            let out = if quoted { format!("'{}'", out.replace('\'', r"'\''")) } else { out.into_owned() };
-            command.push_str(&format!(" --out {out}"));
+        for (option, folder) in [("--out", &self.out), ("--measured", &self.measured)] {
+            let Some(folder) = folder else { continue };
+            let folder = folder.to_string_lossy();
+            let quoted = folder.contains(|c: char| c.is_whitespace() || c == '\'');
+            let folder =
+                if quoted { format!("'{}'", folder.replace('\'', r"'\''")) } else { folder.into_owned() };
+            command.push_str(&format!(" {option} {folder}"));
         }
         command
     }
+}
+
+/// A folder of the workspace; the package of this program lies in its root.
+fn in_workspace(folder: &str) -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package).join(folder)
 }
 
 /// Does what the options ask for.
@@ -85,20 +99,23 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
             return Ok(ExitCode::from(USAGE));
         }
     };
+    let folder = options.measured_folder();
+    let measurements = Measurements::read(&folder)
+        .with_context(|| format!("cannot read the measurements in {}", folder.display()))?;
     if options.list {
-        return Ok(list(options, &selected));
+        return Ok(list(options, &selected, &measurements));
     }
     if options.check {
-        return check(options, &entries, &selected);
+        return check(options, &entries, &selected, &measurements);
     }
-    make(options, &entries, &selected)
+    make(options, &entries, &selected, &measurements)
 }
 
-fn list(options: &Options, selected: &[&dyn Entry]) -> ExitCode {
+fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> ExitCode {
     let folder = OutputFolder::existing(options.folder());
     let widest = selected.iter().map(|entry| entry.title().chars().count()).max().unwrap_or_default();
     for entry in selected {
-        let state = match folder.check(entry.id(), options.quality) {
+        let state = match state(*entry, options, &folder, measurements) {
             Ok(()) => "up to date".to_owned(),
             Err(stale) => stale.to_string(),
         };
@@ -107,22 +124,67 @@ fn list(options: &Options, selected: &[&dyn Entry]) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry]) -> anyhow::Result<ExitCode> {
+/// Whether a figure is up to date with the sources and the measurements.
+fn state(
+    entry: &dyn Entry,
+    options: &Options,
+    folder: &OutputFolder,
+    measurements: &Measurements,
+) -> Result<(), Stale> {
+    folder.check(entry.id(), options.quality, &measurements.digest(entry.measurements()))
+}
+
+/// What is wrong with the measurements for the selected figures, and with files that no figure reads.
+fn faults(
+    options: &Options,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    measurements: &Measurements,
+    summary: &Summary,
+) -> Vec<String> {
+    let of_figures = summary
+        .warnings
+        .iter()
+        .filter(|(id, _)| selected.iter().any(|entry| entry.id() == id))
+        .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
+    let unknown = measurements.unknown(&registry::measurements(entries));
+    let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
+    if !faults.is_empty() {
+        let folder = options.measured_folder();
+        faults.push(format!(
+            "measurements are read from {}; its README.md states their form",
+            folder.display()
+        ));
+    }
+    faults
+}
+
+fn check(
+    options: &Options,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    measurements: &Measurements,
+) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
     let mut outdated = Vec::new();
     for entry in selected {
-        if let Err(stale) = folder.check(entry.id(), options.quality) {
+        if let Err(stale) = state(*entry, options, &folder, measurements) {
             println!("{}: {stale}", entry.id());
             outdated.push(entry.id());
         }
     }
-    let common = Summary::of(entries, &folder)?.outdated(&folder)?;
+    let summary = Summary::of(entries, &folder, measurements)?;
+    let common = summary.outdated(&folder)?;
     for name in &common {
         println!("{name}: missing or out of date");
     }
+    let faults = faults(options, entries, selected, measurements, &summary);
+    for fault in &faults {
+        println!("{fault}");
+    }
     if outdated.is_empty() && common.is_empty() {
         println!("all outputs in {} are up to date", folder.path().display());
-        return Ok(ExitCode::SUCCESS);
+        return Ok(if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE });
     }
     // With every figure out of date the list of all is no help.
     let ids = if outdated.len() == entries.len() { &options.ids[..0] } else { &options.ids[..] };
@@ -134,7 +196,12 @@ fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry])
     Ok(ExitCode::FAILURE)
 }
 
-fn make(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry]) -> anyhow::Result<ExitCode> {
+fn make(
+    options: &Options,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    measurements: &Measurements,
+) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::create(options.folder())?;
     let threads = options.threads.map_or_else(available_threads, NonZeroUsize::get);
     rayon::ThreadPoolBuilder::new()
@@ -144,24 +211,28 @@ fn make(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry]) 
     let (current, due): (Vec<_>, Vec<_>) = selected
         .iter()
         .copied()
-        .partition(|entry| !options.force && folder.check(entry.id(), options.quality).is_ok());
+        .partition(|entry| !options.force && state(*entry, options, &folder, measurements).is_ok());
     for entry in &current {
         println!("{:<8} up to date", entry.id());
     }
     let report = Report::new();
-    let finished = work::make_all(&due, options.quality, &folder, threads, &report);
+    let finished = work::make_all(&due, options.quality, measurements, &folder, threads, &report);
     report.close();
-    let summary = Summary::of(entries, &folder)?;
+    let summary = Summary::of(entries, &folder, measurements)?;
     summary.write(&folder)?;
     for (id, reason) in &summary.left_out {
         println!("{id}: not in the gallery and in claims.json: {reason}");
         println!("    make it again: {}", options.command(&[id]));
     }
-    Ok(conclude(options, &finished, &folder))
+    let faults = faults(options, entries, selected, measurements, &summary);
+    Ok(conclude(options, &finished, &folder, &faults))
 }
 
-/// Prints the times and the failures.
-fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder) -> ExitCode {
+/// Prints the times, the measurements that were left out and the failures.
+///
+/// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and a script
+/// must not take it for one that shows them.
+fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder, faults: &[String]) -> ExitCode {
     let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
     made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
     if !made.is_empty() {
@@ -173,8 +244,14 @@ fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder) -> 
     println!("\nfigures, claims.json and index.html are in {}", folder.path().display());
     let failed: Vec<_> =
         finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
+    if !faults.is_empty() {
+        println!();
+    }
+    for fault in faults {
+        println!("{fault}");
+    }
     if failed.is_empty() {
-        return ExitCode::SUCCESS;
+        return if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
     println!("\n{} of {} failed", failed.len(), finished.len());
     for (id, error) in failed {
@@ -197,6 +274,7 @@ mod tests {
             ids: Vec::new(),
             quality,
             out: out.map(PathBuf::from),
+            measured: None,
             list: false,
             check: false,
             force: false,
