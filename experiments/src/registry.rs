@@ -103,4 +103,28 @@ mod tests {
         ids.dedup();
         assert_eq!(ids.len(), count);
     }
+
+    #[test]
+    fn the_readme_of_the_measurements_states_every_layout() {
+        const README: &str = include_str!("../../data/measured/README.md");
+        let mut layouts = measurements(&all());
+        let others = [
+            crate::figures::braking_record::DECELERATIONS,
+            crate::figures::braking_record::FRICTIONS,
+            crate::figures::dough_record::DIAMETERS,
+        ];
+        layouts.extend(others.into_iter().filter(|other| !layouts.contains(other)).collect::<Vec<_>>());
+        for layout in layouts {
+            let (_, section) =
+                README.split_once(&format!("### `{}`", layout.file)).expect("a section of its own");
+            let (_, block) = section.split_once("```csv\n").expect("an example");
+            let (example, _) = block.split_once("```").expect("its end");
+            assert_eq!(example.lines().next(), Some(layout.header().as_str()), "{}", layout.file);
+            let single = Layout { least_rows: 1, ..layout };
+            crate::measured::Series::read(&single, example.as_bytes()).expect("a legal example");
+            for column in layout.columns {
+                assert!(section.contains(&format!("| `{}` |", column.name)), "{}", column.name);
+            }
+        }
+    }
 }

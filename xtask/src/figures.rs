@@ -100,6 +100,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         }
     };
     let folder = options.measured_folder();
+    // The default folder may be missing; one that was asked for may not.
+    if options.measured.is_some() && !folder.is_dir() {
+        eprintln!("error: --measured {}: there is no such folder", folder.display());
+        return Ok(ExitCode::from(USAGE));
+    }
     let measurements = Measurements::read(&folder)
         .with_context(|| format!("cannot read the measurements in {}", folder.display()))?;
     if options.list {

@@ -75,9 +75,9 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             )
         };
         let speeds = Axis::linear(speed_ends.0, speed_ends.1)
-            .ticks(ticks(speed_ends, SPEEDS, 10.0, 1))
+            .ticks(ticks(speed_ends, SPEEDS, 10.0, 2))
             .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
-        let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, STALLS, 10.0, 1));
+        let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, STALLS, 10.0, 2));
         let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
         let left = frame(0, ["a", "c"][row], speeds)
             .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, steady_speed)))
@@ -87,7 +87,7 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
                 Axis::linear(torque * stall_ends.0, torque * stall_ends.1)
-                    .ticks(ticks(stall_ends, STALLS, 10.0, 1))
+                    .ticks(ticks(stall_ends, STALLS, 10.0, 2))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
             .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, stall)))
