@@ -2,7 +2,8 @@
 //!
 //! A figure depends on the libraries, on all shared code of this crate, on the lock file and the data, and on its
 //! own module `src/figures/ID.rs`. A module that names another one (`fig06::`, a shared helper) depends on that
-//! one too. Naming is what counts: depending on too much only recomputes too much.
+//! one too. Naming is what counts: depending on too much only recomputes too much. A user's own measurements are not
+//! known when this is built; `src/stamp.rs` sees them when a figure is made.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -19,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let root = package.parent().ok_or("the package lies in the workspace")?.to_owned();
     let figures = package.join("src/figures");
     let mut shared = Vec::new();
-    for part in ["Cargo.toml", "Cargo.lock", "crates", "data", "experiments"] {
+    for part in ["Cargo.toml", "Cargo.lock", "crates", "data/cases", "data/paper", "experiments"] {
         let path = root.join(part);
         println!("cargo:rerun-if-changed={}", path.display());
         collect(&path, &mut shared)?;

@@ -11,6 +11,7 @@ use crate::claim::Claim;
 use crate::draw::{DrawError, Figure};
 use crate::finite::{self, FiniteError};
 use crate::ledger::{self, LedgerError};
+use crate::measured::{Layout, MeasuredError, Series};
 use crate::progress::Progress;
 use crate::table::{Table, TableError};
 
@@ -91,7 +92,10 @@ pub enum ExperimentError {
     /// A number printed in the paper could not be read.
     #[error("the ledger of printed numbers failed")]
     Ledger(#[from] LedgerError),
-    /// An input file (a measurement) could not be read.
+    /// A user's measurements cannot be used.
+    #[error(transparent)]
+    Measured(#[from] MeasuredError),
+    /// An input file (a table of the paper) could not be read.
     #[error("cannot read {path}")]
     Input {
         /// The file.
@@ -136,6 +140,8 @@ pub trait Experiment: Sync + Send + 'static {
     /// What the figure shows, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number
     /// of the claim that answers this entry of the [ledger](crate::ledger).
     const READING: &'static str;
+    /// The files of a user's measurements that can be drawn over this figure.
+    const MEASUREMENTS: &'static [Layout] = &[];
 
     /// The caption, plain text with Unicode Greek.
     fn caption(data: &Self::Data) -> String;
@@ -146,6 +152,16 @@ pub trait Experiment: Sync + Send + 'static {
     ///
     /// When the model fails.
     fn run(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
+
+    /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The computed
+    /// numbers stay what they are; after an error the data are unchanged.
+    ///
+    /// # Errors
+    ///
+    /// When the fit to the measurements is not defined.
+    fn overlay(_data: &mut Self::Data, _series: &Series) -> Result<(), ExperimentError> {
+        Ok(())
+    }
 
     /// Draws the data.
     ///
@@ -176,6 +192,11 @@ pub trait Entry: Sync + Send {
     /// See [`Experiment::TITLE`].
     fn title(&self) -> &'static str;
 
+    /// See [`Experiment::MEASUREMENTS`].
+    fn measurements(&self) -> &'static [Layout] {
+        &[]
+    }
+
     /// Computes the data.
     ///
     /// # Errors
@@ -193,6 +214,13 @@ pub trait Entry: Sync + Send {
 
 /// The data of one experiment, whatever their type, and what can be made from them.
 pub trait Outcome: Send + Sync {
+    /// See [`Experiment::overlay`].
+    ///
+    /// # Errors
+    ///
+    /// When the fit to the measurements is not defined.
+    fn overlay(&mut self, series: &Series) -> Result<(), ExperimentError>;
+
     /// The data as JSON.
     ///
     /// # Errors
@@ -239,6 +267,10 @@ impl<E: Experiment> Entry for Erased<E> {
         E::TITLE
     }
 
+    fn measurements(&self) -> &'static [Layout] {
+        E::MEASUREMENTS
+    }
+
     fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError> {
         Ok(Box::new(Typed::<E>(E::run(quality, progress)?)))
     }
@@ -251,6 +283,10 @@ impl<E: Experiment> Entry for Erased<E> {
 struct Typed<E: Experiment>(E::Data);
 
 impl<E: Experiment> Outcome for Typed<E> {
+    fn overlay(&mut self, series: &Series) -> Result<(), ExperimentError> {
+        E::overlay(&mut self.0, series)
+    }
+
     fn to_json(&self) -> Result<Value, ExperimentError> {
         Ok(finite::to_value(&self.0)?)
     }

@@ -2,7 +2,9 @@
 //!
 //! A new module is declared here and listed once in [`crate::registry::all`].
 
+pub mod braking_record;
 mod cylinder;
+pub mod dough_record;
 pub mod fig01;
 pub mod fig02;
 pub mod fig03;

@@ -120,8 +120,8 @@ impl OutputFolder {
         }
     }
 
-    /// Writes all files of one figure and then its stamp. Files of an earlier run that are no longer made, and
-    /// partial files of a killed run, are removed.
+    /// Writes all files of one figure and then its stamp, with the digest of the measurements in them. Files of an
+    /// earlier run that are no longer made, and partial files of a killed run, are removed.
     ///
     /// # Errors
     ///
@@ -130,6 +130,7 @@ impl OutputFolder {
         &self,
         id: &str,
         quality: Quality,
+        measured: &str,
         run_time_s: f64,
         files: &[(String, Vec<u8>)],
     ) -> Result<(), OutputError> {
@@ -140,7 +141,7 @@ impl OutputFolder {
             self.write(name, bytes)?;
         }
         let contents = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
-        let stamp = Stamp::new(id, quality, run_time_s, contents);
+        let stamp = Stamp::new(id, quality, measured, run_time_s, contents);
         let text = serde_json::to_vec_pretty(&stamp)
             .map_err(|source| OutputError::Stamp { id: id.to_owned(), source })?;
         self.write(&stamp_name, &text)
@@ -152,14 +153,14 @@ impl OutputFolder {
         serde_json::from_slice(&bytes).ok()
     }
 
-    /// Whether a figure is up to date.
+    /// Whether a figure is up to date; `measured` is the digest of the measurements there are for it.
     ///
     /// # Errors
     ///
     /// The first reason to make it again.
-    pub fn check(&self, id: &str, quality: Quality) -> Result<(), Stale> {
+    pub fn check(&self, id: &str, quality: Quality, measured: &str) -> Result<(), Stale> {
         let stamp = self.stamp(id).ok_or(Stale::Missing)?;
-        stamp.check(id, quality, |name| self.read(name).ok().flatten())
+        stamp.check(id, quality, measured, |name| self.read(name).ok().flatten())
     }
 
     fn remove(&self, name: &str) -> Result<(), OutputError> {
@@ -213,17 +214,17 @@ mod tests {
     #[test]
     fn a_set_is_up_to_date_until_something_changes() {
         let folder = folder("set");
-        assert_eq!(folder.check("demo", Quality::Draft), Err(Stale::Missing));
+        assert_eq!(folder.check("demo", Quality::Draft, ""), Err(Stale::Missing));
         fs::write(folder.path().join(".demo.json.1.partial"), b"torn").expect("writable");
         fs::write(folder.path().join("demo.csv"), b"of an earlier version").expect("writable");
         fs::write(folder.path().join("demo2.json"), b"of another figure").expect("writable");
         let files = [("demo.json".to_owned(), b"{}".to_vec()), ("demo.svg".to_owned(), b"<svg/>".to_vec())];
-        folder.write_set("demo", Quality::Draft, 0.1, &files).expect("writable");
+        folder.write_set("demo", Quality::Draft, "", 0.1, &files).expect("writable");
         assert_eq!(names(&folder), ["demo.json", "demo.stamp", "demo.svg", "demo2.json"]);
-        assert_eq!(folder.check("demo", Quality::Draft), Ok(()));
+        assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
         fs::write(folder.path().join("demo.svg"), b"edited").expect("writable");
         let name = "demo.svg".to_owned();
-        assert_eq!(folder.check("demo", Quality::Draft), Err(Stale::File { name }));
+        assert_eq!(folder.check("demo", Quality::Draft, ""), Err(Stale::File { name }));
         fs::remove_dir_all(folder.path()).expect("removable");
     }
 

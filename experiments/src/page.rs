@@ -24,7 +24,9 @@ pub struct Section {
     pub quality: Quality,
     /// The time it took.
     pub run_time_s: f64,
-    /// Whether the sources or the files have changed since.
+    /// Faults of the user's measurements that are therefore not shown.
+    pub warnings: Vec<String>,
+    /// Whether the sources, the measurements or the files have changed since.
     pub outdated: bool,
     /// Whether there is a table as comma-separated values.
     pub has_table: bool,
@@ -93,9 +95,12 @@ fn push_section(page: &mut String, section: &Section) {
     if section.outdated {
         let _ = writeln!(
             page,
-            "<p class=\"differs\">Out of date: the program has changed since. To repair: \
+            "<p class=\"differs\">Out of date: the program or the measurements have changed since. To repair: \
              <code>cargo xtask figures {id}</code></p>"
         );
+    }
+    for warning in &section.warnings {
+        let _ = writeln!(page, "<p class=\"differs\">Measurements not shown: {}</p>", escaped(warning));
     }
     push_parameters(page, &section.parameters);
     push_claims(page, &section.claims);
@@ -311,6 +316,7 @@ mod tests {
             claims: vec![Claim::number("fig06", "text", "Γ", "", "0.486", 0.486)],
             quality: Quality::Paper,
             run_time_s: 75.2,
+            warnings: vec!["fig06.csv, line 2: \"x\" is not a number".to_owned()],
             outdated: true,
             has_table: true,
             width: Some(2040),
@@ -319,5 +325,6 @@ mod tests {
         assert!(!page.contains("http") && !page.contains("<script"), "{page}");
         assert!(page.contains("Γ &lt; 1") && page.contains("fig06.csv") && page.contains("75.2 s"));
         assert!(page.contains("class=\"verdict reproduced\""));
+        assert!(page.contains("Measurements not shown: fig06.csv, line 2: &quot;x&quot;"));
     }
 }

@@ -4,6 +4,7 @@ use crate::experiment::{Entry, entry};
 use crate::figures::{
     fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, table2,
 };
+use crate::measured::Layout;
 
 /// All experiments, in the order of the paper.
 pub fn all() -> Vec<Box<dyn Entry>> {
@@ -23,6 +24,11 @@ pub fn all() -> Vec<Box<dyn Entry>> {
         entry::<fig13::Fig13>(),
         entry::<table2::Table2>(),
     ]
+}
+
+/// The files of measurements that all experiments together can show.
+pub fn measurements(entries: &[Box<dyn Entry>]) -> Vec<Layout> {
+    entries.iter().flat_map(|entry| entry.measurements().iter().copied()).collect()
 }
 
 /// An identifier that no experiment has.
@@ -96,5 +102,29 @@ mod tests {
         let count = ids.len();
         ids.dedup();
         assert_eq!(ids.len(), count);
+    }
+
+    #[test]
+    fn the_readme_of_the_measurements_states_every_layout() {
+        const README: &str = include_str!("../../data/measured/README.md");
+        let mut layouts = measurements(&all());
+        let others = [
+            crate::figures::braking_record::DECELERATIONS,
+            crate::figures::braking_record::FRICTIONS,
+            crate::figures::dough_record::DIAMETERS,
+        ];
+        layouts.extend(others.into_iter().filter(|other| !layouts.contains(other)).collect::<Vec<_>>());
+        for layout in layouts {
+            let (_, section) =
+                README.split_once(&format!("### `{}`", layout.file)).expect("a section of its own");
+            let (_, block) = section.split_once("```csv\n").expect("an example");
+            let (example, _) = block.split_once("```").expect("its end");
+            assert_eq!(example.lines().next(), Some(layout.header().as_str()), "{}", layout.file);
+            let single = Layout { least_rows: 1, ..layout };
+            crate::measured::Series::read(&single, example.as_bytes()).expect("a legal example");
+            for column in layout.columns {
+                assert!(section.contains(&format!("| `{}` |", column.name)), "{}", column.name);
+            }
+        }
     }
 }

@@ -97,7 +97,7 @@ fn made(entry: &dyn Entry, folder: &OutputFolder) -> Result<Made, ResultsError> 
     let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
     let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
     let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
-    let (outcome, _) = product::read(entry, &data).map_err(failed)?;
+    let outcome = product::read(entry, &data).map_err(failed)?.outcome;
     let section = section(entry, &*outcome)?;
     let mut all = data;
     all.extend(drawing);
@@ -280,6 +280,7 @@ pub fn explained(error: &ResultsError) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measured::Measurements;
     use crate::progress::Silent;
     use crate::testing::demo_entries;
 
@@ -296,8 +297,8 @@ mod tests {
         let mut entries = demo_entries();
         entries.truncate(1);
         for (folder, quality) in [(&folders.paper, Quality::Paper), (&folders.draft, Quality::Draft)] {
-            let files = product::make(&*entries[0], quality, &Silent).expect("works");
-            folder.write_set("demo", quality, 0.1, &files).expect("writable");
+            let files = product::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
+            folder.write_set("demo", quality, "", 0.1, &files).expect("writable");
         }
         write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
         (folders, entries)

@@ -17,6 +17,9 @@ include!(concat!(env!("OUT_DIR"), "/digests.rs"));
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stamp {
     key: String,
+    /// The digest of the user's measurements in it; empty when there were none.
+    #[serde(default)]
+    measured: String,
     /// The quality it was made in.
     pub quality: Quality,
     /// The time the computation and the drawing took.
@@ -37,6 +40,8 @@ pub enum Stale {
     },
     /// The sources have changed.
     Sources,
+    /// The user's measurements have changed.
+    Measurements,
     /// A file is missing or was changed.
     File {
         /// Its name.
@@ -50,24 +55,27 @@ impl std::fmt::Display for Stale {
             Self::Missing => formatter.write_str("not made yet"),
             Self::Quality { found } => write!(formatter, "made in {found} quality"),
             Self::Sources => formatter.write_str("the sources have changed"),
+            Self::Measurements => formatter.write_str("the measurements have changed"),
             Self::File { name } => write!(formatter, "{name} is missing or was changed"),
         }
     }
 }
 
 impl Stamp {
-    /// A stamp of files made by this version.
+    /// A stamp of files made by this version with the user's measurements of the digest `measured`.
     pub fn new<'a>(
         id: &str,
         quality: Quality,
+        measured: &str,
         run_time_s: f64,
         files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
     ) -> Self {
         let files = files.into_iter().map(|(name, bytes)| (name.to_owned(), digest(bytes))).collect();
-        Self { key: key(id, quality), quality, run_time_s, files }
+        Self { key: key(id, quality), measured: measured.to_owned(), quality, run_time_s, files }
     }
 
-    /// Compares the stamp with this version and with the files; `read` gives the content of a file.
+    /// Compares the stamp with this version, with the digest of the measurements and with the files; `read` gives the
+    /// content of a file.
     ///
     /// # Errors
     ///
@@ -76,6 +84,7 @@ impl Stamp {
         &self,
         id: &str,
         quality: Quality,
+        measured: &str,
         mut read: impl FnMut(&str) -> Option<Vec<u8>>,
     ) -> Result<(), Stale> {
         if self.quality != quality {
@@ -83,6 +92,9 @@ impl Stamp {
         }
         if self.key != key(id, quality) {
             return Err(Stale::Sources);
+        }
+        if self.measured != measured {
+            return Err(Stale::Measurements);
         }
         let changed = |(name, expected): &(&String, &String)| {
             read(name).is_none_or(|bytes| digest(&bytes) != **expected)
@@ -118,16 +130,20 @@ mod tests {
 
     #[test]
     fn every_change_is_seen() {
-        let stamp = Stamp::new("demo", Quality::Draft, 1.5, [("demo.json", b"{}".as_slice())]);
+        let stamp = Stamp::new("demo", Quality::Draft, "d1", 1.5, [("demo.json", b"{}".as_slice())]);
         let same = |name: &str| (name == "demo.json").then(|| b"{}".to_vec());
-        assert_eq!(stamp.check("demo", Quality::Draft, same), Ok(()));
+        assert_eq!(stamp.check("demo", Quality::Draft, "d1", same), Ok(()));
         let found = Quality::Draft;
-        assert_eq!(stamp.check("demo", Quality::Paper, same), Err(Stale::Quality { found }));
+        assert_eq!(stamp.check("demo", Quality::Paper, "d1", same), Err(Stale::Quality { found }));
+        assert_eq!(stamp.check("demo", Quality::Draft, "", same), Err(Stale::Measurements));
         let name = "demo.json".to_owned();
-        assert_eq!(stamp.check("demo", Quality::Draft, |_| None), Err(Stale::File { name: name.clone() }));
-        assert_eq!(stamp.check("demo", Quality::Draft, |_| Some(vec![0])), Err(Stale::File { name }));
+        assert_eq!(
+            stamp.check("demo", Quality::Draft, "d1", |_| None),
+            Err(Stale::File { name: name.clone() })
+        );
+        assert_eq!(stamp.check("demo", Quality::Draft, "d1", |_| Some(vec![0])), Err(Stale::File { name }));
         let older = Stamp { key: "0".to_owned(), ..stamp };
-        assert_eq!(older.check("demo", Quality::Draft, same), Err(Stale::Sources));
+        assert_eq!(older.check("demo", Quality::Draft, "d1", same), Err(Stale::Sources));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::claim::Claim;
 use crate::experiment::{self, Entry};
+use crate::measured::Measurements;
 use crate::output::{OutputError, OutputFolder};
 use crate::page::{self, Section};
 use crate::{json, product};
@@ -15,6 +16,8 @@ pub struct Summary {
     pub page: String,
     /// Identifiers of figures whose stored data could not be used, and why.
     pub left_out: Vec<(String, String)>,
+    /// Identifiers of figures without measurements that there are, and what is wrong with those.
+    pub warnings: Vec<(String, String)>,
 }
 
 /// The names of the common files.
@@ -28,22 +31,28 @@ impl Summary {
     /// # Errors
     ///
     /// When a file exists and cannot be read.
-    pub fn of(entries: &[Box<dyn Entry>], folder: &OutputFolder) -> Result<Self, OutputError> {
+    pub fn of(
+        entries: &[Box<dyn Entry>],
+        folder: &OutputFolder,
+        measurements: &Measurements,
+    ) -> Result<Self, OutputError> {
         let mut sections = Vec::new();
         let mut claims: Vec<Claim> = Vec::new();
         let mut left_out = Vec::new();
+        let mut warnings = Vec::new();
         for entry in entries {
             let id = entry.id();
             // Without a stamp the files may be from different runs.
             let Some(stamp) = folder.stamp(id) else { continue };
             let Some(bytes) = folder.read(&format!("{id}.json"))? else { continue };
-            let (outcome, quality) = match product::read(&**entry, &bytes) {
+            let product::Stored { outcome, quality, warnings: own } = match product::read(&**entry, &bytes) {
                 Ok(read) => read,
                 Err(error) => {
                     left_out.push((id.to_owned(), experiment::chain(&error)));
                     continue;
                 }
             };
+            warnings.extend(own.iter().map(|warning| (id.to_owned(), warning.clone())));
             let section = Section {
                 id: id.to_owned(),
                 title: entry.title().to_owned(),
@@ -52,7 +61,8 @@ impl Summary {
                 claims: outcome.claims(),
                 quality,
                 run_time_s: stamp.run_time_s,
-                outdated: folder.check(id, quality).is_err(),
+                warnings: own,
+                outdated: folder.check(id, quality, &measurements.digest(entry.measurements())).is_err(),
                 has_table: folder.path().join(format!("{id}.csv")).exists(),
                 width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
             };
@@ -61,7 +71,7 @@ impl Summary {
         }
         // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
         let claims = serde_json::to_value(&claims).unwrap_or_default();
-        Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), left_out })
+        Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), left_out, warnings })
     }
 
     /// Writes the common files.
@@ -108,11 +118,12 @@ mod tests {
         let path = std::env::temp_dir().join(format!("bouncing-disk-summary-{}", std::process::id()));
         let folder = OutputFolder::create(&path).expect("writable");
         let entries = demo_entries();
-        let empty = Summary::of(&entries, &folder).expect("readable");
+        let empty = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
         assert_eq!(empty.claims, "[]\n");
-        let files = product::make(&*entries[0], Quality::Draft, &Silent).expect("works");
-        folder.write_set("demo", Quality::Draft, 0.25, &files).expect("writable");
-        let summary = Summary::of(&entries, &folder).expect("readable");
+        let files =
+            product::make(&*entries[0], Quality::Draft, &Measurements::none(), &Silent).expect("works");
+        folder.write_set("demo", Quality::Draft, "", 0.25, &files).expect("writable");
+        let summary = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
         assert!(summary.claims.contains("\"verdict\": \"reproduced\""), "{}", summary.claims);
         assert!(summary.page.contains("τ_imp &amp; Γ &lt; 1"));
         assert_eq!(summary.outdated(&folder).expect("readable"), [CLAIMS_FILE, PAGE_FILE]);
@@ -120,7 +131,10 @@ mod tests {
         assert!(summary.outdated(&folder).expect("readable").is_empty());
         // A record of another version.
         folder.write("demo.json", b"{}").expect("writable");
-        assert_eq!(Summary::of(&entries, &folder).expect("readable").left_out.len(), 1);
+        assert_eq!(
+            Summary::of(&entries, &folder, &Measurements::none()).expect("readable").left_out.len(),
+            1
+        );
         std::fs::remove_dir_all(path).expect("removable");
     }
 }

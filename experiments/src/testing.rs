@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::claim::Claim;
 use crate::draw::{Axis, DensePoints, Figure, Line, Panel, Rect};
 use crate::experiment::{Entry, Experiment, ExperimentError, Quality, entry};
+use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
 
@@ -16,6 +17,8 @@ pub(crate) struct DemoData {
     axial_forcing: Vec<f64>,
     impact_phase_rad: Vec<f64>,
     missing: Option<f64>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    measured_phase_rad: Vec<f64>,
 }
 
 impl Experiment for Demo {
@@ -23,9 +26,18 @@ impl Experiment for Demo {
     const ID: &'static str = "demo";
     const TITLE: &'static str = "A demonstration";
     const READING: &'static str = "It shows that | is escaped.";
+    const MEASUREMENTS: &'static [Layout] = &[Layout {
+        file: "demo.csv",
+        columns: &[Column::value("phase_rad", Range::NotNegative)],
+        least_rows: 1,
+    }];
 
     fn caption(data: &DemoData) -> String {
-        format!("{} phases of impact τ_imp & Γ < 1.", data.impact_phase_rad.len())
+        let measured = match data.measured_phase_rad.len() {
+            0 => String::new(),
+            count => format!(" {count} measured."),
+        };
+        format!("{} phases of impact τ_imp & Γ < 1.{measured}", data.impact_phase_rad.len())
     }
 
     fn run(quality: Quality, progress: &dyn Progress) -> Result<DemoData, ExperimentError> {
@@ -35,7 +47,18 @@ impl Experiment for Demo {
             (0..count).map(|i| 0.3 + 0.3 * f64::from(i) / f64::from(count - 1)).collect();
         progress.advance(u64::from(count));
         let impact_phase_rad = axial_forcing.iter().map(|forcing| forcing * forcing).collect();
-        Ok(DemoData { axial_forcing, impact_phase_rad, missing: None })
+        let measured_phase_rad = Vec::new();
+        Ok(DemoData { axial_forcing, impact_phase_rad, missing: None, measured_phase_rad })
+    }
+
+    fn overlay(data: &mut DemoData, series: &Series) -> Result<(), ExperimentError> {
+        let phases: Vec<f64> = series.rows().map(|[phase]| phase).collect();
+        if phases.iter().any(|phase| *phase > 7.0) {
+            let no_number = "x".parse::<f64>().expect_err("no number");
+            return Err(series.unusable(None, no_number));
+        }
+        data.measured_phase_rad = phases;
+        Ok(())
     }
 
     fn draw(data: &DemoData) -> Result<Figure, ExperimentError> {

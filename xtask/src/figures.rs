@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
-use bouncing_disk_experiments::Quality;
 use bouncing_disk_experiments::experiment::Entry;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
+use bouncing_disk_experiments::stamp::Stale;
 use bouncing_disk_experiments::summary::Summary;
+use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
 use crate::report::Report;
@@ -24,6 +25,8 @@ const DOCS_FOLDER: &str = "docs";
 const DRAFTS_FOLDER: &str = "draft";
 /// What repairs the documentation.
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
+/// The folder of a user's measurements, relative to the root of the workspace.
+const MEASURED_FOLDER: &str = "data/measured";
 /// The exit status for a wrong command line, the same as that of the argument parser.
 const USAGE: u8 = 2;
 
@@ -39,6 +42,9 @@ pub(crate) struct Options {
     /// The output folder [default: target/figures]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// The folder with your own measurements [default: data/measured]
+    #[arg(long, value_name = "DIR")]
+    measured: Option<PathBuf>,
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
@@ -61,6 +67,10 @@ impl Options {
         self.out.clone().unwrap_or_else(|| in_workspace(DEFAULT_FOLDER))
     }
 
+    fn measured_folder(&self) -> PathBuf {
+        self.measured.clone().unwrap_or_else(|| in_workspace(MEASURED_FOLDER))
+    }
+
     /// The command that makes the given figures with the same options.
     fn command(&self, ids: &[&str]) -> String {
         let mut command = "cargo xtask figures".to_owned();
@@ -71,11 +81,13 @@ impl Options {
         if self.quality != Quality::default() {
             command.push_str(&format!(" --quality {}", self.quality));
         }
-        if let Some(out) = &self.out {
-            let out = out.to_string_lossy();
-            let quoted = out.contains(|c: char| c.is_whitespace() || c == '\'');
-            let out = if quoted { format!("'{}'", out.replace('\'', r"'\''")) } else { out.into_owned() };
-            command.push_str(&format!(" --out {out}"));
+        for (option, folder) in [("--out", &self.out), ("--measured", &self.measured)] {
+            let Some(folder) = folder else { continue };
+            let folder = folder.to_string_lossy();
+            let quoted = folder.contains(|c: char| c.is_whitespace() || c == '\'');
+            let folder =
+                if quoted { format!("'{}'", folder.replace('\'', r"'\''")) } else { folder.into_owned() };
+            command.push_str(&format!(" {option} {folder}"));
         }
         command
     }
@@ -97,37 +109,48 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
             return Ok(ExitCode::from(USAGE));
         }
     };
+    let folder = options.measured_folder();
+    // The default folder may be missing; one that was asked for may not.
+    if options.measured.is_some() && !folder.is_dir() {
+        eprintln!("error: --measured {}: there is no such folder", folder.display());
+        return Ok(ExitCode::from(USAGE));
+    }
+    let measurements = Measurements::read(&folder)
+        .with_context(|| format!("cannot read the measurements in {}", folder.display()))?;
     if options.list {
-        return Ok(list(options, &selected));
+        return Ok(list(options, &selected, &measurements));
     }
     if options.check {
-        return check(options, &entries, &selected);
+        return check(options, &entries, &selected, &measurements);
     }
     start_threads(options)?;
     let folder = OutputFolder::create(options.folder())?;
+    let run = Run { options, entries: &entries, selected: &selected };
     if options.docs {
-        return write_docs(options, &entries, &selected, &folder);
+        return write_docs(&run, &folder);
     }
-    make(options, options.quality, &entries, &selected, &folder)
+    make(&run, options.quality, &measurements, &folder)
 }
 
-/// Makes everything in both qualities and the documentation from it.
-fn write_docs(
-    options: &Options,
-    entries: &[Box<dyn Entry>],
-    selected: &[&dyn Entry],
-    folder: &OutputFolder,
-) -> anyhow::Result<ExitCode> {
+/// What is to be made.
+struct Run<'a> {
+    options: &'a Options,
+    entries: &'a [Box<dyn Entry>],
+    selected: &'a [&'a dyn Entry],
+}
+
+/// Makes everything in both qualities and the documentation from it. A user's measurements are not shown there.
+fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
     let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
     for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
-        let code = make(options, quality, entries, selected, folder)?;
+        let code = make(run, quality, &Measurements::none(), folder)?;
         if code != ExitCode::SUCCESS {
             println!("the documentation is left as it was");
             return Ok(code);
         }
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    results::write(entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
+    results::write(run.entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
     println!("{} is up to date", docs.path().join(results::RESULTS_FILE).display());
     Ok(ExitCode::SUCCESS)
 }
@@ -143,11 +166,11 @@ fn threads(options: &Options) -> usize {
     options.threads.map_or_else(available_threads, NonZeroUsize::get)
 }
 
-fn list(options: &Options, selected: &[&dyn Entry]) -> ExitCode {
+fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> ExitCode {
     let folder = OutputFolder::existing(options.folder());
     let widest = selected.iter().map(|entry| entry.title().chars().count()).max().unwrap_or_default();
     for entry in selected {
-        let state = match folder.check(entry.id(), options.quality) {
+        let state = match state(*entry, options.quality, &folder, measurements) {
             Ok(()) => "up to date".to_owned(),
             Err(stale) => stale.to_string(),
         };
@@ -156,21 +179,73 @@ fn list(options: &Options, selected: &[&dyn Entry]) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry]) -> anyhow::Result<ExitCode> {
+/// Whether a figure is up to date with the sources and the measurements.
+fn state(
+    entry: &dyn Entry,
+    quality: Quality,
+    folder: &OutputFolder,
+    measurements: &Measurements,
+) -> Result<(), Stale> {
+    folder.check(entry.id(), quality, &measurements.digest(entry.measurements()))
+}
+
+/// What is wrong with the measurements for the selected figures, and with files that no figure reads.
+fn faults(
+    options: &Options,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    measurements: &Measurements,
+    summary: &Summary,
+) -> Vec<String> {
+    let of_figures = summary
+        .warnings
+        .iter()
+        .filter(|(id, _)| selected.iter().any(|entry| entry.id() == id))
+        .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
+    let unknown = measurements.unknown(&registry::measurements(entries));
+    let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
+    if !faults.is_empty() {
+        let folder = options.measured_folder();
+        faults.push(format!(
+            "measurements are read from {}; its README.md states their form",
+            folder.display()
+        ));
+    }
+    faults
+}
+
+fn check(
+    options: &Options,
+    entries: &[Box<dyn Entry>],
+    selected: &[&dyn Entry],
+    measurements: &Measurements,
+) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
     let mut outdated = Vec::new();
     for entry in selected {
-        if let Err(stale) = folder.check(entry.id(), options.quality) {
+        if let Err(stale) = state(*entry, options.quality, &folder, measurements) {
             println!("{}: {stale}", entry.id());
             outdated.push(entry.id());
         }
     }
-    let common = Summary::of(entries, &folder)?.outdated(&folder)?;
+    let summary = Summary::of(entries, &folder, measurements)?;
+    let common = summary.outdated(&folder)?;
     for name in &common {
         println!("{name}: missing or out of date");
     }
+    let faults = faults(options, entries, selected, measurements, &summary);
+    for fault in &faults {
+        println!("{fault}");
+    }
     let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
-    let committed = results::outdated(selected, options.quality, &folder, &docs)?;
+    // A figure with a user's measurements is not the one of the documentation.
+    let none = Measurements::none();
+    let comparable: Vec<&dyn Entry> = selected
+        .iter()
+        .copied()
+        .filter(|entry| measurements.digest(entry.measurements()) == none.digest(entry.measurements()))
+        .collect();
+    let committed = results::outdated(&comparable, options.quality, &folder, &docs)?;
     for name in &committed {
         println!("{DOCS_FOLDER}/{name}: missing or out of date");
     }
@@ -178,7 +253,7 @@ fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry])
         println!("to repair: {DOCS_COMMAND}");
     }
     if outdated.is_empty() && common.is_empty() {
-        if !committed.is_empty() {
+        if !committed.is_empty() || !faults.is_empty() {
             return Ok(ExitCode::FAILURE);
         }
         println!("all outputs in {} and the documentation are up to date", folder.path().display());
@@ -195,33 +270,37 @@ fn check(options: &Options, entries: &[Box<dyn Entry>], selected: &[&dyn Entry])
 }
 
 fn make(
-    options: &Options,
+    run: &Run<'_>,
     quality: Quality,
-    entries: &[Box<dyn Entry>],
-    selected: &[&dyn Entry],
+    measurements: &Measurements,
     folder: &OutputFolder,
 ) -> anyhow::Result<ExitCode> {
+    let Run { options, entries, selected } = *run;
     let (current, due): (Vec<_>, Vec<_>) = selected
         .iter()
         .copied()
-        .partition(|entry| !options.force && folder.check(entry.id(), quality).is_ok());
+        .partition(|entry| !options.force && state(*entry, quality, folder, measurements).is_ok());
     for entry in &current {
         println!("{:<8} up to date", entry.id());
     }
     let report = Report::new();
-    let finished = work::make_all(&due, quality, folder, threads(options), &report);
+    let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
     report.close();
-    let summary = Summary::of(entries, folder)?;
+    let summary = Summary::of(entries, folder, measurements)?;
     summary.write(folder)?;
     for (id, reason) in &summary.left_out {
         println!("{id}: not in the gallery and in claims.json: {reason}");
         println!("    make it again: {}", options.command(&[id]));
     }
-    Ok(conclude(options, &finished, folder))
+    let faults = faults(options, entries, selected, measurements, &summary);
+    Ok(conclude(options, &finished, folder, &faults))
 }
 
-/// Prints the times and the failures.
-fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder) -> ExitCode {
+/// Prints the times, the measurements that were left out and the failures.
+///
+/// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and a script
+/// must not take it for one that shows them.
+fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder, faults: &[String]) -> ExitCode {
     let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
     made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
     if !made.is_empty() {
@@ -233,8 +312,14 @@ fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder) -> 
     println!("\nfigures, claims.json and index.html are in {}", folder.path().display());
     let failed: Vec<_> =
         finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
+    if !faults.is_empty() {
+        println!();
+    }
+    for fault in faults {
+        println!("{fault}");
+    }
     if failed.is_empty() {
-        return ExitCode::SUCCESS;
+        return if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
     println!("\n{} of {} failed", failed.len(), finished.len());
     for (id, error) in failed {
@@ -257,6 +342,7 @@ mod tests {
             ids: Vec::new(),
             quality,
             out: out.map(PathBuf::from),
+            measured: None,
             list: false,
             check: false,
             docs: false,

@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
-use bouncing_disk_experiments::Quality;
 use bouncing_disk_experiments::experiment::Entry;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::product;
+use bouncing_disk_experiments::{Measurements, Quality};
 
 use crate::report::Report;
 
@@ -29,6 +29,7 @@ pub(crate) struct Finished {
 pub(crate) fn make_all(
     entries: &[&dyn Entry],
     quality: Quality,
+    measurements: &Measurements,
     folder: &OutputFolder,
     threads: usize,
     report: &Report,
@@ -39,7 +40,7 @@ pub(crate) fn make_all(
         for _ in 0..threads.min(entries.len()) {
             scope.spawn(|| {
                 while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let figure = make(*entry, quality, folder, report);
+                    let figure = make(*entry, quality, measurements, folder, report);
                     // A poisoned lock holds intact results: a push is the only thing done under it.
                     finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
                 }
@@ -49,14 +50,24 @@ pub(crate) fn make_all(
     finished.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
-fn make(entry: &dyn Entry, quality: Quality, folder: &OutputFolder, report: &Report) -> Finished {
+fn make(
+    entry: &dyn Entry,
+    quality: Quality,
+    measurements: &Measurements,
+    folder: &OutputFolder,
+    report: &Report,
+) -> Finished {
     let id = entry.id();
     let progress = report.begin(id);
     let start = Instant::now();
-    let made = panic::catch_unwind(AssertUnwindSafe(|| product::make(entry, quality, &progress)));
+    let made =
+        panic::catch_unwind(AssertUnwindSafe(|| product::make(entry, quality, measurements, &progress)));
     let run_time = start.elapsed();
     let result = match made {
-        Ok(Ok(files)) => folder.write_set(id, quality, run_time.as_secs_f64(), &files).map_err(Into::into),
+        Ok(Ok(files)) => {
+            let measured = measurements.digest(entry.measurements());
+            folder.write_set(id, quality, &measured, run_time.as_secs_f64(), &files).map_err(Into::into)
+        }
         Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
         Err(payload) => Err(anyhow!("panicked: {}", message(&*payload))),
     };
@@ -115,7 +126,8 @@ mod tests {
             Failing { id: "c", panics: true },
         ];
         let entries: Vec<&dyn Entry> = entries.iter().map(|entry| entry as &dyn Entry).collect();
-        let mut finished = make_all(&entries, Quality::Draft, &folder, 2, &Report::silent());
+        let mut finished =
+            make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::silent());
         finished.sort_by_key(|figure| figure.id);
         let errors: Vec<_> =
             finished.iter().map(|f| format!("{:#}", f.result.as_ref().expect_err("all fail"))).collect();

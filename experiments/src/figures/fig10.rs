@@ -1,5 +1,7 @@
 //! Fig. 10(a)-(c): transient speed curves of the motor and their fits, for both readings of Table III.
 
+mod measured;
+
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, OrbitEvent};
@@ -17,6 +19,7 @@ use crate::draw::{
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::exponent;
 use crate::ledger;
+use crate::measured::{Layout, Series};
 use crate::paper::{self, SectionFive, TableThree};
 use crate::progress::Progress;
 
@@ -54,6 +57,9 @@ pub struct Fig10Data {
     own_motor_axial_forcing: f64,
     tsujino_axial_forcing: f64,
     tsujino_peak_acceleration: f64,
+    /// A user's own trials.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    measured: Vec<measured::Trial>,
 }
 
 /// One reading of Table III.
@@ -238,6 +244,8 @@ impl Experiment for Fig10 {
     const TITLE: &'static str = "Transient speed curves of the ultrasonic motor";
     const READING: &str = include_str!("fig10/reading.md");
 
+    const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
+
     fn caption(data: &Fig10Data) -> String {
         format!(
             "Transient speed curves of the motor of Table III from rest, each fitted with α̇_ss(1 − e^(−t/t_c)), for \
@@ -246,13 +254,14 @@ impl Experiment for Fig10 {
              1/{} of the time shown); black dashed line: its fit; blue band: mean ± one standard deviation of {} \
              members, which differ in the starting phase and in the seed of a relaunch perturbation below {} g/ω. In (a) the \
              motor repeats a low-period chattering cycle; the dotted line is the fit when perturbations of {} g/ω break \
-             it. The measured curves of the paper's panels (d)–(f) are not in its text.",
+             it. The measured curves of the paper's panels (d)–(f) are not in its text.{}",
             data.section.gravity_m_per_s2,
             data.table_iii.preload_acceleration_m_per_s2,
             MEMBER_INTERVALS,
             data.members,
             data.relaunch_perturbation,
             data.broken_cycle.relaunch_perturbation,
+            measured::caption(&data.measured),
         )
     }
 
@@ -345,12 +354,19 @@ impl Experiment for Fig10 {
                 ),
             table_iii: table,
             section,
+            measured: Vec::new(),
         })
     }
 
+    fn overlay(data: &mut Fig10Data, series: &Series) -> Result<(), ExperimentError> {
+        data.measured = measured::trials(series)?;
+        Ok(())
+    }
+
     fn draw(data: &Fig10Data) -> Result<Figure, ExperimentError> {
-        let height = 300.0;
-        let grid = Grid::new(DOUBLE_COLUMN, height, 2, 3);
+        let rows = if data.measured.is_empty() { 2 } else { 3 };
+        let height = 150.0 * rows as f64;
+        let grid = Grid::new(DOUBLE_COLUMN, height, rows, 3);
         let mut figure = Figure::new(DOUBLE_COLUMN, height);
         for (row, reading) in data.readings.iter().enumerate() {
             for (column, panel) in reading.panels.iter().enumerate() {
@@ -366,6 +382,17 @@ impl Experiment for Fig10 {
                     );
                 }
                 figure = figure.panel(area);
+            }
+        }
+        if let Some(panel) = data.readings.first().and_then(|reading| reading.panels.get(1)) {
+            let model = ExponentialFit {
+                steady_speed: panel.steady_speed_rad_per_s.mean,
+                time_constant: panel.time_constant_s.mean,
+                residual: 0.0,
+            };
+            for trial in &data.measured {
+                let cell = grid.cell(2, trial.trial as usize - 1);
+                figure = figure.panel(measured::panel(cell, &data.measured, trial, model));
             }
         }
         Ok(figure)

@@ -1,6 +1,7 @@
 //! Fig. 11: steady-state speed and stall torque of the motor against preload.
 
 mod data;
+mod measured;
 mod picture;
 mod statements;
 mod trends;
@@ -9,6 +10,7 @@ pub use self::data::Fig11Data;
 use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -21,6 +23,7 @@ impl Experiment for Fig11 {
     const ID: &'static str = "fig11";
     const TITLE: &'static str = "Effect of preload on steady-state speed and stall torque";
     const READING: &str = include_str!("fig11/reading.md");
+    const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
 
     fn caption(data: &Fig11Data) -> String {
         statements::caption(data)
@@ -28,6 +31,11 @@ impl Experiment for Fig11 {
 
     fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
         data::run(quality, progress)
+    }
+
+    fn overlay(data: &mut Fig11Data, series: &Series) -> Result<(), ExperimentError> {
+        data.measured = measured::read(data, series)?;
+        Ok(())
     }
 
     fn draw(data: &Fig11Data) -> Result<Figure, ExperimentError> {

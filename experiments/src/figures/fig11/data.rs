@@ -6,6 +6,7 @@ use bouncing_disk::TransientSettings;
 use bouncing_disk::core::ChatterPolicy;
 use serde::{Deserialize, Serialize};
 
+use super::measured::Measured;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::{Cycle, MotorCase, MotorStatistics, PerturbationEffect, perturbation_table};
 use crate::paper::{self, Preloads};
@@ -36,6 +37,9 @@ pub struct Fig11Data {
     pub(super) perturbations: Vec<Vec<PerturbationEffect>>,
     /// What the rotor does at forcings about 1/π, at full preload.
     pub(super) end_of_bouncing: Vec<Gentle>,
+    /// A user's own measurements.
+    #[serde(default, skip_serializing_if = "Measured::is_empty")]
+    pub(super) measured: Measured,
 }
 
 /// One amplitude at one frequency.
@@ -134,6 +138,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data
         curves,
         perturbations,
         end_of_bouncing,
+        measured: Measured::default(),
     })
 }
 

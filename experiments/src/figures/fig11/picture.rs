@@ -1,6 +1,7 @@
 //! The drawing of Fig. 11.
 
 use super::data::{Curve, Fig11Data, Point};
+use super::measured;
 use crate::draw::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins, Marker,
     Panel, Scatter, Text, Ticks,
@@ -14,6 +15,18 @@ const STYLES: [(Colour, Dash); 3] =
 /// Ends of the axes: speed, and stall acceleration.
 const SPEEDS: (f64, f64) = (-5.0, 43.0);
 const STALLS: (f64, f64) = (-4.0, 36.0);
+
+/// The ends of an axis, extended where measurements lie outside.
+fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values.fold(ends, |(low, high), value| (low.min(value), high.max(value)));
+    let room = 0.05 * (high - low);
+    (if low < ends.0 { low - room } else { low }, if high > ends.1 { high + room } else { high })
+}
+
+/// Ticks at every multiple of `step`, or automatic ones where the axis was extended.
+fn ticks(ends: (f64, f64), original: (f64, f64), step: f64, parts: u32) -> Ticks {
+    if ends == original { Ticks::every(step).minor(parts) } else { Ticks::automatic() }
+}
 
 /// The value and half-length of the error bar of a point.
 type Reading = fn(&Point) -> Option<(f64, f64)>;
@@ -32,16 +45,21 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
     let margins = Margins { left: 42.0, right: 48.0, top: 38.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 2).margins(margins).gaps(54.0, 14.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    let measured = &data.measured.points;
+    let to_mn = 1e3 * data.rotor_mass_kg;
+    let [_, last] = data.printed.preload_accelerations_m_per_s2;
+    let preloads = (0.0, 1.03 * last * to_mn);
+    let preload_ends = extended(preloads, measured.iter().map(|point| point.preload_mn));
+    let speed_ends = extended(SPEEDS, measured.iter().map(|point| point.steady_speed_rad_per_s));
+    let stall_ends = extended(STALLS, measured.iter().map(|point| point.stall_acceleration_rad_per_s2));
     let frequencies = data.printed.frequencies_hz;
     for (row, frequency) in frequencies.into_iter().enumerate() {
         let curves: Vec<&Curve> =
             data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&frequency).is_eq()).collect();
         let frame = |column: usize, letter: &str, y: Axis| {
-            let [_, last] = data.printed.preload_accelerations_m_per_s2;
-            let to_mn = 1e3 * data.rotor_mass_kg;
-            let (low, high) = (0.0, 1.03 * last);
-            let x = Axis::linear(low, high * to_mn).ticks(Ticks::every(80.0).minor(4));
-            let top = Axis::linear(low, high).ticks(Ticks::every(2.0).minor(4));
+            let (low, high) = preload_ends;
+            let x = Axis::linear(low, high).ticks(ticks(preload_ends, preloads, 80.0, 4));
+            let top = Axis::linear(low / to_mn, high / to_mn).ticks(ticks(preload_ends, preloads, 2.0, 4));
             let (x, top) = if row == 0 {
                 (x.without_numbers(), top.label(r"$g$ (m/s$^2$)"))
             } else {
@@ -49,32 +67,45 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             };
             let [from, to] = data.trend_mn();
             Panel::new(grid.cell(row, column)).x(x).top(top).y(y).letter(letter).layer(
-                Band::new([(from, SPEEDS.0, SPEEDS.1), (to, SPEEDS.0, SPEEDS.1)])
-                    .colour(Colour::PALE_GREY)
-                    .opacity(0.6),
+                Band::new([from, to].map(|preload| {
+                    (preload, speed_ends.0.min(stall_ends.0), speed_ends.1.max(stall_ends.1))
+                }))
+                .colour(Colour::PALE_GREY)
+                .opacity(0.6),
             )
         };
-        let speeds = Axis::linear(SPEEDS.0, SPEEDS.1)
-            .ticks(Ticks::every(10.0))
+        let speeds = Axis::linear(speed_ends.0, speed_ends.1)
+            .ticks(ticks(speed_ends, SPEEDS, 10.0, 2))
             .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
-        let stalls = || Axis::linear(STALLS.0, STALLS.1).ticks(Ticks::every(10.0));
+        let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, STALLS, 10.0, 2));
         let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
         let left = frame(0, ["a", "c"][row], speeds)
             .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, steady_speed)))
+            .layers(crosses(data, frequency, |point| point.steady_speed_rad_per_s))
             .layer(label.clone());
         let torque = 1e6 * data.moment_of_inertia();
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
-                Axis::linear(torque * STALLS.0, torque * STALLS.1)
-                    .ticks(Ticks::every(10.0))
+                Axis::linear(torque * stall_ends.0, torque * stall_ends.1)
+                    .ticks(ticks(stall_ends, STALLS, 10.0, 2))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
             .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, stall)))
+            .layers(crosses(data, frequency, |point| point.stall_acceleration_rad_per_s2))
+            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.85, words)))
             .layer(label);
         let left = if row == 0 { left.legend(Legend::at(Corner::TopRight)) } else { left };
         figure = figure.panel(left).panel(right);
     }
     figure
+}
+
+/// The measured points of a panel, if there are any, with the crosses of the paper.
+fn crosses(data: &Fig11Data, frequency_hz: f64, reading: fn(&measured::Point) -> f64) -> Option<Scatter> {
+    let points = data.measured.at(frequency_hz);
+    let read = points.iter().map(|point| (point.preload_mn, reading(point)));
+    let crosses = Scatter::new(read).marker(Marker::Cross).colour(Colour::GREEN).width(1.2).size(6.0);
+    (!points.is_empty()).then(|| crosses.name("measured"))
 }
 
 /// The line of one amplitude, its points with error bars, and those where the motor repeats a low-period cycle.

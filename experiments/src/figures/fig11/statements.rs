@@ -25,7 +25,7 @@ pub(super) fn caption(data: &Fig11Data) -> String {
          20 mm steel ball. Dots with bars: mean and standard deviation of {} members over {} rise times, which differ \
          in the starting phase and in the seed of a relaunch perturbation below {} g/ω; joined to guide the eye. \
          Open circles: {} motors on a low-period chattering cycle, nearly all of a single flight (see the claims). Grey: {from} \
-         to {to} mN. The paper's measurements (crosses) are not in its text.",
+         to {to} mN. The paper's measurements (crosses) are not in its text.{}",
         data.motor.frequency_hz / 1e3,
         data.printed.frequencies_hz[1] / 1e3,
         data.members,
@@ -36,6 +36,7 @@ pub(super) fn caption(data: &Fig11Data) -> String {
             .flat_map(|curve| &curve.points)
             .filter(|point| point.statistics.is_low_period())
             .count(),
+        data.measured.caption(data),
     )
 }
 

@@ -1,0 +1,342 @@
+//! Reads plain numeric comma-separated values, and says exactly where they are malformed.
+//!
+//! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that begin with `#`,
+//! blanks and one pair of double quotes around a field.
+
+use std::collections::BTreeMap;
+
+use super::error::MeasuredError;
+use super::layout::{Column, Layout, Role, whole};
+
+/// The numbers of a file and where they are in it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Rows {
+    /// The rows, in the layout's order of columns.
+    pub(super) values: Vec<Vec<f64>>,
+    /// The line of each row, from 1.
+    pub(super) lines: Vec<usize>,
+    /// The column of each column of the layout, from 1.
+    pub(super) columns: Vec<usize>,
+}
+
+/// Reads all rows of a file.
+pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError> {
+    let text = text(layout, bytes)?;
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(index, line)| (index + 1, line.trim()))
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let (mut line, names) =
+        lines.next().ok_or_else(|| MeasuredError::Empty { file: layout.file, legal: layout.header() })?;
+    let header = Header::read(layout, line, names)?;
+    let mut order = Order::new(layout);
+    let mut rows = Rows {
+        values: Vec::new(),
+        lines: Vec::new(),
+        columns: header.places.iter().map(|place| place + 1).collect(),
+    };
+    for (number, fields) in lines {
+        line = number;
+        let row = header.row(line, fields)?;
+        order.check(&header, line, &row)?;
+        rows.values.push(row);
+        rows.lines.push(line);
+    }
+    if rows.values.len() < layout.least_rows {
+        let (rows, least) = (rows.values.len(), layout.least_rows);
+        return Err(MeasuredError::TooShort { file: layout.file, line, rows, least });
+    }
+    Ok(rows)
+}
+
+fn text<'a>(layout: &Layout, bytes: &'a [u8]) -> Result<&'a str, MeasuredError> {
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let before = &bytes[..error.valid_up_to()];
+        let line_start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |place| place + 1);
+        MeasuredError::NotText {
+            file: layout.file,
+            line: before.iter().filter(|byte| **byte == b'\n').count() + 1,
+            byte: before.len() - line_start + 1,
+        }
+    })?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}
+
+fn fields(line: &str) -> impl Iterator<Item = &str> {
+    line.split(',').map(|field| {
+        let field = field.trim();
+        let unquoted = field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+        unquoted.unwrap_or(field).trim()
+    })
+}
+
+/// Where the layout's columns are in the file.
+struct Header<'a> {
+    layout: &'a Layout,
+    /// For each column of the layout its place in a line.
+    places: Vec<usize>,
+}
+
+impl<'a> Header<'a> {
+    fn read(layout: &'a Layout, line: usize, names: &str) -> Result<Self, MeasuredError> {
+        let file = layout.file;
+        if layout.columns.len() > 1 && !names.contains(',') {
+            let separators = [(';', "semicolons"), ('\t', "tabs")];
+            if let Some((_, found)) = separators.into_iter().find(|(sign, _)| names.contains(*sign)) {
+                return Err(MeasuredError::Separator { file, line, found, legal: layout.header() });
+            }
+        }
+        let mut places: Vec<Option<usize>> = vec![None; layout.columns.len()];
+        for (place, name) in fields(names).enumerate() {
+            let column = place + 1;
+            let Some(index) = layout.columns.iter().position(|column| column.name == name) else {
+                let (value, legal) = (name.to_owned(), layout.header());
+                return Err(MeasuredError::UnknownColumn { file, line, column, value, legal });
+            };
+            if places[index].replace(place).is_some() {
+                return Err(MeasuredError::RepeatedColumn {
+                    file,
+                    line,
+                    column,
+                    name: layout.columns[index].name,
+                });
+            }
+        }
+        let found = places.iter().zip(layout.columns).map(|(place, column)| {
+            place.ok_or_else(|| MeasuredError::MissingColumn {
+                file,
+                line,
+                name: column.name,
+                legal: layout.header(),
+            })
+        });
+        Ok(Self { layout, places: found.collect::<Result<_, _>>()? })
+    }
+
+    fn row(&self, line: usize, text: &str) -> Result<Vec<f64>, MeasuredError> {
+        let file = self.layout.file;
+        let values: Vec<&str> = fields(text).collect();
+        let (fields, columns) = (values.len(), self.places.len());
+        if fields != columns {
+            let column = fields.min(columns) + 1;
+            return Err(MeasuredError::Fields { file, line, column, fields, columns });
+        }
+        let number = |(place, column): (&usize, &Column)| {
+            let (text, name, legal) = (values[*place], column.name, column.range);
+            let column = place + 1;
+            let value: f64 = text.parse().map_err(|_| MeasuredError::NotANumber {
+                file,
+                line,
+                column,
+                name,
+                value: text.to_owned(),
+                legal,
+            })?;
+            if legal.holds(value) {
+                Ok(value)
+            } else {
+                Err(MeasuredError::OutOfRange { file, line, column, name, value, legal })
+            }
+        };
+        self.places.iter().zip(self.layout.columns).map(number).collect()
+    }
+}
+
+/// Checks what rises or stays the same within a trial.
+struct Order {
+    trial: Option<usize>,
+    rising: Option<usize>,
+    constant: Option<usize>,
+    /// The last row of each trial.
+    last: BTreeMap<Option<u32>, Vec<f64>>,
+}
+
+impl Order {
+    fn new(layout: &Layout) -> Self {
+        Self {
+            trial: layout.with_role(Role::Trial),
+            rising: layout.with_role(Role::Rising),
+            constant: layout.with_role(Role::Constant),
+            last: BTreeMap::new(),
+        }
+    }
+
+    fn check(&mut self, header: &Header<'_>, line: usize, row: &[f64]) -> Result<(), MeasuredError> {
+        let file = header.layout.file;
+        let trial = self.trial.and_then(|index| whole(row[index]));
+        if let Some(last) = self.last.get(&trial) {
+            let pair = |index: usize| {
+                let (column, name) = (header.places[index] + 1, header.layout.columns[index].name);
+                (column, name, row[index], last[index])
+            };
+            if let Some((column, name, value, previous)) = self.rising.map(pair)
+                && value <= previous
+            {
+                return Err(MeasuredError::NotRising { file, line, column, name, value, previous, trial });
+            }
+            if let Some((column, name, value, previous)) = self.constant.map(pair)
+                && value.total_cmp(&previous).is_ne()
+            {
+                return Err(MeasuredError::NotConstant { file, line, column, name, value, previous, trial });
+            }
+        }
+        self.last.insert(trial, row.to_vec());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::Range;
+    use super::*;
+
+    const LAYOUT: Layout = Layout {
+        file: "demo.csv",
+        columns: &[
+            Column::trial(3),
+            Column::constant("preload_n", Range::Positive),
+            Column::time(),
+            Column::value("speed_rad_per_s", Range::NotNegative),
+        ],
+        least_rows: 2,
+    };
+
+    const HEADER: &str = "trial,preload_n,time_s,speed_rad_per_s\n";
+
+    fn fault(text: impl AsRef<[u8]>) -> String {
+        rows(&LAYOUT, text.as_ref()).expect_err("malformed").to_string()
+    }
+
+    fn fault_of(lines: &str) -> String {
+        fault(format!("{HEADER}1,0.3,0,20\n{lines}\n"))
+    }
+
+    #[test]
+    fn plain_values_are_read() {
+        let expected = vec![vec![1.0, 0.3, 0.0, 20.5], vec![1.0, 0.3, 0.1, 1e-3], vec![2.0, 0.2, 0.0, 0.0]];
+        let body = "1,0.3,0,20.5\n1,0.3,0.1,1e-3\n2,0.2,0,0\n";
+        assert_eq!(
+            rows(&LAYOUT, format!("{HEADER}{body}").as_bytes()).expect("well formed").values,
+            expected
+        );
+        let windows = format!("\u{feff}{HEADER}{body}").replace('\n', "\r\n");
+        assert_eq!(rows(&LAYOUT, windows.as_bytes()).expect("well formed").values, expected);
+        let decorated = format!(
+            "# of 3 May\n\n{}\n# first\n \"1\" , 0.3,0,20.5 \n1,0.3,0.1,1e-3\n\n2,0.2,0,\"0\"",
+            HEADER.trim_end()
+        );
+        assert_eq!(rows(&LAYOUT, decorated.as_bytes()).expect("well formed").values, expected);
+    }
+
+    #[test]
+    fn columns_may_come_in_any_order_and_trials_alternate() {
+        let text = "time_s,speed_rad_per_s,trial,preload_n\n0,5,2,0.1\n0,6,1,0.3\n1,4,2,0.1\n1,3,1,0.3\n";
+        let read = rows(&LAYOUT, text.as_bytes()).expect("well formed").values;
+        assert_eq!(read[3], [1.0, 0.3, 1.0, 3.0]);
+    }
+
+    #[test]
+    fn a_wrong_header_is_named() {
+        let legal = HEADER.trim_end();
+        assert_eq!(fault(""), format!("demo.csv is empty; its first line must be {legal}"));
+        assert_eq!(
+            fault("\u{feff}\r\n# nothing\n"),
+            format!("demo.csv is empty; its first line must be {legal}")
+        );
+        assert_eq!(
+            fault("trial,preload_n,t,speed_rad_per_s\n"),
+            format!("demo.csv, line 1, column 3: the header has \"t\"; legal is {legal}")
+        );
+        assert_eq!(
+            fault("# mine\ntrial,time_s,speed_rad_per_s\n"),
+            format!("demo.csv, line 2: the header has no column \"preload_n\"; legal is {legal}")
+        );
+        assert_eq!(
+            fault("trial,time_s,time_s,preload_n\n"),
+            "demo.csv, line 1, column 3: the header has \"time_s\" again"
+        );
+        assert_eq!(
+            fault("trial;preload_n;time_s;speed_rad_per_s\n1;0,3;0;20\n"),
+            format!("demo.csv, line 1: columns are separated by semicolons; legal is a comma, as in {legal}")
+        );
+        // Numbers without a header.
+        assert!(fault("1,0.3,0,20\n").starts_with("demo.csv, line 1, column 1: the header has \"1\""));
+    }
+
+    #[test]
+    fn a_malformed_field_is_named_with_line_column_and_legal_values() {
+        assert_eq!(
+            fault_of("1,0.3,0.1,fast"),
+            "demo.csv, line 3, column 4 (speed_rad_per_s): \"fast\" is not a number; legal is a number from 0 to 1e9"
+        );
+        assert!(fault_of("1,0.3,,19").contains("line 3, column 3 (time_s): \"\" is not a number"));
+        for (text, shown) in [
+            ("NaN", "NaN"),
+            ("inf", "inf"),
+            ("-inf", "-inf"),
+            ("1e999", "inf"),
+            ("-2", "-2"),
+            ("2e9", "2000000000"),
+        ] {
+            assert_eq!(
+                fault_of(&format!("1,0.3,0.1,{text}")),
+                format!(
+                    "demo.csv, line 3, column 4 (speed_rad_per_s): {shown} is not legal; legal is a number from 0 to 1e9"
+                )
+            );
+        }
+        assert!(
+            fault_of("1,0,0.1,19")
+                .contains("(preload_n): 0 is not legal; legal is a number from 1e-12 to 1e9")
+        );
+        for trial in ["0", "4", "1.5"] {
+            let text = fault_of(&format!("{trial},0.3,0.1,19"));
+            assert!(
+                text.contains(&format!("(trial): {trial} is not legal; legal is a whole number from 1 to 3")),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_ragged_line_is_named() {
+        assert_eq!(fault_of("1,0.3,0.1"), "demo.csv, line 3, column 4: the line has 3 fields; legal is 4");
+        assert_eq!(
+            fault_of("1,0.3,0.1,19,"),
+            "demo.csv, line 3, column 5: the line has 5 fields; legal is 4"
+        );
+    }
+
+    #[test]
+    fn order_within_a_trial_is_checked() {
+        assert_eq!(
+            fault_of("2,0.1,0,9\n1,0.3,0,19"),
+            "demo.csv, line 4, column 3 (time_s): 0 follows 0; legal is a larger number on every line of trial 1"
+        );
+        assert_eq!(
+            fault_of("1,0.2,0.1,19"),
+            "demo.csv, line 3, column 2 (preload_n): 0.2 follows 0.3; legal is the same number on every line of trial 1"
+        );
+        const SINGLE: Layout =
+            Layout { columns: &[Column::time(), Column::value("d", Range::Positive)], ..LAYOUT };
+        let error = rows(&SINGLE, b"time_s,d\n1,2\n0.5,3\n").expect_err("falls").to_string();
+        assert!(error.ends_with("0.5 follows 1; legal is a larger number on every line"), "{error}");
+    }
+
+    #[test]
+    fn too_few_lines_and_other_encodings_are_refused() {
+        assert_eq!(
+            fault(HEADER),
+            "demo.csv, line 1: the file ends after 0 lines of numbers; legal is 2 or more"
+        );
+        assert_eq!(
+            fault(format!("{HEADER}1,0.3,0,20\n")),
+            "demo.csv, line 2: the file ends after 1 lines of numbers; legal is 2 or more"
+        );
+        let mut latin = HEADER.as_bytes().to_vec();
+        latin.extend(b"1,0.3,\xb5,2\n");
+        assert_eq!(fault(latin), "demo.csv, line 2, byte 7: not text in UTF-8");
+        assert_eq!(fault(b"\xff\xfet\0r\0"), "demo.csv, line 1, byte 1: not text in UTF-8");
+    }
+}
