@@ -109,7 +109,7 @@ pub(super) fn panel(area: Rect, trials: &[Trial], trial: &Trial, model: Exponent
             Corner::TopLeft,
         )
         .x(Axis::linear(0.0, last).label(r"$t$ (s)"))
-        .y(Axis::linear(if low < 0.0 { low - room } else { 0.0 }, high + 2.5 * room)
+        .y(Axis::linear(if low < 0.0 { low - room } else { 0.0 }, high + 8.0 * room)
             .label(r"$\dot{\alpha}$ (rad/s)"))
         .layer(Line::new(points).colour(Colour::BLUE).width(0.6).name("measured"))
         .layer(Line::new(curve(model)).colour(Colour::VERMILION).dash(Dash::Dotted).name("model, (b)"))
