@@ -116,7 +116,7 @@ fn equation_4_static_friction_holds_within_its_envelope() {
             phase: phase(FRAC_PI_2),
             angular_speed: system.dimensionless().platform_angular_speed(phase(FRAC_PI_2)),
         };
-        let mut engine = Engine::new(&system, start, ChatterPolicy::Complete).unwrap();
+        let mut engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
         assert_eq!(engine.state().mode, Mode::Sticking);
         let event = engine.advance().unwrap();
         assert_eq!(
@@ -270,7 +270,7 @@ fn equation_16_period_one_turns_with_the_platform_at_impact() {
             relative_speed: -RESTITUTION * orbit.velocity(),
             angular_speed: 0.0,
         };
-        let mut engine = Engine::new(&system, start, ChatterPolicy::Complete).unwrap();
+        let mut engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
         for _ in 0..500 {
             engine.advance().unwrap().unwrap();
         }
