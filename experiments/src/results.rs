@@ -22,7 +22,7 @@ pub const PICTURES_FOLDER: &str = "figures";
 /// The digests, in the folder of the pictures.
 pub const DIGESTS_FILE: &str = "digests.json";
 /// The largest width of a picture in pixels: keeps each below 300 kB.
-const PICTURE_WIDTH: u16 = 1400;
+const PICTURE_WIDTH: u16 = 1200;
 
 /// Why the page could not be made.
 #[derive(Debug, thiserror::Error)]
