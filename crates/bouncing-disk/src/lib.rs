@@ -34,6 +34,7 @@
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 
 mod arc;
+mod brake;
 mod chatter;
 mod contact;
 mod dimensionless;
@@ -63,6 +64,7 @@ mod transition;
 /// The math core: the vertical motion, its impact map and what is done with it.
 pub use bouncing_disk_core as core;
 
+pub use brake::{Braking, friction_from_braking};
 pub use contact::MAX_CONTACT_EVENTS;
 pub use dimensionless::{Dimensionless, DimensionlessParameters, ForcingParameters};
 pub use disk::{Disk, DiskParameters};
@@ -77,7 +79,7 @@ pub use multi_toss::{
     multi_toss, period_one_rotary_speed,
 };
 pub use phase_time::{PhaseSpan, PhaseTime};
-pub use platform::{Platform, PlatformParameters, Stroke};
+pub use platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
 pub use scales::{Scales, SiEnergy, SiState};
 pub use spell::Spell;
 pub use start::Start;
