@@ -138,7 +138,7 @@ pub trait Experiment: Sync + Send + 'static {
     const TITLE: &'static str;
 
     /// What the figure shows, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number
-    /// of the claim that answers this entry of the [ledger](crate::ledger).
+    /// of the claim that answers this entry of the [ledger].
     const READING: &'static str;
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
@@ -171,7 +171,7 @@ pub trait Experiment: Sync + Send + 'static {
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
     /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
-    /// [ledger](crate::ledger) by its key. Entries of the ledger that have a reason why nothing can be computed are
+    /// [ledger] by its key. Entries of the ledger that have a reason why nothing can be computed are
     /// added by the framework.
     fn claims(data: &Self::Data) -> Vec<Claim>;
 

@@ -17,12 +17,17 @@ pub mod fig10;
 pub mod fig11;
 pub mod fig12;
 pub mod fig13;
+pub mod fig14;
 mod hand_path;
 mod impulse;
 mod motor_case;
 mod regression;
+mod synthetic;
+pub mod table1;
 pub mod table2;
+pub mod table3;
 mod toss_case;
+mod uncertainty;
 
 /// The power of ten of a number that is one.
 fn exponent(value: f64) -> String {

@@ -1,4 +1,4 @@
-//! Printed numbers as typed inputs of the experiments, read from the [ledger](crate::ledger).
+//! Printed numbers as typed inputs of the experiments, read from the [ledger].
 
 use std::f64::consts::PI;
 

@@ -2,7 +2,8 @@
 
 use crate::experiment::{Entry, entry};
 use crate::figures::{
-    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, table2,
+    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, fig14, table1,
+    table2, table3,
 };
 use crate::measured::Layout;
 
@@ -22,7 +23,10 @@ pub fn all() -> Vec<Box<dyn Entry>> {
         entry::<fig11::Fig11>(),
         entry::<fig12::Fig12>(),
         entry::<fig13::Fig13>(),
+        entry::<fig14::Fig14>(),
+        entry::<table1::Table1>(),
         entry::<table2::Table2>(),
+        entry::<table3::Table3>(),
     ]
 }
 
@@ -108,11 +112,8 @@ mod tests {
     fn the_readme_of_the_measurements_states_every_layout() {
         const README: &str = include_str!("../../data/measured/README.md");
         let mut layouts = measurements(&all());
-        let others = [
-            crate::figures::braking_record::DECELERATIONS,
-            crate::figures::braking_record::FRICTIONS,
-            crate::figures::dough_record::DIAMETERS,
-        ];
+        let others =
+            [crate::figures::braking_record::DECELERATIONS, crate::figures::braking_record::FRICTIONS];
         layouts.extend(others.into_iter().filter(|other| !layouts.contains(other)).collect::<Vec<_>>());
         for layout in layouts {
             let (_, section) =

@@ -30,7 +30,10 @@ macro_rules! snapshots {
     };
 }
 
-snapshots![fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, table2];
+snapshots![
+    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, fig14, table1,
+    table2, table3
+];
 
 /// Fields, by experiment, that depend on the last bits of a linear-algebra library. A path names the keys from the
 /// data downwards; indices of arrays are not part of it. Everything below a path is left out of all digests.

@@ -47,12 +47,15 @@ impl Growth {
         let line = StraightLine::through(&points);
         let diameter = line.map_or(f64::NAN, |line| line.intercept + line.slope * first);
         match line {
-            Some(line) if diameter >= SMALLEST => Ok(Self {
-                time_s: points.iter().map(|point| point.0).collect(),
-                relative_diameter: points.iter().map(|point| point.1 / diameter).collect(),
-                slope_per_s: line.slope / diameter,
-                slope_error_per_s: line.slope_error / diameter,
-            }),
+            Some(line) if diameter >= SMALLEST => {
+                let (slope_per_s, slope_error_per_s) = line.slope_over_value_at(first);
+                Ok(Self {
+                    time_s: points.iter().map(|point| point.0).collect(),
+                    relative_diameter: points.iter().map(|point| point.1 / diameter).collect(),
+                    slope_per_s,
+                    slope_error_per_s,
+                })
+            }
             _ => Err(series.unusable(None, GrowthError { diameter })),
         }
     }

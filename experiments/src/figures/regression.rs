@@ -8,6 +8,9 @@ pub(crate) struct StraightLine {
     pub(crate) slope_error: f64,
     /// Share of the variance of y that the line explains.
     pub(crate) explained: f64,
+    /// Mean and variance of x.
+    x_mean: f64,
+    x_variance: f64,
 }
 
 impl StraightLine {
@@ -36,7 +39,19 @@ impl StraightLine {
             intercept: y_mean - slope * x_mean,
             slope_error: (rest / (n - 2.0) / xx).sqrt(),
             explained: if yy > 0.0 { 1.0 - rest / yy } else { 1.0 },
+            x_mean,
+            x_variance: xx / n,
         })
+    }
+
+    /// The slope over the line's own value at `x`, and its standard error: value and slope come from the same points, so
+    /// that their errors are correlated.
+    pub(crate) fn slope_over_value_at(&self, x: f64) -> (f64, f64) {
+        let value = self.intercept + self.slope * x;
+        let relative = self.slope / value;
+        let lever = 1.0 + relative * (self.x_mean - x);
+        let error = self.slope_error / value * (lever * lever + relative * relative * self.x_variance).sqrt();
+        (relative, error)
     }
 }
 

@@ -1,9 +1,10 @@
 //! Table II: the effects of the uncertainties of the inputs on the airborne speed.
 
-use bouncing_disk::core::elementary::atan;
+use bouncing_disk::{LaunchSpeeds, Stroke};
 use serde::{Deserialize, Serialize};
 
 use super::toss_case::TossCase;
+use super::uncertainty::Propagated;
 use crate::claim::{Claim, Verdict};
 use crate::draw::{Figure, Label, ruled_table};
 use crate::experiment::{Experiment, ExperimentError, Quality};
@@ -23,7 +24,9 @@ pub struct Table2Data {
     airborne_speed_rad_per_s: f64,
     effects: Vec<Effect>,
     combined: Combined,
-    from_launch_speeds: FromLaunchSpeeds,
+    /// Effect of c, a_e, a_g, μ and both launch speeds, from which Eq. (14) computes ω and φ_L: the root sum of
+    /// squares.
+    uncertainty_from_launch_speeds_rad_per_s: f64,
 }
 
 /// The effect of one input's uncertainty on the airborne speed, in rad/s.
@@ -56,18 +59,6 @@ struct Combined {
     largest_rad_per_s: f64,
     /// Root sum of squares without the largest.
     without_largest_rad_per_s: f64,
-}
-
-/// ω and φ_L are not measured: Eq. (14) computes them from c, a_e and the launch speeds.
-#[derive(Debug, Serialize, Deserialize)]
-struct FromLaunchSpeeds {
-    angular_frequency_rad_per_s: f64,
-    amplitude_angle_rad: f64,
-    /// Sums of the effects of c, a_e and both launch speeds.
-    angular_frequency_uncertainty_rad_per_s: f64,
-    amplitude_angle_uncertainty_rad: f64,
-    /// Effect on the airborne speed of c, a_e, a_g, μ and both launch speeds, as a root sum of squares.
-    airborne_speed_uncertainty_rad_per_s: f64,
 }
 
 /// Share of an uncertainty over which a slope is taken.
@@ -183,56 +174,32 @@ fn combined(effects: &[Effect]) -> Combined {
     }
 }
 
-/// The toss with ω and φ_L from Eq. (14).
-fn by_launch_speeds(case: &TossCase, axial: f64, rotary: f64) -> TossCase {
-    let rim = case.contact_radius_m * rotary;
-    TossCase {
-        angular_frequency_rad_per_s: (axial * axial + rim * rim).sqrt() / case.stroke_m,
-        amplitude_angle_rad: atan(rim / axial),
-        ..*case
-    }
-}
-
-fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<FromLaunchSpeeds, ExperimentError> {
-    let measured = [
-        table.stroke_m,
-        table.contact_radius_m,
+/// The uncertainty of the airborne speed if the launch speeds are inputs, and ω and φ_L come from Eq. (14).
+fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<f64, ExperimentError> {
+    let inputs = [
         section.launch_speed_m_per_s,
         section.launch_angular_speed_rad_per_s,
+        table.stroke_m,
+        table.contact_radius_m,
         table.gyration_radius_m,
         table.friction,
     ];
-    let case = |shares: [f64; 6]| {
-        let at = |index: usize| measured[index].value + shares[index] * measured[index].uncertainty;
-        let case = TossCase {
-            stroke_m: at(0),
-            contact_radius_m: at(1),
-            gyration_radius_m: at(4),
-            friction: at(5),
-            ..TossCase::from(table)
+    let airborne_speed =
+        |[axial_speed, angular_speed, stroke, contact_radius, gyration_radius, friction]: [f64; 6]| {
+            let launch = LaunchSpeeds { axial_speed, angular_speed, stroke, contact_radius };
+            let stroke = Stroke::from_launch_speeds(launch).map_err(ExperimentError::model)?;
+            TossCase {
+                stroke_m: stroke.stroke,
+                contact_radius_m: contact_radius,
+                angular_frequency_rad_per_s: stroke.angular_frequency,
+                amplitude_angle_rad: stroke.amplitude_angle,
+                gyration_radius_m: gyration_radius,
+                friction,
+                ..TossCase::from(table)
+            }
+            .airborne_speed()
         };
-        by_launch_speeds(&case, at(2), at(3))
-    };
-    let middle = case([0.0; 6]);
-    let (mut frequency, mut angle, mut speeds) = (0.0, 0.0, Vec::new());
-    for index in 0..measured.len() {
-        let moved = |share: f64| {
-            let mut shares = [0.0; 6];
-            shares[index] = share;
-            case(shares)
-        };
-        let (upper, lower) = (moved(1.0), moved(-1.0));
-        frequency += 0.5 * (upper.angular_frequency_rad_per_s - lower.angular_frequency_rad_per_s).abs();
-        angle += 0.5 * (upper.amplitude_angle_rad - lower.amplitude_angle_rad).abs();
-        speeds.push(0.5 * (upper.airborne_speed()? - lower.airborne_speed()?));
-    }
-    Ok(FromLaunchSpeeds {
-        angular_frequency_rad_per_s: middle.angular_frequency_rad_per_s,
-        amplitude_angle_rad: middle.amplitude_angle_rad,
-        angular_frequency_uncertainty_rad_per_s: frequency,
-        amplitude_angle_uncertainty_rad: angle,
-        airborne_speed_uncertainty_rad_per_s: root_sum_of_squares(speeds.into_iter()),
-    })
+    Ok(Propagated::of(inputs, airborne_speed)?.root_sum_of_squares)
 }
 
 /// The change of the airborne speed that a reading of the table takes for an entry.
@@ -277,7 +244,7 @@ impl Experiment for Table2 {
         Ok(Table2Data {
             airborne_speed_rad_per_s: table.airborne_speed()?,
             combined: combined(&effects),
-            from_launch_speeds: from_launch_speeds(&table_i, &section)?,
+            uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
             effects,
             table_i,
             section,
@@ -333,7 +300,6 @@ impl Experiment for Table2 {
         }
         claims.push(readings(data));
         claims.push(together(data));
-        claims.extend(launch_speeds(data));
         claims
     }
 
@@ -425,28 +391,6 @@ fn together(data: &Table2Data) -> Claim {
         combined.sum_rad_per_s,
         combined.largest_rad_per_s,
         combined.without_largest_rad_per_s,
-        data.from_launch_speeds.airborne_speed_uncertainty_rad_per_s
+        data.uncertainty_from_launch_speeds_rad_per_s
     ))
-}
-
-/// Table I's ω and φ_L by Eq. (14).
-fn launch_speeds(data: &Table2Data) -> Vec<Claim> {
-    let launch = &data.from_launch_speeds;
-    let (frequency, angle) = ("table1.angular_frequency", "table1.amplitude_angle");
-    vec![
-        Claim::reading(Table2::ID, frequency, "ω by Eq. (14)", launch.angular_frequency_rad_per_s),
-        Claim::reading(Table2::ID, angle, "φ_L by Eq. (14)", launch.amplitude_angle_rad),
-        Claim::printed_uncertainty(
-            Table2::ID,
-            frequency,
-            "uncertainty of ω: sum of the effects of c, a_e and the launch speeds",
-            launch.angular_frequency_uncertainty_rad_per_s,
-        ),
-        Claim::printed_uncertainty(
-            Table2::ID,
-            angle,
-            "uncertainty of φ_L: sum of the effects of a_e and the launch speeds",
-            launch.amplitude_angle_uncertainty_rad,
-        ),
-    ]
 }

@@ -1,0 +1,110 @@
+//! Table I: the single toss, what its entries were computed from, and what follows from them.
+
+mod data;
+mod derived;
+mod statements;
+
+pub use data::Table1Data;
+
+use crate::claim::Claim;
+use crate::draw::{Figure, Label, ruled_table};
+use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::progress::Progress;
+use crate::table::{Cell, Table};
+
+/// Table I.
+#[derive(Debug)]
+pub struct Table1;
+
+impl Experiment for Table1 {
+    type Data = Table1Data;
+    const ID: &'static str = "table1";
+    const TITLE: &'static str = "Full specification of a single toss";
+    const READING: &str = include_str!("table1/reading.md");
+
+    fn caption(data: &Table1Data) -> String {
+        format!(
+            "The single toss as printed, the entries that the paper computes (φ_L, ω, μ) computed again, and the \
+             quantities that follow from the printed entries. Uncertainties are sums of the effects of the inputs of \
+             a row, each half the difference of both ends. Eq. (14) takes the hand's largest speeds for those at \
+             separation; with the factor cos τ_sep that it leaves out, ω is {:.2} rad/s.",
+            data.separation.corrected_angular_frequency_rad_per_s.value
+        )
+    }
+
+    fn run(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
+        derived::compute()
+    }
+
+    fn draw(data: &Table1Data) -> Result<Figure, ExperimentError> {
+        let header = ["", "printed", "computed", "from"].map(Label::new);
+        let rows: Vec<Vec<Label>> = data
+            .rows
+            .iter()
+            .map(|row| {
+                let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+                let computed = row.computed.as_ref().map_or_else(String::new, |computed| {
+                    let digits = row.decimals;
+                    if computed.sum > 0.0 {
+                        format!("{:.digits$} ± {:.digits$}{unit}", computed.value, computed.sum)
+                    } else {
+                        format!("{:.digits$}{unit}", computed.value)
+                    }
+                });
+                let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
+                vec![
+                    Label::new(&row.label),
+                    Label::plain(&printed),
+                    Label::plain(&computed),
+                    Label::new(&row.origin),
+                ]
+            })
+            .collect();
+        Ok(ruled_table(&header, &rows))
+    }
+
+    fn claims(data: &Table1Data) -> Vec<Claim> {
+        statements::claims(data)
+    }
+
+    fn parameters(data: &Table1Data) -> Vec<(String, String)> {
+        let table = &data.table_i;
+        vec![
+            ("launch speed".to_owned(), format!("{} m/s", data.section.launch_speed_m_per_s)),
+            (
+                "launch angular speed".to_owned(),
+                format!("{} rad/s", data.section.launch_angular_speed_rad_per_s),
+            ),
+            ("slope of slip".to_owned(), format!("{}°", data.slip_slope_deg)),
+            ("c".to_owned(), format!("{} m", table.stroke_m)),
+            ("a_e".to_owned(), format!("{} m", table.contact_radius_m)),
+            ("a_g".to_owned(), format!("{} m", table.gyration_radius_m)),
+            ("g".to_owned(), format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+        ]
+    }
+
+    fn table(data: &Table1Data) -> Option<Table> {
+        let mut table = Table::new([
+            "quantity",
+            "unit",
+            "printed",
+            "computed",
+            "uncertainty, sum of effects",
+            "uncertainty, root sum of squares",
+        ]);
+        for row in &data.rows {
+            let computed = |of: fn(&super::uncertainty::Propagated) -> f64| {
+                row.computed.as_ref().map_or(Cell::Empty, |computed| of(computed).into())
+            };
+            table.push([
+                Cell::from(row.symbol.as_str()),
+                Cell::from(row.unit.as_str()),
+                row.printed.as_deref().map_or(Cell::Empty, Cell::from),
+                computed(|computed| computed.value),
+                computed(|computed| computed.sum),
+                computed(|computed| computed.root_sum_of_squares),
+            ]);
+        }
+        Some(table)
+    }
+}

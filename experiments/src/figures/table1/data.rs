@@ -1,0 +1,83 @@
+//! The data of Table I.
+
+use serde::{Deserialize, Serialize};
+
+use crate::figures::uncertainty::Propagated;
+use crate::paper::{Measured, SectionThree, TableOne};
+
+/// The data of Table I.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Table1Data {
+    pub(super) table_i: TableOne,
+    pub(super) section: SectionThree,
+    pub(super) slip_slope_deg: Measured,
+    pub(super) rows: Vec<Row>,
+    pub(super) computed_entries: ComputedEntries,
+    pub(super) separation: AtSeparation,
+    pub(super) start: AtStart,
+    pub(super) components: Components,
+    pub(super) fastest: Fastest,
+}
+
+/// One line of the table.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Row {
+    pub(super) symbol: String,
+    /// The symbol as it is set in print.
+    pub(super) label: String,
+    pub(super) unit: String,
+    pub(super) printed: Option<String>,
+    pub(super) computed: Option<Propagated>,
+    /// Decimals in the picture.
+    pub(super) decimals: usize,
+    /// The formula or the source, as it is set in print.
+    pub(super) origin: String,
+}
+
+/// The entries of Table I that the paper computes from measurements.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct ComputedEntries {
+    pub(super) angular_frequency_rad_per_s: Propagated,
+    pub(super) amplitude_angle_rad: Propagated,
+    pub(super) friction: Propagated,
+}
+
+/// The hand of Table I as the dough leaves it, θ = 0, without slip.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct AtSeparation {
+    /// cos τ_sep: both speeds over their largest values, which Eq. (14) takes instead.
+    pub(super) speed_share: f64,
+    pub(super) axial_speed_m_per_s: f64,
+    pub(super) angular_speed_rad_per_s: f64,
+    pub(super) largest_axial_speed_m_per_s: f64,
+    pub(super) largest_angular_speed_rad_per_s: f64,
+    /// The ω that gives the measured speeds at τ_sep.
+    pub(super) corrected_angular_frequency_rad_per_s: Propagated,
+}
+
+/// The hand at τ_0 = 3π/2.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct AtStart {
+    pub(super) height_over_amplitude: f64,
+    pub(super) velocity_over_largest: f64,
+}
+
+/// Eq. (13) over amplitude angles from 0 to π/2.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Components {
+    pub(super) angles: usize,
+    /// Largest |sqrt(A² + (a_e Φ)²)/c − 1|.
+    pub(super) stroke_deviation: f64,
+    /// Largest |arctan(a_e Φ/A) − φ_L|.
+    pub(super) angle_deviation_rad: f64,
+}
+
+/// Eq. (15), first part, over phase lags from −π to π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Fastest {
+    pub(super) lags: usize,
+    /// Smallest |β̇|/(ωΦ) at τ = −θ and π − θ.
+    pub(super) smallest_there: f64,
+    /// Largest |β̇|/(ωΦ) at phases further than a hundredth of a period from these.
+    pub(super) largest_elsewhere: f64,
+}

@@ -1,0 +1,61 @@
+//! The data of Table III.
+
+use serde::{Deserialize, Serialize};
+
+use crate::figures::uncertainty::Propagated;
+use crate::paper::BallDrop;
+
+/// The data of Table III.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Table3Data {
+    pub(super) inputs: Vec<Input>,
+    /// How many of the inputs the table prints.
+    pub(super) printed_inputs: usize,
+    pub(super) printed_preload_acceleration_m_per_s2: f64,
+    pub(super) frequency_khz: f64,
+    pub(super) gravity_m_per_s2: f64,
+    /// Preload of the rotor, a steel ball, for the two readings of g.
+    pub(super) preloads_n: [f64; 2],
+    /// Range of preloads in the experiments, as accelerations.
+    pub(super) varied_m_per_s2: [f64; 2],
+    pub(super) derived: Vec<Following>,
+    pub(super) drop: Drop,
+    /// a_g of a solid ball of the rotor's diameter.
+    pub(super) ball_gyration_radius_mm: f64,
+}
+
+/// An input of a simulation, for both readings.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Input {
+    pub(super) symbol: String,
+    /// The symbol as it is set in print.
+    pub(super) label: String,
+    pub(super) unit: String,
+    /// As printed; empty if the table does not print it.
+    pub(super) printed: String,
+    /// "Accurately known" by Sec. V A; the others are estimated.
+    pub(super) known: bool,
+    pub(super) values: [f64; 2],
+}
+
+/// A quantity that follows from the inputs, for both readings.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Following {
+    pub(super) symbol: String,
+    pub(super) label: String,
+    pub(super) unit: String,
+    pub(super) values: [f64; 2],
+    pub(super) origin: String,
+}
+
+/// The drop of the steel ball.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Drop {
+    pub(super) heights: BallDrop,
+    pub(super) restitution: Propagated,
+    pub(super) impact_speed_m_per_s: f64,
+    /// For the heights that are printed as the drop height.
+    pub(super) impact_speed_range_m_per_s: [f64; 2],
+    /// The heights that give the printed speed, as rounded.
+    pub(super) heights_of_printed_speed_m: [f64; 2],
+}
