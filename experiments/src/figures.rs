@@ -13,6 +13,7 @@ pub mod fig05;
 pub mod fig06;
 pub mod fig07;
 pub mod fig08;
+pub mod fig09;
 pub mod fig10;
 pub mod fig11;
 pub mod fig12;

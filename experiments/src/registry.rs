@@ -2,7 +2,7 @@
 
 use crate::experiment::{Entry, entry};
 use crate::figures::{
-    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, fig14, table1,
+    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3,
 };
 use crate::measured::Layout;
@@ -19,6 +19,7 @@ pub fn all() -> Vec<Box<dyn Entry>> {
         entry::<fig06::Fig06>(),
         entry::<fig07::Fig07>(),
         entry::<fig08::Fig08>(),
+        entry::<fig09::Fig09>(),
         entry::<fig10::Fig10>(),
         entry::<fig11::Fig11>(),
         entry::<fig12::Fig12>(),
@@ -100,6 +101,14 @@ mod tests {
     }
 
     #[test]
+    fn every_figure_and_table_of_the_paper_is_there() {
+        let figures = (1..=14).map(|figure| format!("fig{figure:02}"));
+        let expected: Vec<_> = figures.chain((1..=3).map(|table| format!("table{table}"))).collect();
+        let ids: Vec<_> = all().iter().map(|entry| entry.id()).collect();
+        assert_eq!(ids, expected);
+    }
+
+    #[test]
     fn identifiers_in_the_registry_are_unique() {
         let mut ids: Vec<_> = all().iter().map(|entry| entry.id()).collect();
         ids.sort_unstable();
@@ -111,11 +120,7 @@ mod tests {
     #[test]
     fn the_readme_of_the_measurements_states_every_layout() {
         const README: &str = include_str!("../../data/measured/README.md");
-        let mut layouts = measurements(&all());
-        let others =
-            [crate::figures::braking_record::DECELERATIONS, crate::figures::braking_record::FRICTIONS];
-        layouts.extend(others.into_iter().filter(|other| !layouts.contains(other)).collect::<Vec<_>>());
-        for layout in layouts {
+        for layout in measurements(&all()) {
             let (_, section) =
                 README.split_once(&format!("### `{}`", layout.file)).expect("a section of its own");
             let (_, block) = section.split_once("```csv\n").expect("an example");

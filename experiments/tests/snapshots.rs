@@ -31,7 +31,7 @@ macro_rules! snapshots {
 }
 
 snapshots![
-    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig10, fig11, fig12, fig13, fig14, table1,
+    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3
 ];
 

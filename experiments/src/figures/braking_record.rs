@@ -118,10 +118,15 @@ impl Deceleration {
     }
 }
 
-/// The points of [`FRICTIONS`] for the drawing.
-pub fn friction_layers(series: &Series) -> Vec<Layer> {
-    let points = series.rows::<2>().map(|[preload, friction]| (preload, friction));
-    vec![Scatter::new(points).marker(Marker::Cross).colour(Colour::GREEN).name("measured").into()]
+/// The points of [`FRICTIONS`] for the drawing, preloads in the unit of its axis.
+pub fn friction_layers(points: &[(f64, f64)]) -> Vec<Layer> {
+    vec![
+        Scatter::new(points.iter().copied())
+            .marker(Marker::Cross)
+            .colour(Colour::GREEN)
+            .name("measured")
+            .into(),
+    ]
 }
 
 /// Mean, standard deviation and slope of [`FRICTIONS`].
