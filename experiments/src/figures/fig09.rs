@@ -16,8 +16,8 @@ use super::synthetic::Noise;
 use crate::claim::Claim;
 use crate::draw::Marker;
 use crate::draw::{
-    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Rect,
-    Rule, Scatter, Text, Ticks,
+    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Rect, Rule,
+    Scatter, Ticks,
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
@@ -291,29 +291,24 @@ fn speeds(area: Rect, data: &Fig09Data) -> Panel {
     let last = data.curves.iter().map(|curve| curve.stop_s).fold(0.0, f64::max);
     let top = 1.1 * data.first_speed_rad_per_s;
     let mut panel = Panel::new(area)
-        .letter_in("a", Corner::TopRight)
+        .letter_in("a", Corner::BottomLeft)
         .x(Axis::linear(0.0, 1.05 * last).label(r"$t$ (s)"))
         .y(Axis::linear(0.0, top).label(r"$\dot{\alpha}$ (rad/s)").ticks(Ticks::every(10.0)));
     let shown = [0, data.curves.len() / 2, data.curves.len().saturating_sub(1)];
-    for curve in shown.into_iter().filter_map(|index| data.curves.get(index)) {
+    let colours = [Colour::SKY, Colour::GREEN, Colour::VERMILION];
+    for (index, colour) in shown.into_iter().zip(colours) {
+        let Some(curve) = data.curves.get(index) else { continue };
         let points = curve.time_s.iter().copied().zip(curve.angular_speed_rad_per_s.iter().copied());
         let fitted = [(0.0, -curve.brake_rad_per_s2 * curve.stop_s), (curve.stop_s, 0.0)];
+        let name = format!("{:.0} mN", 1e3 * curve.preload_n);
         panel = panel
-            .layer(Line::new(points).colour(Colour::SKY).width(2.4))
-            .layer(Line::new(fitted).dash(Dash::Dashed))
-            .layer(
-                Text::at_data(
-                    0.52 * curve.stop_s,
-                    0.56 * data.first_speed_rad_per_s,
-                    format!("{:.0} mN", 1e3 * curve.preload_n),
-                )
-                .anchor(Anchor::Left),
-            );
+            .layer(Line::new(points).colour(colour).width(2.4).name(name))
+            .layer(Line::new(fitted).dash(Dash::Dashed));
     }
     for measured in &data.measured_decelerations {
         panel = panel.layers(measured.layers());
     }
-    panel
+    panel.legend(Legend::at(Corner::TopRight))
 }
 
 fn frictions(area: Rect, data: &Fig09Data) -> Panel {

@@ -156,7 +156,7 @@ impl Experiment for Fig14 {
         let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
         let mut panel = Panel::new(grid.cell(0, 0))
             .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
-            .y(Axis::linear(0.9, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
+            .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
             .layer(
                 Scatter::new(data.synthetic.iter().copied()).size(1.6).colour(Colour::GREY).name("synthetic"),
             )
