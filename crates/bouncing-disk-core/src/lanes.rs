@@ -8,7 +8,12 @@
 //! that solver (docs/numerics.md, section 9).
 
 mod above;
+mod classify;
+mod fallen;
+mod list;
 mod low;
+mod platform;
+mod search;
 mod short;
 
 use pulp::{Simd, WithSimd};
@@ -17,6 +22,14 @@ use crate::error::Error;
 use crate::flight::Impact;
 use crate::phase::Phase;
 use crate::vibration::Vibration;
+use above::{Fly, Work};
+use classify::{Classify, Kinds};
+use fallen::Fallen;
+use list::List;
+use low::Low;
+use platform::{Below, Platform, Platforms};
+use search::{Search, Times};
+use short::{Fate, Short};
 
 /// Flights in one batch.
 pub(crate) const LANES: usize = 64;
@@ -125,18 +138,6 @@ impl Dispatch {
     }
 }
 
-/// The platforms of all lanes.
-#[derive(Debug, Clone)]
-#[repr(align(64))]
-pub(crate) struct Platforms {
-    pub(crate) peak: Row,
-    separation_angle: Row,
-    separation_speed: Row,
-    separation_depth: Row,
-    doubtful_gap: Row,
-    long_launch_speed: Row,
-}
-
 /// Launches of all lanes.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
@@ -161,38 +162,17 @@ pub(crate) struct Impacts {
     pub(crate) turns: Row,
 }
 
-/// Intermediate results of all lanes.
+/// What the lanes fly above.
 #[derive(Debug, Clone)]
-#[repr(align(64))]
-struct Work {
-    start: Row,
-    free_periods: Row,
-    fall: Row,
-    /// The window that holds the root, and the time reached.
-    lo: Row,
-    hi: Row,
-    time: Row,
-    sin: Row,
-    cos: Row,
-    root: Row,
-    step: Row,
-    inverse: Row,
-    /// Lanes whose flight from above the crests is certain.
-    regular: Mask,
-    /// Lanes near the root at the time reached.
-    near: Mask,
-    /// Lanes that clear the first crest.
-    clears: Mask,
-    /// Lanes that may land within half a radian.
-    slow: Mask,
-    /// Lanes that have been landed, or left to the solver of one flight.
-    settled: Mask,
+enum Ground {
+    Shared(Platform),
+    Own(Box<Platforms>),
 }
 
 /// The flights of a batch of lanes: platforms, launches and the impacts that follow.
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
-    pub(crate) platforms: Platforms,
+    ground: Ground,
     pub(crate) launches: Launches,
     pub(crate) impacts: Impacts,
     vibrations: [Vibration; LANES],
@@ -201,10 +181,27 @@ pub(crate) struct Batch {
 /// Computes the flights of one batch after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Flyer {
-    work: Work,
-    short: short::Short,
-    low: low::Low,
+    scratch: Scratch,
     dispatch: Dispatch,
+}
+
+/// Flights of the lanes by their kind.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+struct Scratch {
+    kinds: Kinds,
+    above: List,
+    slow: List,
+    hard: List,
+    work: Work,
+    short: Short,
+    low: Low,
+    fallen: Fallen,
+    times: Times,
+    /// Packed launches, their platforms and their impacts.
+    launches: Launches,
+    platforms: Platforms,
+    impacts: Impacts,
 }
 
 const ROW: Row = [0.0; LANES];
@@ -212,35 +209,30 @@ const ROW: Row = [0.0; LANES];
 impl Batch {
     /// All lanes on the platform of `vibration`, with an impact at phase 0 and speed 0.
     pub(crate) fn new(vibration: Vibration) -> Self {
-        let mut batch = Self {
-            platforms: Platforms {
-                peak: ROW,
-                separation_angle: ROW,
-                separation_speed: ROW,
-                separation_depth: ROW,
-                doubtful_gap: ROW,
-                long_launch_speed: ROW,
-            },
-            launches: Launches { angle: ROW, sin: ROW, cos: [1.0; LANES], speed: ROW },
-            impacts: Impacts { angle: ROW, sin: ROW, cos: [1.0; LANES], velocity: ROW, turns: ROW },
+        Self {
+            ground: Ground::Shared(Platform::from(&vibration)),
+            launches: Launches::new(),
+            impacts: Impacts::new(),
             vibrations: [vibration; LANES],
-        };
-        for lane in 0..LANES {
-            batch.set_platform(lane, vibration);
         }
-        batch
     }
 
     /// Puts a lane on another platform.
     pub(crate) fn set_platform(&mut self, lane: usize, vibration: Vibration) {
+        if self.vibrations[lane] == vibration {
+            return;
+        }
         self.vibrations[lane] = vibration;
-        let platforms = &mut self.platforms;
-        platforms.peak[lane] = vibration.peak_acceleration();
-        platforms.separation_angle[lane] = vibration.separation_angle;
-        platforms.separation_speed[lane] = vibration.separation_speed;
-        platforms.separation_depth[lane] = vibration.separation_depth;
-        platforms.doubtful_gap[lane] = vibration.doubtful_gap;
-        platforms.long_launch_speed[lane] = vibration.long_launch_speed;
+        match &mut self.ground {
+            Ground::Own(platforms) => platforms.set(lane, Platform::from(&vibration)),
+            Ground::Shared(_) => {
+                let mut platforms = Box::new(Platforms::new());
+                for (lane, vibration) in self.vibrations.iter().enumerate() {
+                    platforms.set(lane, Platform::from(vibration));
+                }
+                self.ground = Ground::Own(platforms);
+            }
+        }
     }
 
     /// Sets the impact of a lane: what its next launch starts from.
@@ -277,25 +269,21 @@ impl Batch {
 
 impl Flyer {
     pub(crate) fn new(set: InstructionSet) -> Self {
-        let work = Work {
-            start: ROW,
-            free_periods: ROW,
-            fall: ROW,
-            lo: ROW,
-            hi: ROW,
-            time: ROW,
-            sin: ROW,
-            cos: ROW,
-            root: ROW,
-            step: ROW,
-            inverse: ROW,
-            regular: [0; LANES],
-            near: [0; LANES],
-            clears: [0; LANES],
-            slow: [0; LANES],
-            settled: [0; LANES],
+        let scratch = Scratch {
+            kinds: Kinds::new(),
+            above: List::new(),
+            slow: List::new(),
+            hard: List::new(),
+            work: Work::new(),
+            short: Short::new(),
+            low: Low::new(),
+            fallen: Fallen::new(),
+            times: Times::new(),
+            launches: Launches::new(),
+            platforms: Platforms::new(),
+            impacts: Impacts::new(),
         };
-        Self { work, short: short::Short::new(), low: low::Low::new(), dispatch: Dispatch::new(set) }
+        Self { scratch, dispatch: Dispatch::new(set) }
     }
 
     /// Runs other loops over lanes with the same instructions.
@@ -306,29 +294,16 @@ impl Flyer {
     /// Computes the impacts of the first `lanes` launches; `failed` is told of each lane that has none, and whose impact is
     /// then meaningless.
     pub(crate) fn fly(&mut self, batch: &mut Batch, lanes: usize, mut failed: impl FnMut(usize, Error)) {
-        let Self { work, short, low, dispatch } = self;
-        let Batch { platforms, launches, impacts, vibrations } = batch;
-        dispatch.run(above::Prepare { platforms, launches, work });
-        if short.collect(lanes, platforms, launches, work) {
-            dispatch.run(short::Solve { short });
-            short.judge(work);
-        }
-        let any_low = low.collect(lanes, platforms, launches, work);
-        if any_low {
-            dispatch.run(low::Solve { low });
-            low.judge(work);
-        }
-        dispatch.run(above::Land { platforms, work, impacts });
-        short.land(impacts);
-        if any_low {
-            low.land(work, impacts);
-        }
-        for (lane, vibration) in vibrations.iter().enumerate().take(lanes) {
-            if work.settled[lane] != 0 {
-                continue;
+        let Batch { ground, launches, impacts, vibrations } = batch;
+        match ground {
+            Ground::Shared(platform) => self.scratch.fly(self.dispatch, platform, launches, lanes, impacts),
+            Ground::Own(platforms) => {
+                self.scratch.fly(self.dispatch, platforms.as_ref(), launches, lanes, impacts);
             }
+        }
+        for lane in self.scratch.hard.iter() {
             let from = Phase::from_parts(launches.angle[lane], launches.sin[lane], launches.cos[lane]);
-            match vibration.impact_after(from, launches.speed[lane]) {
+            match vibrations[lane].impact_after(from, launches.speed[lane]) {
                 Ok(impact) => impacts.set(lane, &impact),
                 Err(error) => failed(lane, error),
             }
@@ -336,7 +311,186 @@ impl Flyer {
     }
 }
 
+impl Scratch {
+    /// Computes the impacts of the first `lanes` launches, except those that it lists as `hard`.
+    fn fly<P: Below>(
+        &mut self,
+        dispatch: Dispatch,
+        platforms: &P,
+        launches: &Launches,
+        lanes: usize,
+        impacts: &mut Impacts,
+    ) {
+        self.hard.clear();
+        dispatch.run(Classify { platforms, launches, kinds: &mut self.kinds });
+        if self.kinds.special {
+            self.sort(lanes);
+            self.fly_slow(dispatch, platforms, launches, impacts);
+            self.fly_low(dispatch, platforms, launches, impacts);
+            self.fly_above(dispatch, platforms, launches, impacts);
+        } else {
+            dispatch.run(Fly { platforms, launches, lanes: LANES, work: &mut self.work, impacts });
+            if self.work.all {
+                return;
+            }
+            self.times.lanes.clear();
+            for lane in 0..lanes {
+                if self.work.landed[lane] == 0 {
+                    self.keep_searching(platforms, lane, lane);
+                }
+            }
+        }
+        self.search_fallen(dispatch, impacts);
+    }
+
+    /// Lists the lanes by kind.
+    fn sort(&mut self, lanes: usize) {
+        let Self { kinds, above, slow, times, .. } = self;
+        let low = &mut times.lanes;
+        above.clear();
+        slow.clear();
+        low.clear();
+        for lane in 0..lanes {
+            let (is_slow, is_low) = (kinds.slow[lane], kinds.low[lane]);
+            slow.push_where(is_slow, lane);
+            low.push_where(is_low & !is_slow, lane);
+            above.push_where(!(is_low | is_slow), lane);
+        }
+    }
+
+    fn fly_slow<P: Below>(
+        &mut self,
+        dispatch: Dispatch,
+        platforms: &P,
+        launches: &Launches,
+        impacts: &mut Impacts,
+    ) {
+        if self.slow.len() == 0 {
+            return;
+        }
+        self.short.pack(&self.slow, platforms, launches);
+        let solve =
+            short::Solve { short: &mut self.short, count: self.slow.len(), impacts: &mut self.impacts };
+        dispatch.run(solve);
+        for (k, lane) in self.slow.iter().enumerate() {
+            match self.short.fate(k) {
+                Fate::Landed => impacts.take(lane, &self.impacts, k),
+                Fate::FliesOn if self.kinds.low[lane] == 0 => self.above.push(lane),
+                Fate::FliesOn => self.times.lanes.push(lane),
+                Fate::Doubtful => self.hard.push(lane),
+            }
+        }
+    }
+
+    fn fly_low<P: Below>(
+        &mut self,
+        dispatch: Dispatch,
+        platforms: &P,
+        launches: &Launches,
+        impacts: &mut Impacts,
+    ) {
+        let Self { low, times, above, hard, .. } = self;
+        if times.lanes.len() == 0 {
+            return;
+        }
+        low.pack(&times.lanes, platforms, launches);
+        let platforms = platforms.packed(&times.lanes, &mut self.platforms);
+        dispatch.run(low::Windows { platforms, low, times });
+        for k in 0..times.lanes.len() {
+            above.push_where(low.clears[k], times.lanes.lane(k));
+            hard.push_where(!(low.clears[k] | times.open[k]), times.lanes.lane(k));
+        }
+        times.keep_open(low);
+        dispatch.run(Search { forms: low, times });
+        dispatch.run(low::Land { low, times, impacts: &mut self.impacts });
+        for (k, lane) in times.lanes.iter().enumerate() {
+            if times.open[k] == 0 {
+                hard.push(lane);
+            } else {
+                impacts.take(lane, &self.impacts, k);
+            }
+        }
+    }
+
+    /// The lanes listed as flying above the crests; those that do not land at once go on to [`Self::search_fallen`].
+    fn fly_above<P: Below>(
+        &mut self,
+        dispatch: Dispatch,
+        platforms: &P,
+        launches: &Launches,
+        impacts: &mut Impacts,
+    ) {
+        self.times.lanes.clear();
+        for (k, lane) in self.above.iter().enumerate() {
+            self.launches.angle[k] = launches.angle[lane];
+            self.launches.sin[k] = launches.sin[lane];
+            self.launches.cos[k] = launches.cos[lane];
+            self.launches.speed[k] = launches.speed[lane];
+        }
+        let below = platforms.packed(&self.above, &mut self.platforms);
+        let (work, landings) = (&mut self.work, &mut self.impacts);
+        let fly =
+            Fly { platforms: below, launches: &self.launches, lanes: self.above.len(), work, impacts: landings };
+        dispatch.run(fly);
+        for k in 0..self.above.len() {
+            let lane = self.above.lane(k);
+            if self.work.landed[k] == 0 {
+                self.keep_searching(platforms, k, lane);
+            } else {
+                impacts.take(lane, &self.impacts, k);
+            }
+        }
+    }
+
+    /// Lists a lane, computed as number `k`, for [`Self::search_fallen`].
+    fn keep_searching<P: Below>(&mut self, platforms: &P, k: usize, lane: usize) {
+        if self.work.regular[k] == 0 {
+            self.hard.push(lane);
+            return;
+        }
+        self.fallen.set(self.times.lanes.len(), platforms.lane(lane), &self.work, k);
+        self.times.lanes.push(lane);
+    }
+
+    fn search_fallen(&mut self, dispatch: Dispatch, impacts: &mut Impacts) {
+        let Self { fallen, times, hard, .. } = self;
+        if times.lanes.len() == 0 {
+            return;
+        }
+        dispatch.run(fallen::Windows { fallen, times });
+        dispatch.run(Search { forms: fallen, times });
+        dispatch.run(fallen::Land { fallen, times, impacts: &mut self.impacts });
+        for (k, lane) in times.lanes.iter().enumerate() {
+            if times.open[k] == 0 {
+                hard.push(lane);
+            } else {
+                impacts.take(lane, &self.impacts, k);
+            }
+        }
+    }
+}
+
+impl Launches {
+    const fn new() -> Self {
+        Self { angle: ROW, sin: ROW, cos: [1.0; LANES], speed: ROW }
+    }
+}
+
 impl Impacts {
+    const fn new() -> Self {
+        Self { angle: ROW, sin: ROW, cos: [1.0; LANES], velocity: ROW, turns: ROW }
+    }
+
+    /// Takes over number `k` of others as the impact of a lane.
+    #[inline(always)]
+    const fn take(&mut self, lane: usize, other: &Self, k: usize) {
+        self.angle[lane] = other.angle[k];
+        self.sin[lane] = other.sin[k];
+        self.cos[lane] = other.cos[k];
+        self.velocity[lane] = other.velocity[k];
+        self.turns[lane] = other.turns[k];
+    }
+
     const fn set(&mut self, lane: usize, impact: &Impact) {
         self.angle[lane] = impact.phase.angle();
         self.sin[lane] = impact.phase.sin();

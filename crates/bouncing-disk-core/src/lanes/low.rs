@@ -5,266 +5,186 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::{Impacts, LANES, Launches, Mask, Platforms, ROW, Row, Work, mask, packed};
-use crate::elementary::{CREST, nearby_wrapped_of_lane, rotated, sin_cos_of_lane};
+use super::list::List;
+use super::platform::Below;
+use super::search::{Forms, Times};
+use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask, packed};
+use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, Jet, LaunchForm};
-
-/// Steps before the last one; flights that need more are left to the solver of one flight.
-const STEPS: usize = 5;
 
 /// Packed launches that may land before the first crest.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Low {
-    count: usize,
-    lane: [u8; LANES],
     angle: Row,
     speed: Row,
-    /// P, and P sin and P cos at launch.
     peak: Row,
+    /// P sin and P cos at launch.
     sine: Row,
     cosine: Row,
-    /// Phase, speed and depth below the crest at the separation; the gap below which a sign is in doubt.
-    separation_angle: Row,
-    separation_depth: Row,
-    doubtful_gap: Row,
-    /// The window that holds the root, and the time reached.
-    lo: Row,
-    hi: Row,
-    time: Row,
-    sin: Row,
-    cos: Row,
+    /// 1 - cos and sin of the time.
     versine: Row,
     sine_of_time: Row,
-    step: Row,
-    /// Launches with a window, and those that clear the crest after all.
-    bracketed: Mask,
-    clears: Mask,
-    near: Mask,
+    /// Launches that clear the crest after all.
+    pub(super) clears: Mask,
 }
 
-/// Windows, and the search in them.
-pub(super) struct Solve<'a> {
+impl Forms for Low {
+    #[inline(always)]
+    fn evaluate(&mut self, times: &mut Times, from: usize, to: usize) {
+        for k in from..to {
+            (times.sin[k], times.cos[k]) = sin_cos_of_lane(self.angle[k] + times.time[k]);
+        }
+        self.turn(times, from, to);
+    }
+
+    #[inline(always)]
+    fn jet(&self, times: &Times, k: usize) -> Jet {
+        let of_time = (self.versine[k], self.sine_of_time[k]);
+        self.form(k).jet_of_pairs(times.time[k], (times.sin[k], times.cos[k]), of_time)
+    }
+
+    #[inline(always)]
+    fn swap(&mut self, a: usize, b: usize) {
+        self.angle.swap(a, b);
+        self.speed.swap(a, b);
+        self.peak.swap(a, b);
+        self.sine.swap(a, b);
+        self.cosine.swap(a, b);
+        self.versine.swap(a, b);
+        self.sine_of_time.swap(a, b);
+    }
+}
+
+/// The windows of packed launches.
+pub(super) struct Windows<'a, P> {
+    pub(super) platforms: &'a P,
     pub(super) low: &'a mut Low,
+    pub(super) times: &'a mut Times,
 }
 
-impl WithSimd for Solve<'_> {
+impl<P: Below> WithSimd for Windows<'_, P> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let low = self.low;
-        let lanes = packed(low.count);
-        window(low, lanes);
-        for _ in 0..STEPS {
-            evaluate(low, lanes);
-            model_step(low, lanes);
-            advance(low, lanes);
-            if low.near[..lanes]
-                .iter()
-                .zip(&low.bracketed[..lanes])
-                .all(|(near, bracketed)| near | !bracketed == u64::MAX)
-            {
-                break;
-            }
-        }
-        evaluate(low, lanes);
-        finish(low, lanes);
-        // The velocity is the slope of the launch form at the impact.
-        for k in 0..lanes {
-            (low.versine[k], low.sine_of_time[k]) = LaunchForm::versine_and_sine_of_lane(low.time[k]);
-        }
+        let Self { platforms, low, times } = self;
+        window(platforms, low, times, packed(times.lanes.len()));
     }
 }
 
 #[inline(always)]
-const fn form(low: &Low, k: usize) -> LaunchForm {
-    LaunchForm {
-        angle: low.angle[k],
-        peak: low.peak[k],
-        speed: low.speed[k],
-        sine: low.sine[k],
-        cosine: low.cosine[k],
-    }
-}
-
-#[inline(always)]
-fn window(low: &mut Low, lanes: usize) {
+fn window<P: Below>(platforms: &P, low: &mut Low, times: &mut Times, lanes: usize) {
+    let mut any_clear = 0;
     for k in 0..lanes {
-        let (angle, speed, peak) = (low.angle[k], low.speed[k], low.peak[k]);
-        let separation = low.separation_angle[k];
-        let rising = CrestForm { peak, angle, speed: speed + low.cosine[k], depth: peak - low.sine[k] };
-        let ahead = separation - angle;
+        let platform = platforms.lane(k);
+        let (angle, speed, peak) = (low.angle[k], low.speed[k], platform.peak);
+        let (sine, cosine) = (low.sine[k], low.cosine[k]);
+        let rising = CrestForm { peak, angle, speed: speed + cosine, depth: peak - sine };
+        let ahead = platform.separation_angle - angle;
         let inflection = if ahead > 0.0 { ahead } else { ahead + TAU };
-        let crest = inflection + (CREST - separation);
-        let at_inflection = rising.gap_over(low.separation_depth[k], inflection);
+        let crest = inflection + (CREST - platform.separation_angle);
+        let at_inflection = rising.gap_over(platform.separation_depth, inflection);
         let at_crest = rising.gap_over(0.0, crest);
-        let doubt = low.doubtful_gap[k];
+        let doubt = platform.doubtful_gap;
         let late = mask(inflection > SHORT_FLIGHT);
         let concave = late & mask(at_inflection < -doubt);
         let certain = mask(crest > SHORT_FLIGHT) & (mask(at_inflection.abs() > doubt) | !late);
         let convex = !concave & mask(at_crest < -doubt);
-        let parabola = 2.0 * speed / (1.0 - low.sine[k]);
+        let parabola = 2.0 * speed / (1.0 - sine);
         let inside = mask(parabola > SHORT_FLIGHT) & mask(parabola < inflection);
         let from = if late != 0 { inflection } else { SHORT_FLIGHT };
-        low.lo[k] = if concave != 0 { SHORT_FLIGHT } else { from };
-        low.hi[k] = if concave != 0 { inflection } else { crest };
+        times.lo[k] = if concave != 0 { SHORT_FLIGHT } else { from };
+        times.hi[k] = if concave != 0 { inflection } else { crest };
         let guess = if inside != 0 { parabola } else { inflection };
-        low.time[k] = if concave != 0 { guess } else { from };
-        low.bracketed[k] = certain & (concave | convex);
-        low.clears[k] = certain & !concave & mask(at_crest > doubt);
-        low.near[k] = 0;
+        times.time[k] = if concave != 0 { guess } else { from };
+        times.open[k] = certain & (concave | convex);
+        let clears = certain & !concave & mask(at_crest > doubt);
+        low.clears[k] = clears;
+        any_clear |= clears;
     }
-    if low.clears[..lanes].iter().all(|&clears| clears == 0) {
+    if any_clear == 0 {
         return;
     }
     // Above the crest, without a dip before it where the gap does not first fall and then rise.
     for k in 0..lanes {
-        low.step[k] = form(low, k).slope_of_lane(low.lo[k]);
-    }
-    for k in 0..lanes {
-        let slope = form(low, k).slope_of_lane(low.hi[k]);
-        low.clears[k] &= mask(low.step[k] >= 0.0) | mask(slope <= 0.0);
+        let form = low.form(k);
+        let (first, last) = (form.slope_of_lane(times.lo[k]), form.slope_of_lane(times.hi[k]));
+        low.clears[k] &= mask(first >= 0.0) | mask(last <= 0.0);
     }
 }
 
-#[inline(always)]
-fn evaluate(low: &mut Low, lanes: usize) {
-    for k in 0..lanes {
-        (low.sin[k], low.cos[k]) = sin_cos_of_lane(low.angle[k] + low.time[k]);
-    }
-    for k in 0..lanes {
-        (low.versine[k], low.sine_of_time[k]) = LaunchForm::versine_and_sine_of_lane(low.time[k]);
-    }
+/// Impacts of packed launches whose search has ended.
+pub(super) struct Land<'a> {
+    pub(super) low: &'a mut Low,
+    pub(super) times: &'a Times,
+    pub(super) impacts: &'a mut Impacts,
 }
 
-#[inline(always)]
-fn jet(low: &Low, k: usize) -> Jet {
-    form(low, k).jet_of_pairs(low.time[k], (low.sin[k], low.cos[k]), (low.versine[k], low.sine_of_time[k]))
-}
+impl WithSimd for Land<'_> {
+    type Output = ();
 
-#[inline(always)]
-fn model_step(low: &mut Low, lanes: usize) {
-    for k in 0..lanes {
-        let jet = jet(low, k);
-        let radicand = jet.radicand();
-        let root = radicand.sqrt();
-        let step = jet.corrected_step(jet.quadratic_step(root), root);
-        let newton = -(jet.gap * (1.0 / jet.slope));
-        low.step[k] = if radicand > 0.0 { step } else { newton };
-    }
-}
-
-#[inline(always)]
-fn advance(low: &mut Low, lanes: usize) {
-    for k in 0..lanes {
-        let jet = jet(low, k);
-        let t = low.time[k];
-        let near = mask(jet.is_near_root());
-        let above = jet.gap > 0.0;
-        let lo = if above { t } else { low.lo[k] };
-        let hi = if above { low.hi[k] } else { t };
-        let next = t + low.step[k];
-        let fine = mask(jet.slope < 0.0) & mask(next > lo) & mask(next < hi);
-        let next = if fine != 0 { next } else { 0.5 * (lo + hi) };
-        low.time[k] = if near != 0 { t } else { next };
-        low.lo[k] = lo;
-        low.hi[k] = hi;
-        low.near[k] = near;
-    }
-}
-
-#[inline(always)]
-fn finish(low: &mut Low, lanes: usize) {
-    for k in 0..lanes {
-        let jet = jet(low, k);
-        low.bracketed[k] &= mask(jet.is_near_root());
-        let delta = jet.last_step();
-        (low.sin[k], low.cos[k]) = rotated(low.sin[k], low.cos[k], delta);
-        low.time[k] += delta;
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { low, times, impacts } = self;
+        let lanes = packed(times.lanes.len());
+        low.turn(times, 0, lanes);
+        for k in 0..lanes {
+            // The velocity is the slope of the launch form at the impact.
+            let time = times.time[k];
+            let velocity = low.form(k).slope_of(time, (low.versine[k], low.sine_of_time[k]));
+            let (wrapped, turns) = nearby_wrapped_of_lane(low.angle[k] + time);
+            impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
+            impacts.sin[k] = times.sin[k];
+            impacts.cos[k] = times.cos[k];
+            impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
+            impacts.turns[k] = turns;
+        }
     }
 }
 
 impl Low {
     pub(super) const fn new() -> Self {
-        const MASK: Mask = [0; LANES];
         Self {
-            count: 0,
-            lane: [0; LANES],
             angle: ROW,
             speed: ROW,
             peak: ROW,
             sine: ROW,
             cosine: ROW,
-            separation_angle: ROW,
-            separation_depth: ROW,
-            doubtful_gap: ROW,
-            lo: ROW,
-            hi: ROW,
-            time: ROW,
-            sin: ROW,
-            cos: ROW,
             versine: ROW,
             sine_of_time: ROW,
-            step: ROW,
-            bracketed: MASK,
-            clears: MASK,
-            near: MASK,
+            clears: [0; LANES],
         }
     }
 
-    /// Packs those of the first `lanes` launches that do not clear the first crest for certain; false if there are none.
-    pub(super) fn collect(
-        &mut self,
-        lanes: usize,
-        platforms: &Platforms,
-        launches: &Launches,
-        work: &Work,
-    ) -> bool {
-        self.count = 0;
-        for lane in 0..lanes {
-            if (work.clears[lane] | work.settled[lane]) != 0 {
-                continue;
-            }
-            let (k, peak) = (self.count, platforms.peak[lane]);
-            self.lane[k] = lane as u8;
+    #[inline(always)]
+    fn form(&self, k: usize) -> LaunchForm {
+        LaunchForm {
+            angle: self.angle[k],
+            peak: self.peak[k],
+            speed: self.speed[k],
+            sine: self.sine[k],
+            cosine: self.cosine[k],
+        }
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, times: &Times, from: usize, to: usize) {
+        for k in from..to {
+            (self.versine[k], self.sine_of_time[k]) = LaunchForm::versine_and_sine_of_lane(times.time[k]);
+        }
+    }
+
+    /// Packs the launches of the lanes listed.
+    pub(super) fn pack<P: Below>(&mut self, lanes: &List, platforms: &P, launches: &Launches) {
+        for (k, lane) in lanes.iter().enumerate() {
+            let peak = platforms.lane(lane).peak;
             self.angle[k] = launches.angle[lane];
             self.speed[k] = launches.speed[lane];
             self.peak[k] = peak;
             self.sine[k] = peak * launches.sin[lane];
             self.cosine[k] = peak * launches.cos[lane];
-            self.separation_angle[k] = platforms.separation_angle[lane];
-            self.separation_depth[k] = platforms.separation_depth[lane];
-            self.doubtful_gap[k] = platforms.doubtful_gap[lane];
-            self.count += 1;
-        }
-        self.count > 0
-    }
-
-    /// Lets the lanes that clear the crest after all take the ordinary path.
-    pub(super) fn judge(&self, work: &mut Work) {
-        for k in 0..self.count {
-            work.clears[usize::from(self.lane[k])] = self.clears[k];
-        }
-    }
-
-    /// Writes the landings.
-    pub(super) fn land(&self, work: &mut Work, impacts: &mut Impacts) {
-        for k in 0..self.count {
-            if self.bracketed[k] == 0 {
-                continue;
-            }
-            let lane = usize::from(self.lane[k]);
-            let time = self.time[k];
-            let velocity = form(self, k).slope_of(time, (self.versine[k], self.sine_of_time[k]));
-            let (wrapped, turns) = nearby_wrapped_of_lane(self.angle[k] + time);
-            impacts.angle[lane] = if wrapped < TAU { wrapped } else { 0.0 };
-            impacts.sin[lane] = self.sin[k];
-            impacts.cos[lane] = self.cos[k];
-            impacts.velocity[lane] = if velocity < 0.0 { velocity } else { 0.0 };
-            impacts.turns[lane] = turns;
-            work.settled[lane] = u64::MAX;
         }
     }
 }

@@ -1,0 +1,105 @@
+//! What the lanes fly above: one platform for all of them, or each its own.
+
+use super::list::List;
+use super::{ROW, Row};
+use crate::vibration::Vibration;
+
+/// What the flights above one platform need to know of it (see [`Vibration`]).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Platform {
+    pub(super) peak: f64,
+    pub(super) separation_angle: f64,
+    pub(super) separation_speed: f64,
+    pub(super) separation_depth: f64,
+    pub(super) doubtful_gap: f64,
+    pub(super) long_launch_speed: f64,
+}
+
+impl From<&Vibration> for Platform {
+    fn from(vibration: &Vibration) -> Self {
+        Self {
+            peak: vibration.peak_acceleration(),
+            separation_angle: vibration.separation_angle,
+            separation_speed: vibration.separation_speed,
+            separation_depth: vibration.separation_depth,
+            doubtful_gap: vibration.doubtful_gap,
+            long_launch_speed: vibration.long_launch_speed,
+        }
+    }
+}
+
+/// The platforms of lanes that have one each.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+pub(crate) struct Platforms {
+    peak: Row,
+    separation_angle: Row,
+    separation_speed: Row,
+    separation_depth: Row,
+    doubtful_gap: Row,
+    long_launch_speed: Row,
+}
+
+/// The platform below a lane. A shared one stays in registers, which is why there are two kinds.
+pub(super) trait Below {
+    fn lane(&self, lane: usize) -> Platform;
+
+    /// The platforms of the `lanes` listed, in the order of the list, where needed in `rows`.
+    fn packed<'a>(&'a self, lanes: &List, rows: &'a mut Platforms) -> &'a Self;
+}
+
+impl Below for Platform {
+    #[inline(always)]
+    fn lane(&self, _: usize) -> Platform {
+        *self
+    }
+
+    #[inline(always)]
+    fn packed<'a>(&'a self, _: &List, _: &'a mut Platforms) -> &'a Self {
+        self
+    }
+}
+
+impl Below for Platforms {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Platform {
+        Platform {
+            peak: self.peak[lane],
+            separation_angle: self.separation_angle[lane],
+            separation_speed: self.separation_speed[lane],
+            separation_depth: self.separation_depth[lane],
+            doubtful_gap: self.doubtful_gap[lane],
+            long_launch_speed: self.long_launch_speed[lane],
+        }
+    }
+
+    fn packed<'a>(&'a self, lanes: &List, rows: &'a mut Self) -> &'a Self {
+        for (k, lane) in lanes.iter().enumerate() {
+            rows.set(k, self.lane(lane));
+        }
+        rows
+    }
+}
+
+impl Platforms {
+    /// Still platforms.
+    pub(super) const fn new() -> Self {
+        Self {
+            peak: ROW,
+            separation_angle: ROW,
+            separation_speed: ROW,
+            separation_depth: ROW,
+            doubtful_gap: ROW,
+            long_launch_speed: ROW,
+        }
+    }
+
+    pub(super) const fn set(&mut self, lane: usize, platform: Platform) {
+        self.peak[lane] = platform.peak;
+        self.separation_angle[lane] = platform.separation_angle;
+        self.separation_speed[lane] = platform.separation_speed;
+        self.separation_depth[lane] = platform.separation_depth;
+        self.doubtful_gap[lane] = platform.doubtful_gap;
+        self.long_launch_speed[lane] = platform.long_launch_speed;
+    }
+}
