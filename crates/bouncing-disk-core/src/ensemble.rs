@@ -22,14 +22,8 @@ use crate::map::{ImpactMap, ImpactState};
 #[derive(Debug, Clone)]
 pub struct Ensemble {
     flyer: Box<Flyer>,
-    blocks: Vec<Block>,
-    len: usize,
-}
-
-#[derive(Debug, Clone)]
-struct Block {
-    batch: Batch,
-    restitution: Row,
+    batches: Vec<Batch>,
+    restitutions: Vec<Row>,
     len: usize,
 }
 
@@ -46,18 +40,20 @@ impl Ensemble {
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
     ) -> Self {
-        let mut ensemble = Self { flyer: Box::new(Flyer::new(set)), blocks: Vec::new(), len: 0 };
+        let mut ensemble =
+            Self { flyer: Box::new(Flyer::new(set)), batches: Vec::new(), restitutions: Vec::new(), len: 0 };
         for (map, state) in starts {
             let lane = ensemble.len % LANES;
             if lane == 0 {
-                let batch = Batch::new(*map.vibration());
-                ensemble.blocks.push(Block { batch, restitution: [0.0; LANES], len: 0 });
+                ensemble.batches.push(Batch::new(*map.vibration()));
+                ensemble.restitutions.push([0.0; LANES]);
             }
-            if let Some(block) = ensemble.blocks.last_mut() {
-                block.batch.set_platform(lane, *map.vibration());
-                block.batch.set_impact(lane, state.phase(), state.velocity());
-                block.restitution[lane] = map.restitution();
-                block.len += 1;
+            if let (Some(batch), Some(restitution)) =
+                (ensemble.batches.last_mut(), ensemble.restitutions.last_mut())
+            {
+                batch.set_platform(lane, *map.vibration());
+                batch.set_impact(lane, state.phase(), state.velocity());
+                restitution[lane] = map.restitution();
             }
             ensemble.len += 1;
         }
@@ -79,11 +75,8 @@ impl Ensemble {
     /// The last impact of an orbit; `None` if there is no such orbit.
     #[must_use]
     pub fn state(&self, index: usize) -> Option<ImpactState> {
-        let block = self.blocks.get(index / LANES)?;
-        (index < self.len).then(|| {
-            let lane = index % LANES;
-            ImpactState::of_impact(block.batch.impact_phase(lane), block.batch.impacts.velocity[lane])
-        })
+        let batch = self.batches.get(index / LANES)?;
+        (index < self.len).then(|| batch.impact_state(index % LANES))
     }
 
     /// Takes every orbit to its next impact.
@@ -92,21 +85,16 @@ impl Ensemble {
     /// The error of the first orbit that has none (see [`ImpactMap::step`]); that orbit stays where it is, the others
     /// go on.
     pub fn step(&mut self) -> Result<(), Error> {
-        let mut first = None;
-        for block in &mut self.blocks {
-            let before = block.batch.impacts.velocity;
-            block.batch.rebound(&block.restitution);
-            let mut failed: u64 = 0;
-            self.flyer.fly(&mut block.batch, block.len, |lane, error| {
-                failed |= 1 << lane;
-                first.get_or_insert(error);
-            });
-            while failed != 0 {
-                let lane = failed.trailing_zeros() as usize;
-                let stays = block.batch.launch_phase(lane);
-                block.batch.set_impact(lane, stays, before[lane]);
-                failed &= failed - 1;
-            }
+        for (batch, restitution) in self.batches.iter_mut().zip(&self.restitutions) {
+            batch.rebound(restitution);
+        }
+        let (mut first, mut failed) = (None, Vec::new());
+        self.flyer.fly(&mut self.batches, self.len, |index, error| {
+            failed.push(index);
+            first.get_or_insert(error);
+        });
+        for index in failed {
+            self.batches[index / LANES].stay(index % LANES);
         }
         first.map_or(Ok(()), Err)
     }

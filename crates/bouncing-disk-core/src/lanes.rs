@@ -10,7 +10,7 @@
 mod above;
 mod classify;
 mod fallen;
-mod list;
+mod flyer;
 mod low;
 mod platform;
 mod search;
@@ -18,18 +18,13 @@ mod short;
 
 use pulp::{Simd, WithSimd};
 
-use crate::error::Error;
 use crate::flight::Impact;
+use crate::map::ImpactState;
 use crate::phase::Phase;
 use crate::vibration::Vibration;
-use above::{Fly, Work};
-use classify::{Classify, Kinds};
-use fallen::Fallen;
-use list::List;
-use low::Low;
 use platform::{Below, Platform, Platforms};
-use search::{Search, Times};
-use short::{Fate, Short};
+
+pub(crate) use flyer::Flyer;
 
 /// Flights in one batch.
 pub(crate) const LANES: usize = 64;
@@ -44,15 +39,20 @@ pub(crate) const fn mask(condition: bool) -> u64 {
     (condition as u64).wrapping_neg()
 }
 
-/// Packed lanes are computed in groups of this many.
-const GROUP: usize = 8;
-
-/// `count` lanes rounded up to whole groups.
-#[inline(always)]
-const fn packed(count: usize) -> usize {
-    let lanes = count.div_ceil(GROUP) * GROUP;
-    if lanes < LANES { lanes } else { LANES }
+/// Runs a stage for some number of flights: all lanes, or fewer if they suffice. Loops of fixed length become vectors
+/// without a remainder.
+macro_rules! wide {
+    ($count:expr, $n:ident => $stage:expr) => {
+        if $count <= 16 {
+            const $n: usize = 16;
+            $stage
+        } else {
+            const $n: usize = $crate::lanes::LANES;
+            $stage
+        }
+    };
 }
+pub(crate) use wide;
 
 /// `value` where the mask is set, else +0.
 #[inline(always)]
@@ -160,6 +160,8 @@ pub(crate) struct Impacts {
     pub(crate) velocity: Row,
     /// How often the phase passed 0 during the flight.
     pub(crate) turns: Row,
+    /// Duration of the flight (rad), or [`Impacts::BETWEEN_PHASES`].
+    pub(crate) duration: Row,
 }
 
 /// What the lanes fly above.
@@ -176,32 +178,21 @@ pub(crate) struct Batch {
     pub(crate) launches: Launches,
     pub(crate) impacts: Impacts,
     vibrations: [Vibration; LANES],
+    /// P of every lane.
+    pub(crate) peaks: Row,
+    /// The velocities of the impacts that the launches follow.
+    velocities_before: Row,
 }
 
-/// Computes the flights of one batch after the other.
-#[derive(Debug, Clone)]
-pub(crate) struct Flyer {
-    scratch: Scratch,
-    dispatch: Dispatch,
+/// A lane of one of several batches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Who {
+    batch: u32,
+    lane: u32,
 }
 
-/// Flights of the lanes by their kind.
-#[derive(Debug, Clone)]
-#[repr(align(64))]
-struct Scratch {
-    kinds: Kinds,
-    above: List,
-    slow: List,
-    hard: List,
-    work: Work,
-    short: Short,
-    low: Low,
-    fallen: Fallen,
-    times: Times,
-    /// Packed launches, their platforms and their impacts.
-    launches: Launches,
-    platforms: Platforms,
-    impacts: Impacts,
+impl Who {
+    const NONE: Self = Self { batch: 0, lane: 0 };
 }
 
 const ROW: Row = [0.0; LANES];
@@ -214,6 +205,8 @@ impl Batch {
             launches: Launches::new(),
             impacts: Impacts::new(),
             vibrations: [vibration; LANES],
+            peaks: [vibration.peak_acceleration(); LANES],
+            velocities_before: ROW,
         }
     }
 
@@ -223,6 +216,7 @@ impl Batch {
             return;
         }
         self.vibrations[lane] = vibration;
+        self.peaks[lane] = vibration.peak_acceleration();
         match &mut self.ground {
             Ground::Own(platforms) => platforms.set(lane, Platform::from(&vibration)),
             Ground::Shared(_) => {
@@ -232,6 +226,15 @@ impl Batch {
                 }
                 self.ground = Ground::Own(platforms);
             }
+        }
+    }
+
+    /// The platform of a lane.
+    #[inline(always)]
+    fn platform(&self, lane: usize) -> Platform {
+        match &self.ground {
+            Ground::Shared(platform) => *platform,
+            Ground::Own(platforms) => platforms.lane(lane),
         }
     }
 
@@ -245,7 +248,8 @@ impl Batch {
 
     /// Sets every launch to what follows the impact of its lane with this coefficient of restitution.
     pub(crate) fn rebound(&mut self, restitution: &Row) {
-        let Self { launches, impacts, .. } = self;
+        let Self { launches, impacts, velocities_before, .. } = self;
+        *velocities_before = impacts.velocity;
         launches.angle = impacts.angle;
         launches.sin = impacts.sin;
         launches.cos = impacts.cos;
@@ -254,6 +258,16 @@ impl Batch {
         {
             *speed = -restitution * velocity;
         }
+    }
+
+    /// Sets the impact of a lane back to the one before [`Self::rebound`].
+    pub(crate) const fn stay(&mut self, lane: usize) {
+        self.set_impact(lane, self.launch_phase(lane), self.velocities_before[lane]);
+    }
+
+    /// The impact of a lane.
+    pub(crate) const fn impact_state(&self, lane: usize) -> ImpactState {
+        ImpactState::of_impact(self.impact_phase(lane), self.impacts.velocity[lane])
     }
 
     /// The phase of a lane's launch.
@@ -267,235 +281,46 @@ impl Batch {
     }
 }
 
-impl Flyer {
-    pub(crate) fn new(set: InstructionSet) -> Self {
-        let scratch = Scratch {
-            kinds: Kinds::new(),
-            above: List::new(),
-            slow: List::new(),
-            hard: List::new(),
-            work: Work::new(),
-            short: Short::new(),
-            low: Low::new(),
-            fallen: Fallen::new(),
-            times: Times::new(),
-            launches: Launches::new(),
-            platforms: Platforms::new(),
-            impacts: Impacts::new(),
-        };
-        Self { scratch, dispatch: Dispatch::new(set) }
-    }
-
-    /// Runs other loops over lanes with the same instructions.
-    pub(crate) const fn dispatch(&self) -> Dispatch {
-        self.dispatch
-    }
-
-    /// Computes the impacts of the first `lanes` launches; `failed` is told of each lane that has none, and whose impact is
-    /// then meaningless.
-    pub(crate) fn fly(&mut self, batch: &mut Batch, lanes: usize, mut failed: impl FnMut(usize, Error)) {
-        let Batch { ground, launches, impacts, vibrations } = batch;
-        match ground {
-            Ground::Shared(platform) => self.scratch.fly(self.dispatch, platform, launches, lanes, impacts),
-            Ground::Own(platforms) => {
-                self.scratch.fly(self.dispatch, platforms.as_ref(), launches, lanes, impacts);
-            }
-        }
-        for lane in self.scratch.hard.iter() {
-            let from = Phase::from_parts(launches.angle[lane], launches.sin[lane], launches.cos[lane]);
-            match vibrations[lane].impact_after(from, launches.speed[lane]) {
-                Ok(impact) => impacts.set(lane, &impact),
-                Err(error) => failed(lane, error),
-            }
-        }
-    }
-}
-
-impl Scratch {
-    /// Computes the impacts of the first `lanes` launches, except those that it lists as `hard`.
-    fn fly<P: Below>(
-        &mut self,
-        dispatch: Dispatch,
-        platforms: &P,
-        launches: &Launches,
-        lanes: usize,
-        impacts: &mut Impacts,
-    ) {
-        self.hard.clear();
-        dispatch.run(Classify { platforms, launches, kinds: &mut self.kinds });
-        if self.kinds.special {
-            self.sort(lanes);
-            self.fly_slow(dispatch, platforms, launches, impacts);
-            self.fly_low(dispatch, platforms, launches, impacts);
-            self.fly_above(dispatch, platforms, launches, impacts);
-        } else {
-            dispatch.run(Fly { platforms, launches, lanes: LANES, work: &mut self.work, impacts });
-            if self.work.all {
-                return;
-            }
-            self.times.lanes.clear();
-            for lane in 0..lanes {
-                if self.work.landed[lane] == 0 {
-                    self.keep_searching(platforms, lane, lane);
-                }
-            }
-        }
-        self.search_fallen(dispatch, impacts);
-    }
-
-    /// Lists the lanes by kind.
-    fn sort(&mut self, lanes: usize) {
-        let Self { kinds, above, slow, times, .. } = self;
-        let low = &mut times.lanes;
-        above.clear();
-        slow.clear();
-        low.clear();
-        for lane in 0..lanes {
-            let (is_slow, is_low) = (kinds.slow[lane], kinds.low[lane]);
-            slow.push_where(is_slow, lane);
-            low.push_where(is_low & !is_slow, lane);
-            above.push_where(!(is_low | is_slow), lane);
-        }
-    }
-
-    fn fly_slow<P: Below>(
-        &mut self,
-        dispatch: Dispatch,
-        platforms: &P,
-        launches: &Launches,
-        impacts: &mut Impacts,
-    ) {
-        if self.slow.len() == 0 {
-            return;
-        }
-        self.short.pack(&self.slow, platforms, launches);
-        let solve =
-            short::Solve { short: &mut self.short, count: self.slow.len(), impacts: &mut self.impacts };
-        dispatch.run(solve);
-        for (k, lane) in self.slow.iter().enumerate() {
-            match self.short.fate(k) {
-                Fate::Landed => impacts.take(lane, &self.impacts, k),
-                Fate::FliesOn if self.kinds.low[lane] == 0 => self.above.push(lane),
-                Fate::FliesOn => self.times.lanes.push(lane),
-                Fate::Doubtful => self.hard.push(lane),
-            }
-        }
-    }
-
-    fn fly_low<P: Below>(
-        &mut self,
-        dispatch: Dispatch,
-        platforms: &P,
-        launches: &Launches,
-        impacts: &mut Impacts,
-    ) {
-        let Self { low, times, above, hard, .. } = self;
-        if times.lanes.len() == 0 {
-            return;
-        }
-        low.pack(&times.lanes, platforms, launches);
-        let platforms = platforms.packed(&times.lanes, &mut self.platforms);
-        dispatch.run(low::Windows { platforms, low, times });
-        for k in 0..times.lanes.len() {
-            above.push_where(low.clears[k], times.lanes.lane(k));
-            hard.push_where(!(low.clears[k] | times.open[k]), times.lanes.lane(k));
-        }
-        times.keep_open(low);
-        dispatch.run(Search { forms: low, times });
-        dispatch.run(low::Land { low, times, impacts: &mut self.impacts });
-        for (k, lane) in times.lanes.iter().enumerate() {
-            if times.open[k] == 0 {
-                hard.push(lane);
-            } else {
-                impacts.take(lane, &self.impacts, k);
-            }
-        }
-    }
-
-    /// The lanes listed as flying above the crests; those that do not land at once go on to [`Self::search_fallen`].
-    fn fly_above<P: Below>(
-        &mut self,
-        dispatch: Dispatch,
-        platforms: &P,
-        launches: &Launches,
-        impacts: &mut Impacts,
-    ) {
-        self.times.lanes.clear();
-        for (k, lane) in self.above.iter().enumerate() {
-            self.launches.angle[k] = launches.angle[lane];
-            self.launches.sin[k] = launches.sin[lane];
-            self.launches.cos[k] = launches.cos[lane];
-            self.launches.speed[k] = launches.speed[lane];
-        }
-        let below = platforms.packed(&self.above, &mut self.platforms);
-        let (work, landings) = (&mut self.work, &mut self.impacts);
-        let fly =
-            Fly { platforms: below, launches: &self.launches, lanes: self.above.len(), work, impacts: landings };
-        dispatch.run(fly);
-        for k in 0..self.above.len() {
-            let lane = self.above.lane(k);
-            if self.work.landed[k] == 0 {
-                self.keep_searching(platforms, k, lane);
-            } else {
-                impacts.take(lane, &self.impacts, k);
-            }
-        }
-    }
-
-    /// Lists a lane, computed as number `k`, for [`Self::search_fallen`].
-    fn keep_searching<P: Below>(&mut self, platforms: &P, k: usize, lane: usize) {
-        if self.work.regular[k] == 0 {
-            self.hard.push(lane);
-            return;
-        }
-        self.fallen.set(self.times.lanes.len(), platforms.lane(lane), &self.work, k);
-        self.times.lanes.push(lane);
-    }
-
-    fn search_fallen(&mut self, dispatch: Dispatch, impacts: &mut Impacts) {
-        let Self { fallen, times, hard, .. } = self;
-        if times.lanes.len() == 0 {
-            return;
-        }
-        dispatch.run(fallen::Windows { fallen, times });
-        dispatch.run(Search { forms: fallen, times });
-        dispatch.run(fallen::Land { fallen, times, impacts: &mut self.impacts });
-        for (k, lane) in times.lanes.iter().enumerate() {
-            if times.open[k] == 0 {
-                hard.push(lane);
-            } else {
-                impacts.take(lane, &self.impacts, k);
-            }
-        }
-    }
-}
-
 impl Launches {
     const fn new() -> Self {
         Self { angle: ROW, sin: ROW, cos: [1.0; LANES], speed: ROW }
     }
+
+    /// Takes over the launch of a lane as number `k`.
+    #[inline(always)]
+    const fn take(&mut self, k: usize, others: &Self, lane: usize) {
+        self.angle[k] = others.angle[lane];
+        self.sin[k] = others.sin[lane];
+        self.cos[k] = others.cos[lane];
+        self.speed[k] = others.speed[lane];
+    }
 }
 
 impl Impacts {
+    /// In place of a duration: what the phases of launch and impact and the turns make it (`flight::landed`).
+    pub(crate) const BETWEEN_PHASES: f64 = -1.0;
+
     const fn new() -> Self {
-        Self { angle: ROW, sin: ROW, cos: [1.0; LANES], velocity: ROW, turns: ROW }
+        Self { angle: ROW, sin: ROW, cos: [1.0; LANES], velocity: ROW, turns: ROW, duration: ROW }
     }
 
     /// Takes over number `k` of others as the impact of a lane.
     #[inline(always)]
-    const fn take(&mut self, lane: usize, other: &Self, k: usize) {
-        self.angle[lane] = other.angle[k];
-        self.sin[lane] = other.sin[k];
-        self.cos[lane] = other.cos[k];
-        self.velocity[lane] = other.velocity[k];
-        self.turns[lane] = other.turns[k];
+    const fn take(&mut self, lane: usize, others: &Self, k: usize) {
+        self.angle[lane] = others.angle[k];
+        self.sin[lane] = others.sin[k];
+        self.cos[lane] = others.cos[k];
+        self.velocity[lane] = others.velocity[k];
+        self.turns[lane] = others.turns[k];
+        self.duration[lane] = others.duration[k];
     }
 
-    const fn set(&mut self, lane: usize, impact: &Impact) {
+    fn set(&mut self, lane: usize, impact: &Impact) {
         self.angle[lane] = impact.phase.angle();
         self.sin[lane] = impact.phase.sin();
         self.cos[lane] = impact.phase.cos();
         self.velocity[lane] = impact.velocity;
         self.turns[lane] = impact.turns as f64;
+        self.duration[lane] = impact.duration();
     }
 }

@@ -14,6 +14,9 @@ use crate::map::{ImpactMap, ImpactState};
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
 
+/// Batches that are computed together: enough of each kind of flight to fill vectors.
+const BATCHES: usize = 8;
+
 /// An impact of a known orbit.
 #[derive(Debug, Clone, Copy)]
 struct Target {
@@ -85,45 +88,51 @@ impl ImpactMap {
             map: self,
             known,
             settings,
-            batch: Box::new(Batch::new(*self.vibration())),
-            cell: [0; LANES],
-            impacts: [0; LANES],
+            batches: vec![Batch::new(*self.vibration()); BATCHES],
+            cell: vec![0; BATCHES * LANES],
+            impacts: vec![0; BATCHES * LANES],
             lanes: 0,
             next: 0,
         };
         let mut flyer = Box::new(Flyer::new(InstructionSet::best()));
         let (mut rests, mut near) = ([0; LANES], [0; LANES]);
         let restitution = [self.restitution(); LANES];
-        while lockstep.lanes < LANES && lockstep.load(lockstep.lanes, &start, cells)? {
+        while lockstep.lanes < BATCHES * LANES && lockstep.load(lockstep.lanes, &start, cells)? {
             lockstep.lanes += 1;
         }
         while lockstep.lanes > 0 {
             let mut failure = None;
-            lockstep.batch.rebound(&restitution);
-            flyer.fly(&mut lockstep.batch, lockstep.lanes, |_, error| failure = Some(error));
+            let used = lockstep.lanes.div_ceil(LANES);
+            for batch in &mut lockstep.batches[..used] {
+                batch.rebound(&restitution);
+            }
+            flyer.fly(&mut lockstep.batches[..used], lockstep.lanes, |_, error| failure = Some(error));
             if let Some(error) = failure {
                 return Err(error);
             }
-            flyer.dispatch().run(Screen {
-                impacts: &lockstep.batch.impacts,
-                targets: &targets,
-                peak: self.vibration().peak_acceleration(),
-                restitution: self.restitution(),
-                rests: &mut rests,
-                near: &mut near,
-            });
             // From the last lane, so that a lane moved into a gap has been judged.
-            for lane in (0..lockstep.lanes).rev() {
-                lockstep.impacts[lane] += 1;
-                let decided = match (rests[lane] | near[lane]) != 0 {
-                    true => self.settles(lockstep.state(lane), known, settings.policy),
-                    false => None,
-                };
-                let spent = lockstep.impacts[lane] >= settings.max_impacts;
-                if let Some(label) = decided.or(spent.then_some(UNDECIDED)) {
-                    cells[lockstep.cell[lane]] = label;
-                    if !lockstep.load(lane, &start, cells)? {
-                        lockstep.retire(lane);
+            for number in (0..used).rev() {
+                flyer.dispatch().run(Screen {
+                    impacts: &lockstep.batches[number].impacts,
+                    targets: &targets,
+                    peak: self.vibration().peak_acceleration(),
+                    restitution: self.restitution(),
+                    rests: &mut rests,
+                    near: &mut near,
+                });
+                let first = number * LANES;
+                for lane in (first..lockstep.lanes.min(first + LANES)).rev() {
+                    lockstep.impacts[lane] += 1;
+                    let decided = match (rests[lane - first] | near[lane - first]) != 0 {
+                        true => self.settles(lockstep.state(lane), known, settings.policy),
+                        false => None,
+                    };
+                    let spent = lockstep.impacts[lane] >= settings.max_impacts;
+                    if let Some(label) = decided.or(spent.then_some(UNDECIDED)) {
+                        cells[lockstep.cell[lane]] = label;
+                        if !lockstep.load(lane, &start, cells)? {
+                            lockstep.retire(lane);
+                        }
                     }
                 }
             }
@@ -137,10 +146,10 @@ struct Lockstep<'a> {
     map: &'a ImpactMap,
     known: &'a [KnownOrbit],
     settings: BasinSettings,
-    batch: Box<Batch>,
+    batches: Vec<Batch>,
     /// The cell of each lane, and the impacts since its start.
-    cell: [usize; LANES],
-    impacts: [u32; LANES],
+    cell: Vec<usize>,
+    impacts: Vec<u32>,
     /// Lanes in use: the first ones.
     lanes: usize,
     /// The first cell not begun.
@@ -164,7 +173,7 @@ impl Lockstep<'_> {
             match decided.or(spent) {
                 Some(label) => cells[index] = label,
                 None => {
-                    self.batch.set_impact(lane, state.phase(), state.velocity());
+                    self.batches[lane / LANES].set_impact(lane % LANES, state.phase(), state.velocity());
                     self.cell[lane] = index;
                     self.impacts[lane] = 0;
                     return Ok(true);
@@ -178,13 +187,13 @@ impl Lockstep<'_> {
     fn retire(&mut self, lane: usize) {
         self.lanes -= 1;
         let last = self.state(self.lanes);
-        self.batch.set_impact(lane, last.phase(), last.velocity());
+        self.batches[lane / LANES].set_impact(lane % LANES, last.phase(), last.velocity());
         self.cell[lane] = self.cell[self.lanes];
         self.impacts[lane] = self.impacts[self.lanes];
     }
 
     fn state(&self, lane: usize) -> ImpactState {
-        ImpactState::of_impact(self.batch.impact_phase(lane), self.batch.impacts.velocity[lane])
+        self.batches[lane / LANES].impact_state(lane % LANES)
     }
 }
 

@@ -54,48 +54,37 @@ impl Work {
     }
 }
 
-/// The flights of the first `lanes` launches: two evaluations of the gap and the last step. Lanes that need more are
-/// left to the search.
-pub(super) struct Fly<'a, P> {
+/// Flights: two evaluations of the gap and the last step. Lanes that need more are left to the search.
+pub(super) struct Fly<'a, P, const N: usize> {
     pub(super) platforms: &'a P,
     pub(super) launches: &'a Launches,
-    pub(super) lanes: usize,
     pub(super) work: &'a mut Work,
     pub(super) impacts: &'a mut Impacts,
 }
 
-impl<P: Below> WithSimd for Fly<'_, P> {
+impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, launches, lanes, work, impacts } = self;
-        if lanes == LANES {
-            fly(platforms, launches, LANES, work, impacts);
-        } else {
-            fly(platforms, launches, super::packed(lanes), work, impacts);
+        let Self { platforms, launches, work, impacts } = self;
+        fall_to_crest_height::<P, N>(platforms, launches, work);
+        for k in 0..N {
+            (work.sin[k], work.cos[k]) = sin_cos_of_lane(work.start[k]);
         }
+        first_step::<P, N>(platforms, work);
+        for k in 0..N {
+            (work.sin[k], work.cos[k]) = sin_cos_of_lane(work.start[k] + work.time[k]);
+        }
+        last_step::<P, N>(platforms, work);
+        impact::<P, N>(platforms, work, impacts);
     }
-}
-
-#[inline(always)]
-fn fly<P: Below>(platforms: &P, launches: &Launches, lanes: usize, work: &mut Work, impacts: &mut Impacts) {
-    fall_to_crest_height(platforms, launches, lanes, work);
-    for k in 0..lanes {
-        (work.sin[k], work.cos[k]) = sin_cos_of_lane(work.start[k]);
-    }
-    first_step(platforms, lanes, work);
-    for k in 0..lanes {
-        (work.sin[k], work.cos[k]) = sin_cos_of_lane(work.start[k] + work.time[k]);
-    }
-    last_step(platforms, lanes, work);
-    impact(platforms, lanes, work, impacts);
 }
 
 /// Down to the height of the crests the disk flies free.
 #[inline(always)]
-fn fall_to_crest_height<P: Below>(platforms: &P, launches: &Launches, lanes: usize, work: &mut Work) {
-    for k in 0..lanes {
+fn fall_to_crest_height<P: Below, const N: usize>(platforms: &P, launches: &Launches, work: &mut Work) {
+    for k in 0..N {
         let peak = platforms.lane(k).peak;
         let disk_speed = launches.speed[k] + peak * launches.cos[k];
         let depth = peak - peak * launches.sin[k];
@@ -129,17 +118,17 @@ fn form<P: Below>(platforms: &P, work: &Work, k: usize) -> CrestForm {
 
 /// The first step of the search of one flight; none where the root is near.
 #[inline(always)]
-fn first_step<P: Below>(platforms: &P, lanes: usize, work: &mut Work) {
-    for k in 0..lanes {
+fn first_step<P: Below, const N: usize>(platforms: &P, work: &mut Work) {
+    for k in 0..N {
         work.root[k] = first_jet(platforms, work, k).radicand().sqrt();
     }
-    for k in 0..lanes {
+    for k in 0..N {
         work.step[k] = first_jet(platforms, work, k).quadratic_step(work.root[k]);
     }
-    for k in 0..lanes {
+    for k in 0..N {
         work.step[k] = first_jet(platforms, work, k).corrected_step(work.step[k], work.root[k]);
     }
-    for k in 0..lanes {
+    for k in 0..N {
         let jet = first_jet(platforms, work, k);
         let (start, step) = (work.start[k], work.step[k]);
         let near = mask(jet.is_near_root());
@@ -157,24 +146,24 @@ fn first_step<P: Below>(platforms: &P, lanes: usize, work: &mut Work) {
 }
 
 #[inline(always)]
-fn last_step<P: Below>(platforms: &P, lanes: usize, work: &mut Work) {
-    for k in 0..lanes {
+fn last_step<P: Below, const N: usize>(platforms: &P, work: &mut Work) {
+    for k in 0..N {
         let jet = jet(platforms, work, k);
         let inverse = 1.0 / jet.slope;
         work.inverse[k] = inverse;
         work.step[k] = -(jet.gap * inverse);
         work.landed[k] &= mask(jet.is_near_root());
     }
-    for k in 0..lanes {
+    for k in 0..N {
         let jet = jet(platforms, work, k);
         work.step[k] = jet.reverted(work.step[k], work.inverse[k]);
     }
 }
 
 #[inline(always)]
-fn impact<P: Below>(platforms: &P, lanes: usize, work: &mut Work, impacts: &mut Impacts) {
+fn impact<P: Below, const N: usize>(platforms: &P, work: &mut Work, impacts: &mut Impacts) {
     let mut all = u64::MAX;
-    for k in 0..lanes {
+    for k in 0..N {
         let delta = work.step[k];
         let time = work.time[k] + delta;
         let (sin, cos) = rotated(work.sin[k], work.cos[k], delta);
@@ -185,6 +174,7 @@ fn impact<P: Below>(platforms: &P, lanes: usize, work: &mut Work, impacts: &mut 
         impacts.cos[k] = cos;
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
         impacts.turns[k] = work.free_periods[k] + turns;
+        impacts.duration[k] = Impacts::BETWEEN_PHASES;
         all &= work.landed[k];
     }
     work.all = all == u64::MAX;

@@ -58,7 +58,8 @@ impl<P: Below> WithSimd for Classify<'_, P> {
             let doubtful = platform.doubtful_gap;
             let above = mask(rising.gap_over(platform.separation_depth, inflection) > doubtful)
                 & mask(rising.gap_over(0.0, crest) > doubtful);
-            let no_dip = mask(disk_speed - inflection >= platform.separation_speed) | mask(disk_speed <= crest);
+            let no_dip =
+                mask(disk_speed - inflection >= platform.separation_speed) | mask(disk_speed <= crest);
             kinds.low[lane] = !(from_falling_away | (above & no_dip));
         }
         for lane in 0..LANES {
@@ -67,7 +68,8 @@ impl<P: Below> WithSimd for Classify<'_, P> {
             let (sine, cosine) = (peak * launches.sin[lane], peak * launches.cos[lane]);
             let pull = 1.0 - sine;
             let drift = if cosine < 0.0 { -cosine } else { 0.0 };
-            let returns = 0.25 * (if pull > 0.0 { pull } else { 0.0 }) + (DRIFT_SHARE * drift + BEND_SHARE * peak);
+            let returns =
+                0.25 * (if pull > 0.0 { pull } else { 0.0 }) + (DRIFT_SHARE * drift + BEND_SHARE * peak);
             kinds.slow[lane] = mask(speed < platform.long_launch_speed) & mask(speed < returns);
         }
         let special = kinds.slow.iter().zip(&kinds.low).fold(0, |any, (slow, low)| any | slow | low);

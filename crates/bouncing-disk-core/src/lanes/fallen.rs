@@ -7,11 +7,11 @@ use pulp::{Simd, WithSimd};
 use super::above::Work;
 use super::platform::Platform;
 use super::search::{Forms, Times};
-use super::{Impacts, ROW, Row, kept, mask, packed};
+use super::{Impacts, LANES, Mask, ROW, Row, kept, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::gap::{CrestForm, Jet};
 
-/// Packed arcs from the height of the crests.
+/// Arcs from the height of the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Fallen {
@@ -19,121 +19,130 @@ pub(super) struct Fallen {
     start: Row,
     fall: Row,
     free_periods: Row,
-    /// Where the curvature of the gap is negative again, and the platform's speed and depth there.
-    retention: Row,
-    retention_speed: Row,
-    retention_depth: Row,
-    doubtful_gap: Row,
 }
 
 impl Forms for Fallen {
     #[inline(always)]
-    fn evaluate(&mut self, times: &mut Times, from: usize, to: usize) {
-        for k in from..to {
+    fn evaluate<const N: usize>(&mut self, times: &mut Times) {
+        for k in 0..N {
             (times.sin[k], times.cos[k]) = sin_cos_of_lane(self.start[k] + times.time[k]);
         }
     }
 
     #[inline(always)]
     fn jet(&self, times: &Times, k: usize) -> Jet {
-        CrestForm { peak: self.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 }.jet_of_pair(
-            times.time[k],
-            times.sin[k],
-            times.cos[k],
-        )
+        let form = CrestForm { peak: self.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 };
+        form.jet_of_pair(times.time[k], times.sin[k], times.cos[k])
     }
 
     #[inline(always)]
-    fn swap(&mut self, a: usize, b: usize) {
-        self.peak.swap(a, b);
-        self.start.swap(a, b);
-        self.fall.swap(a, b);
-        self.free_periods.swap(a, b);
-    }
-}
-
-/// The windows of packed arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must be
-/// searched.
-pub(super) struct Windows<'a> {
-    pub(super) fallen: &'a Fallen,
-    pub(super) times: &'a mut Times,
-}
-
-impl WithSimd for Windows<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { fallen, times } = self;
-        for k in 0..packed(times.lanes.len()) {
-            let (fall, peak, retention) = (fallen.fall[k], fallen.peak[k], fallen.retention[k]);
-            let (turned, _) = nearby_wrapped_of_lane(fallen.start[k]);
-            let behind = mask(turned > CREST) & mask(turned < retention) & mask(fall < peak);
-            let end = retention - turned;
-            let falling = CrestForm { peak, angle: turned, speed: -fall, depth: 0.0 };
-            let gap_at_end = falling.gap_over(fallen.retention_depth[k], end);
-            let passed = mask(gap_at_end <= 0.0);
-            let (sin, cos) = sin_cos_of_lane(turned);
-            let first = -fall - peak * cos;
-            let last = (-fall - end) + fallen.retention_speed[k];
-            let lowest = CrestForm::lowest_of_tangents(peak - peak * sin, gap_at_end, first, last, end);
-            let dips = mask(first < 0.0) & mask(last > 0.0) & mask(lowest <= fallen.doubtful_gap[k]);
-            let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
-            times.lo[k] = kept(behind & !passed, end);
-            times.time[k] = times.lo[k];
-            times.hi[k] = if behind & passed != 0 { end } else { crest };
-            times.open[k] = !behind | passed | !dips;
-        }
-    }
-}
-
-/// Impacts of packed arcs whose search has ended.
-pub(super) struct Land<'a> {
-    pub(super) fallen: &'a Fallen,
-    pub(super) times: &'a Times,
-    pub(super) impacts: &'a mut Impacts,
-}
-
-impl WithSimd for Land<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { fallen, times, impacts } = self;
-        for k in 0..packed(times.lanes.len()) {
+    fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
+        for k in 0..N {
             let time = times.time[k];
-            let velocity = (-fallen.fall[k] - time) - fallen.peak[k] * times.cos[k];
-            let (wrapped, turns) = nearby_wrapped_of_lane(fallen.start[k] + time);
+            let velocity = (-self.fall[k] - time) - self.peak[k] * times.cos[k];
+            let (wrapped, turns) = nearby_wrapped_of_lane(self.start[k] + time);
             impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
             impacts.sin[k] = times.sin[k];
             impacts.cos[k] = times.cos[k];
             impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
-            impacts.turns[k] = fallen.free_periods[k] + turns;
+            impacts.turns[k] = self.free_periods[k] + turns;
+            impacts.duration[k] = Impacts::BETWEEN_PHASES;
+        }
+    }
+
+    #[inline(always)]
+    fn copy(&mut self, to: usize, others: &Self, from: usize) {
+        self.peak[to] = others.peak[from];
+        self.start[to] = others.start[from];
+        self.fall[to] = others.fall[from];
+        self.free_periods[to] = others.free_periods[from];
+    }
+
+    #[inline(always)]
+    fn copy_within(&mut self, to: usize, from: usize) {
+        self.peak[to] = self.peak[from];
+        self.start[to] = self.start[from];
+        self.fall[to] = self.fall[from];
+        self.free_periods[to] = self.free_periods[from];
+    }
+}
+
+/// Where the platform falls away below each arc.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+pub(super) struct Behind {
+    /// Where the curvature of the gap is negative again, and the platform's speed and depth there.
+    retention: Row,
+    retention_speed: Row,
+    retention_depth: Row,
+    doubtful_gap: Row,
+    /// Arcs with a window.
+    pub(super) open: Mask,
+}
+
+/// The windows of arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must be searched.
+pub(super) struct Windows<'a, const N: usize> {
+    pub(super) fallen: &'a Fallen,
+    pub(super) behind: &'a mut Behind,
+    pub(super) times: &'a mut Times,
+}
+
+impl<const N: usize> WithSimd for Windows<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { fallen, behind: platforms, times } = self;
+        for k in 0..N {
+            let (fall, peak, retention) = (fallen.fall[k], fallen.peak[k], platforms.retention[k]);
+            let (turned, _) = nearby_wrapped_of_lane(fallen.start[k]);
+            let behind = mask(turned > CREST) & mask(turned < retention) & mask(fall < peak);
+            let end = retention - turned;
+            let falling = CrestForm { peak, angle: turned, speed: -fall, depth: 0.0 };
+            let gap_at_end = falling.gap_over(platforms.retention_depth[k], end);
+            let passed = mask(gap_at_end <= 0.0);
+            let (sin, cos) = sin_cos_of_lane(turned);
+            let first = -fall - peak * cos;
+            let last = (-fall - end) + platforms.retention_speed[k];
+            let lowest = CrestForm::lowest_of_tangents(peak - peak * sin, gap_at_end, first, last, end);
+            let dips = mask(first < 0.0) & mask(last > 0.0) & mask(lowest <= platforms.doubtful_gap[k]);
+            let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
+            times.lo[k] = kept(behind & !passed, end);
+            times.time[k] = times.lo[k];
+            times.hi[k] = if behind & passed != 0 { end } else { crest };
+            platforms.open[k] = !behind | passed | !dips;
         }
     }
 }
 
 impl Fallen {
     pub(super) const fn new() -> Self {
-        Self {
-            peak: ROW,
-            start: ROW,
-            fall: ROW,
-            free_periods: ROW,
-            retention: ROW,
-            retention_speed: ROW,
-            retention_depth: ROW,
-            doubtful_gap: ROW,
-        }
+        Self { peak: ROW, start: ROW, fall: ROW, free_periods: ROW }
     }
 
-    /// Adds an arc that `work` has brought down to the height of the crests.
+    /// Sets number `k` to an arc that `work` has brought down to the height of the crests.
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, platform: Platform, work: &Work, from: usize) {
+    pub(super) fn set(&mut self, k: usize, platform: &Platform, work: &Work, from: usize) {
         self.peak[k] = platform.peak;
         self.start[k] = work.start[from];
         self.fall[k] = work.fall[from];
         self.free_periods[k] = work.free_periods[from];
+    }
+}
+
+impl Behind {
+    pub(super) const fn new() -> Self {
+        Self {
+            retention: ROW,
+            retention_speed: ROW,
+            retention_depth: ROW,
+            doubtful_gap: ROW,
+            open: [0; LANES],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) const fn set(&mut self, k: usize, platform: &Platform) {
         self.retention[k] = PI - platform.separation_angle;
         self.retention_speed[k] = platform.separation_speed;
         self.retention_depth[k] = platform.separation_depth;

@@ -1,11 +1,10 @@
 //! What the lanes fly above: one platform for all of them, or each its own.
 
-use super::list::List;
 use super::{ROW, Row};
 use crate::vibration::Vibration;
 
 /// What the flights above one platform need to know of it (see [`Vibration`]).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Platform {
     pub(super) peak: f64,
     pub(super) separation_angle: f64,
@@ -43,20 +42,12 @@ pub(crate) struct Platforms {
 /// The platform below a lane. A shared one stays in registers, which is why there are two kinds.
 pub(super) trait Below {
     fn lane(&self, lane: usize) -> Platform;
-
-    /// The platforms of the `lanes` listed, in the order of the list, where needed in `rows`.
-    fn packed<'a>(&'a self, lanes: &List, rows: &'a mut Platforms) -> &'a Self;
 }
 
 impl Below for Platform {
     #[inline(always)]
     fn lane(&self, _: usize) -> Platform {
         *self
-    }
-
-    #[inline(always)]
-    fn packed<'a>(&'a self, _: &List, _: &'a mut Platforms) -> &'a Self {
-        self
     }
 }
 
@@ -71,13 +62,6 @@ impl Below for Platforms {
             doubtful_gap: self.doubtful_gap[lane],
             long_launch_speed: self.long_launch_speed[lane],
         }
-    }
-
-    fn packed<'a>(&'a self, lanes: &List, rows: &'a mut Self) -> &'a Self {
-        for (k, lane) in lanes.iter().enumerate() {
-            rows.set(k, self.lane(lane));
-        }
-        rows
     }
 }
 
@@ -94,6 +78,7 @@ impl Platforms {
         }
     }
 
+    #[inline(always)]
     pub(super) const fn set(&mut self, lane: usize, platform: Platform) {
         self.peak[lane] = platform.peak;
         self.separation_angle[lane] = platform.separation_angle;

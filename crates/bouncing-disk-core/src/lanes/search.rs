@@ -2,23 +2,28 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::list::List;
-use super::{LANES, Mask, ROW, Row, mask, packed};
+use super::{Dispatch, Impacts, LANES, Mask, ROW, Row, Who, mask, wide};
 use crate::elementary::rotated;
 use crate::gap::Jet;
 
 /// Evaluations before the last step; flights that need more are left to the solver of one flight.
-const EVALUATIONS: usize = 8;
+const EVALUATIONS: u8 = 8;
 
-/// Packed flights in one of the forms of the gap.
-pub(super) trait Forms {
-    /// Evaluates what [`Self::jet`] needs besides the pair of the phase, and the phases, of flights `from..to`.
-    fn evaluate(&mut self, times: &mut Times, from: usize, to: usize);
+/// Flights in one of the forms of the gap.
+pub(super) trait Forms: Clone {
+    /// Evaluates what [`Self::jet`] needs: the pairs of the phases, and what the form itself needs.
+    fn evaluate<const N: usize>(&mut self, times: &mut Times);
 
     /// Gap and derivatives of one flight at the time evaluated last.
     fn jet(&self, times: &Times, k: usize) -> Jet;
 
-    fn swap(&mut self, a: usize, b: usize);
+    /// The impacts of flights whose times and pairs are those of the impact.
+    fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts);
+
+    /// Copies number `from` of others.
+    fn copy(&mut self, to: usize, others: &Self, from: usize);
+
+    fn copy_within(&mut self, to: usize, from: usize);
 }
 
 /// Times reached, the windows that hold the roots, and the pairs of the phases.
@@ -32,128 +37,197 @@ pub(super) struct Times {
     pub(super) cos: Row,
     root: Row,
     step: Row,
-    /// Flights near their root, and those that can be.
     near: Mask,
-    pub(super) open: Mask,
-    /// The lane of each flight.
-    pub(super) lanes: List,
 }
 
 impl Times {
     pub(super) const fn new() -> Self {
-        Self {
-            lo: ROW,
-            hi: ROW,
-            time: ROW,
-            sin: ROW,
-            cos: ROW,
-            root: ROW,
-            step: ROW,
-            near: [0; LANES],
-            open: [0; LANES],
-            lanes: List::new(),
-        }
-    }
-
-    /// Drops the flights that are not open.
-    pub(super) fn keep_open(&mut self, forms: &mut impl Forms) {
-        let mut kept = 0;
-        for k in 0..self.lanes.len() {
-            if self.open[k] != 0 {
-                if kept != k {
-                    self.swap(kept, k);
-                    forms.swap(kept, k);
-                }
-                kept += 1;
-            }
-        }
-        self.lanes.truncate(kept);
-    }
-
-    #[inline(always)]
-    fn swap(&mut self, a: usize, b: usize) {
-        self.lo.swap(a, b);
-        self.hi.swap(a, b);
-        self.time.swap(a, b);
-        self.sin.swap(a, b);
-        self.cos.swap(a, b);
-        self.near.swap(a, b);
-        self.open.swap(a, b);
-        self.lanes.swap(a, b);
+        Self { lo: ROW, hi: ROW, time: ROW, sin: ROW, cos: ROW, root: ROW, step: ROW, near: [0; LANES] }
     }
 }
 
-/// Finds the roots of the flights listed: time, sine and cosine of the impact for those that stay `open`.
-pub(super) struct Search<'a, F> {
-    pub(super) forms: &'a mut F,
-    pub(super) times: &'a mut Times,
+/// One evaluation, and a step where the root is not near.
+struct Advance<'a, F, const N: usize> {
+    forms: &'a mut F,
+    times: &'a mut Times,
 }
 
-impl<F: Forms> WithSimd for Search<'_, F> {
+/// The last step, and the impacts.
+struct Finish<'a, F, const N: usize> {
+    forms: &'a mut F,
+    times: &'a mut Times,
+    impacts: &'a mut Impacts,
+}
+
+impl<F: Forms, const N: usize> WithSimd for Advance<'_, F, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { forms, times } = self;
-        let count = times.lanes.len();
-        // Flights that are done come first.
-        let mut done = 0;
-        for evaluation in 1..=EVALUATIONS {
-            // Whole groups: what is done stays as it is when evaluated again.
-            let (from, to) = (done / super::GROUP * super::GROUP, packed(count));
-            forms.evaluate(times, from, to);
-            for k in from..to {
-                times.near[k] = mask(forms.jet(times, k).is_near_root());
-            }
-            if evaluation > 1 {
-                for k in done..count {
-                    if (times.near[k] | !times.open[k]) != 0 {
-                        times.swap(done, k);
-                        forms.swap(done, k);
-                        done += 1;
-                    }
-                }
-                if done == count {
-                    break;
-                }
-            }
-            step(forms, times, done / super::GROUP * super::GROUP, to);
+        forms.evaluate::<N>(times);
+        for k in 0..N {
+            times.root[k] = forms.jet(times, k).radicand().sqrt();
         }
-        let to = packed(count);
-        for k in 0..to {
-            times.open[k] &= times.near[k];
+        for k in 0..N {
             let jet = forms.jet(times, k);
-            let delta = jet.last_step();
-            (times.sin[k], times.cos[k]) = rotated(times.sin[k], times.cos[k], delta);
-            times.time[k] += delta;
+            let root = times.root[k];
+            let model = jet.corrected_step(jet.quadratic_step(root), root);
+            let newton = -(jet.gap * (1.0 / jet.slope));
+            times.step[k] = if root > 0.0 { model } else { newton };
+        }
+        for k in 0..N {
+            let jet = forms.jet(times, k);
+            let t = times.time[k];
+            let near = mask(jet.is_near_root());
+            let above = jet.gap > 0.0;
+            let lo = if above { t } else { times.lo[k] };
+            let hi = if above { times.hi[k] } else { t };
+            let next = t + times.step[k];
+            let fine = mask(jet.slope < 0.0) & mask(next > lo) & mask(next < hi);
+            let next = if fine != 0 { next } else { 0.5 * (lo + hi) };
+            times.time[k] = if near != 0 { t } else { next };
+            times.lo[k] = lo;
+            times.hi[k] = hi;
+            times.near[k] = near;
         }
     }
 }
 
-/// One step of the search; none where the root is near.
-#[inline(always)]
-fn step<F: Forms>(forms: &F, times: &mut Times, from: usize, to: usize) {
-    for k in from..to {
-        times.root[k] = forms.jet(times, k).radicand().sqrt();
+impl<F: Forms, const N: usize> WithSimd for Finish<'_, F, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { forms, times, impacts } = self;
+        for k in 0..N {
+            times.step[k] = forms.jet(times, k).last_step();
+        }
+        for k in 0..N {
+            let delta = times.step[k];
+            (times.sin[k], times.cos[k]) = rotated(times.sin[k], times.cos[k], delta);
+            times.time[k] += delta;
+        }
+        forms.land::<N>(times, impacts);
     }
-    for k in from..to {
-        let jet = forms.jet(times, k);
-        let root = times.root[k];
-        let model = jet.corrected_step(jet.quadratic_step(root), root);
-        let newton = -(jet.gap * (1.0 / jet.slope));
-        times.step[k] = if root > 0.0 { model } else { newton };
+}
+
+/// Flights being searched; those near their root wait until there are enough of them for the last step.
+#[derive(Debug, Clone)]
+pub(super) struct Search<F> {
+    forms: F,
+    times: Times,
+    who: [Who; LANES],
+    evaluations: [u8; LANES],
+    active: usize,
+    near: Near<F>,
+}
+
+#[derive(Debug, Clone)]
+struct Near<F> {
+    forms: F,
+    times: Times,
+    impacts: Impacts,
+    who: [Who; LANES],
+    len: usize,
+}
+
+impl<F: Forms> Search<F> {
+    pub(super) fn new(forms: F) -> Self {
+        let near = Near {
+            forms: forms.clone(),
+            times: Times::new(),
+            impacts: Impacts::new(),
+            who: [Who::NONE; LANES],
+            len: 0,
+        };
+        Self { forms, times: Times::new(), who: [Who::NONE; LANES], evaluations: [0; LANES], active: 0, near }
     }
-    for k in from..to {
-        let jet = forms.jet(times, k);
-        let (t, near) = (times.time[k], times.near[k]);
-        let above = jet.gap > 0.0;
-        let lo = if above { t } else { times.lo[k] };
-        let hi = if above { times.hi[k] } else { t };
-        let next = t + times.step[k];
-        let fine = mask(jet.slope < 0.0) & mask(next > lo) & mask(next < hi);
-        let next = if fine != 0 { next } else { 0.5 * (lo + hi) };
-        times.time[k] = if near != 0 { t } else { next };
-        times.lo[k] = lo;
-        times.hi[k] = hi;
+
+    /// Takes in number `k` of some flights with their windows; there must be room for it.
+    #[inline(always)]
+    pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize) {
+        let slot = self.active % LANES;
+        self.forms.copy(slot, forms, k);
+        self.times.lo[slot] = times.lo[k];
+        self.times.hi[slot] = times.hi[k];
+        self.times.time[slot] = times.time[k];
+        self.who[slot] = who;
+        self.evaluations[slot] = 0;
+        self.active += 1;
+    }
+
+    pub(super) const fn is_full(&self) -> bool {
+        self.active == LANES
+    }
+
+    /// Goes on until at most `left` flights remain; `landed` takes impacts, `hard` flights that need more steps.
+    pub(super) fn go_on(
+        &mut self,
+        dispatch: Dispatch,
+        left: usize,
+        mut landed: impl FnMut(Who, &Impacts, usize),
+        mut hard: impl FnMut(Who),
+    ) {
+        while self.active > left {
+            let (forms, times) = (&mut self.forms, &mut self.times);
+            wide!(self.active, N => dispatch.run(Advance::<F, N> { forms, times }));
+            for k in (0..self.active).rev() {
+                if self.times.near[k] != 0 {
+                    self.near.take(&self.forms, &self.times, self.who[k], k);
+                    if self.near.len == LANES {
+                        self.near.finish(dispatch, &mut landed);
+                    }
+                    self.drop(k);
+                } else {
+                    self.evaluations[k] += 1;
+                    if self.evaluations[k] == EVALUATIONS {
+                        hard(self.who[k]);
+                        self.drop(k);
+                    }
+                }
+            }
+        }
+        if left == 0 {
+            self.near.finish(dispatch, &mut landed);
+        }
+    }
+
+    /// Fills the place of a flight with the last one.
+    #[inline(always)]
+    fn drop(&mut self, k: usize) {
+        self.active -= 1;
+        let last = self.active;
+        self.forms.copy_within(k, last);
+        self.times.lo[k] = self.times.lo[last];
+        self.times.hi[k] = self.times.hi[last];
+        self.times.time[k] = self.times.time[last];
+        self.who[k] = self.who[last];
+        self.evaluations[k] = self.evaluations[last];
+    }
+}
+
+impl<F: Forms> Near<F> {
+    #[inline(always)]
+    fn take(&mut self, forms: &F, times: &Times, who: Who, k: usize) {
+        let slot = self.len % LANES;
+        self.forms.copy(slot, forms, k);
+        self.times.time[slot] = times.time[k];
+        self.times.sin[slot] = times.sin[k];
+        self.times.cos[slot] = times.cos[k];
+        self.who[slot] = who;
+        self.len += 1;
+    }
+
+    fn finish(&mut self, dispatch: Dispatch, landed: &mut impl FnMut(Who, &Impacts, usize)) {
+        if self.len == 0 {
+            return;
+        }
+        let Self { forms, times, impacts, .. } = self;
+        wide!(self.len, N => dispatch.run(Finish::<F, N> { forms, times, impacts }));
+        for k in 0..self.len {
+            landed(self.who[k], &self.impacts, k);
+        }
+        self.len = 0;
     }
 }

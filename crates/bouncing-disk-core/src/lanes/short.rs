@@ -1,15 +1,13 @@
 //! Flights that land within half a radian: `Vibration::short_flight`, many at a time.
 //!
-//! Slow launches are few among ordinary ones and all of a chattering disk's, so they are packed: each stage runs over
-//! as many of them as there are.
+//! Slow launches are few among ordinary ones and all of a chattering disk's, so they are collected.
 
 use core::f64::consts::{PI, TAU};
 
 use pulp::{Simd, WithSimd};
 
-use super::list::List;
-use super::platform::Below;
-use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask, packed};
+use super::platform::Platform;
+use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
 use crate::elementary::{sine_deficit_ratio, versine_ratio};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::ShortForm;
@@ -38,35 +36,36 @@ pub(super) struct Short {
     pulled: Mask,
     inside: Mask,
     landed: Mask,
+    /// Launches that may be hit before the first crest if they do not land soon.
+    low: Mask,
 }
 
 /// Newton's iteration on gap/h of the first `count` flights, and their impacts.
-pub(super) struct Solve<'a> {
+pub(super) struct Solve<'a, const N: usize> {
     pub(super) short: &'a mut Short,
     pub(super) count: usize,
     pub(super) impacts: &'a mut Impacts,
 }
 
-impl WithSimd for Solve<'_> {
+impl<const N: usize> WithSimd for Solve<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { short, count, impacts } = self;
-        let lanes = packed(count);
-        for k in 0..lanes {
+        for k in 0..N {
             short.time[k] = form(short, k).expected();
-            short.inside[k] = short.pulled[k];
+            // What lies behind the launches only adds to the work.
+            short.inside[k] = short.pulled[k] & mask(k < count);
             short.landed[k] = 0;
         }
         for _ in 0..STEPS {
-            step(short, lanes);
-            let settled = |all, k: usize| all & (short.landed[k] | !short.inside[k]);
-            if (0..count).fold(u64::MAX, settled) == u64::MAX {
+            step::<N>(short);
+            if short.inside.iter().take(N).zip(&short.landed).all(|(inside, landed)| inside & !landed == 0) {
                 break;
             }
         }
-        impact(short, lanes, impacts);
+        impact::<N>(short, impacts);
     }
 }
 
@@ -86,8 +85,8 @@ const fn within_short(end: f64) -> f64 {
 }
 
 #[inline(always)]
-fn step(short: &mut Short, lanes: usize) {
-    for k in 0..lanes {
+fn step<const N: usize>(short: &mut Short) {
+    for k in 0..N {
         let form = form(short, k);
         let h = short.time[k];
         let inside = short.inside[k] & mask(h > 0.0) & mask(h < within_short(short.end[k]));
@@ -106,8 +105,8 @@ fn step(short: &mut Short, lanes: usize) {
 }
 
 #[inline(always)]
-fn impact(short: &Short, lanes: usize, impacts: &mut Impacts) {
-    for k in 0..lanes {
+fn impact<const N: usize>(short: &Short, impacts: &mut Impacts) {
+    for k in 0..N {
         let h = short.time[k];
         let h2 = h * h;
         let (sin_h, versine) = (h - h2 * h * sine_deficit_ratio(h), h2 * versine_ratio(h));
@@ -119,14 +118,16 @@ fn impact(short: &Short, lanes: usize, impacts: &mut Impacts) {
         impacts.cos[k] = c - (s * sin_h + c * versine);
         impacts.velocity[k] = short.velocity[k];
         impacts.turns[k] = kept(turned, 1.0);
+        impacts.duration[k] = h;
     }
 }
 
 /// What became of a slow launch.
 pub(super) enum Fate {
     Landed,
-    /// As if it had been launched faster.
-    FliesOn,
+    /// It flies on as if it had been launched faster.
+    GoesLow,
+    GoesAbove,
     Doubtful,
 }
 
@@ -147,32 +148,32 @@ impl Short {
             pulled: MASK,
             inside: MASK,
             landed: MASK,
+            low: MASK,
         }
     }
 
-    /// Packs the launches of the lanes listed.
-    pub(super) fn pack<P: Below>(&mut self, lanes: &List, platforms: &P, launches: &Launches) {
-        for (k, lane) in lanes.iter().enumerate() {
-            let platform = platforms.lane(lane);
-            let (angle, peak, separation) = (launches.angle[lane], platform.peak, platform.separation_angle);
-            let retention = PI - separation;
-            let away = angle >= separation && angle < retention;
-            let ahead = separation - angle;
-            let to_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
-            self.speed[k] = launches.speed[lane];
-            self.sin[k] = launches.sin[lane];
-            self.cos[k] = launches.cos[lane];
-            self.sine[k] = peak * launches.sin[lane];
-            self.cosine[k] = peak * launches.cos[lane];
-            self.angle[k] = angle;
-            self.end[k] = if away { retention - angle } else { to_separation };
-            let next = if away { 2.0 * separation } else { -2.0 * separation };
-            self.next_end[k] = self.end[k] + (PI + next);
-            self.pulled[k] = mask(!away && launches.speed[lane] > 0.0);
-        }
+    /// Sets number `k` to the launch of a lane.
+    #[inline(always)]
+    pub(super) fn set(&mut self, k: usize, platform: &Platform, launches: &Launches, lane: usize, low: u64) {
+        let (angle, peak, separation) = (launches.angle[lane], platform.peak, platform.separation_angle);
+        let retention = PI - separation;
+        let away = angle >= separation && angle < retention;
+        let ahead = separation - angle;
+        let to_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
+        self.low[k] = low;
+        self.speed[k] = launches.speed[lane];
+        self.sin[k] = launches.sin[lane];
+        self.cos[k] = launches.cos[lane];
+        self.sine[k] = peak * launches.sin[lane];
+        self.cosine[k] = peak * launches.cos[lane];
+        self.angle[k] = angle;
+        self.end[k] = if away { retention - angle } else { to_separation };
+        let next = if away { 2.0 * separation } else { -2.0 * separation };
+        self.next_end[k] = self.end[k] + (PI + next);
+        self.pulled[k] = mask(!away && launches.speed[lane] > 0.0);
     }
 
-    /// What became of the flight packed as number `k`.
+    /// What became of the flight of number `k`.
     #[inline(always)]
     pub(super) fn fate(&self, k: usize) -> Fate {
         if self.landed[k] == 0 { self.fate_in_flight(k) } else { Fate::Landed }
@@ -190,6 +191,10 @@ impl Short {
         let flies_on = last_ratio > 0.0
             && (self.end[k] >= SHORT_FLIGHT || second_piece)
             && (!away || self.sine[k] >= 1.0 || self.speed[k] > 0.0);
-        if flies_on { Fate::FliesOn } else { Fate::Doubtful }
+        match (flies_on, self.low[k] != 0) {
+            (true, true) => Fate::GoesLow,
+            (true, false) => Fate::GoesAbove,
+            _ => Fate::Doubtful,
+        }
     }
 }

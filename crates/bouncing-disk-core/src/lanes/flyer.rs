@@ -1,0 +1,329 @@
+//! Sorts launches by the kind of flight that follows, and computes each kind together.
+
+use super::above::{Fly, Work};
+use super::classify::{Classify, Kinds};
+use super::fallen::{self, Behind, Fallen};
+use super::low::{self, Low, Verdicts};
+use super::platform::{Platform, Platforms};
+use super::search::{Search, Times};
+use super::short::{self, Fate, Short};
+use super::{Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Launches, Who, wide};
+use crate::error::Error;
+use crate::phase::Phase;
+
+/// Flights under search are taken further once there are [`LANES`] of them, until so many are left.
+const LEFT: usize = LANES / 2;
+
+/// Computes the flights of batches of lanes.
+#[derive(Debug, Clone)]
+pub(crate) struct Flyer {
+    dispatch: Dispatch,
+    kinds: Kinds,
+    work: Work,
+    slow: Queue<Short>,
+    low: Queue<Low>,
+    above: Queue<Launches>,
+    fallen: Queue<Fallen>,
+    low_search: Search<Low>,
+    fallen_search: Search<Fallen>,
+    verdicts: Verdicts,
+    behind: Behind,
+    times: Times,
+    /// The platforms of `low` and of `above`, unless all lanes share one.
+    low_platforms: Platforms,
+    above_platforms: Platforms,
+    slow_impacts: Impacts,
+    above_impacts: Impacts,
+    hard: Vec<Who>,
+}
+
+/// Flights of one kind, until there are enough of them.
+#[derive(Debug, Clone)]
+struct Queue<Rows> {
+    rows: Rows,
+    who: [Who; LANES],
+    len: usize,
+}
+
+impl<Rows> Queue<Rows> {
+    const fn new(rows: Rows) -> Self {
+        Self { rows, who: [Who::NONE; LANES], len: 0 }
+    }
+
+    /// The place of one more flight; there must be room for it.
+    #[inline(always)]
+    const fn place(&mut self, who: Who) -> usize {
+        let k = self.len % LANES;
+        self.who[k] = who;
+        self.len = k + 1;
+        k
+    }
+}
+
+impl Flyer {
+    pub(crate) fn new(set: InstructionSet) -> Self {
+        Self {
+            dispatch: Dispatch::new(set),
+            kinds: Kinds::new(),
+            work: Work::new(),
+            slow: Queue::new(Short::new()),
+            low: Queue::new(Low::new()),
+            above: Queue::new(Launches::new()),
+            fallen: Queue::new(Fallen::new()),
+            low_search: Search::new(Low::new()),
+            fallen_search: Search::new(Fallen::new()),
+            verdicts: Verdicts::new(),
+            behind: Behind::new(),
+            times: Times::new(),
+            low_platforms: Platforms::new(),
+            above_platforms: Platforms::new(),
+            slow_impacts: Impacts::new(),
+            above_impacts: Impacts::new(),
+            hard: Vec::new(),
+        }
+    }
+
+    /// Runs other loops over lanes with the same instructions.
+    pub(crate) const fn dispatch(&self) -> Dispatch {
+        self.dispatch
+    }
+
+    /// Computes the impacts of the first `lanes` launches of the batches together; `failed` is told of each lane that has
+    /// none, and whose impact is then meaningless.
+    pub(crate) fn fly(&mut self, batches: &mut [Batch], lanes: usize, mut failed: impl FnMut(usize, Error)) {
+        self.hard.clear();
+        let shared = shared_platform(batches);
+        for number in 0..lanes.div_ceil(LANES).min(batches.len()) {
+            self.fly_batch(batches, number, (lanes - number * LANES).min(LANES), shared);
+        }
+        self.fly_slow(batches, shared);
+        self.fly_low(batches, shared);
+        self.search_low(batches, 0);
+        self.fly_above(batches, shared);
+        self.fly_fallen(batches);
+        self.search_fallen(batches, 0);
+        // In the order of the lanes, so that the first failure does not depend on how flights were collected.
+        self.hard.sort_unstable_by_key(|who| (who.batch, who.lane));
+        for &who in &self.hard {
+            let (lane, Batch { launches, impacts, vibrations, .. }) =
+                (who.lane as usize, &mut batches[who.batch as usize]);
+            let from = Phase::from_parts(launches.angle[lane], launches.sin[lane], launches.cos[lane]);
+            match vibrations[lane].impact_after(from, launches.speed[lane]) {
+                Ok(impact) => impacts.set(lane, &impact),
+                Err(error) => failed(who.batch as usize * LANES + lane, error),
+            }
+        }
+    }
+
+    /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the queues.
+    fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
+        let Self { dispatch, kinds, work, .. } = self;
+        let Batch { ground, launches, impacts, .. } = &mut batches[number];
+        match ground {
+            Ground::Shared(platforms) => dispatch.run(Classify { platforms, launches, kinds }),
+            Ground::Own(platforms) => {
+                dispatch.run(Classify { platforms: platforms.as_ref(), launches, kinds });
+            }
+        }
+        if !self.kinds.special {
+            match ground {
+                Ground::Shared(platforms) => {
+                    dispatch.run(Fly::<_, LANES> { platforms, launches, work, impacts });
+                }
+                Ground::Own(platforms) => {
+                    let platforms = platforms.as_ref();
+                    dispatch.run(Fly::<_, LANES> { platforms, launches, work, impacts });
+                }
+            }
+            if !self.work.all {
+                for lane in 0..lanes {
+                    if self.work.landed[lane] == 0 {
+                        let who = Who { batch: number as u32, lane: lane as u32 };
+                        self.keep_falling(batches, who, lane);
+                    }
+                }
+            }
+            return;
+        }
+        for lane in 0..lanes {
+            let who = Who { batch: number as u32, lane: lane as u32 };
+            if self.kinds.slow[lane] != 0 {
+                let k = self.slow.place(who);
+                let batch = &batches[number];
+                self.slow.rows.set(k, &batch.platform(lane), &batch.launches, lane, self.kinds.low[lane]);
+                if self.slow.len == LANES {
+                    self.fly_slow(batches, shared);
+                }
+            } else if self.kinds.low[lane] != 0 {
+                self.go_low(batches, who, shared);
+            } else {
+                self.go_above(batches, who, shared);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn go_low(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let k = self.low.place(who);
+        let platform = batch.platform(lane);
+        self.low.rows.set(k, &platform, &batch.launches, lane);
+        if shared.is_none() {
+            self.low_platforms.set(k, platform);
+        }
+        if self.low.len == LANES {
+            self.fly_low(batches, shared);
+        }
+    }
+
+    #[inline(always)]
+    fn go_above(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let k = self.above.place(who);
+        self.above.rows.take(k, &batch.launches, lane);
+        if shared.is_none() {
+            self.above_platforms.set(k, batch.platform(lane));
+        }
+        if self.above.len == LANES {
+            self.fly_above(batches, shared);
+        }
+    }
+
+    fn fly_slow(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.slow.len;
+        if count == 0 {
+            return;
+        }
+        let (short, impacts) = (&mut self.slow.rows, &mut self.slow_impacts);
+        wide!(count, N => self.dispatch.run(short::Solve::<N> { short, count, impacts }));
+        self.slow.len = 0;
+        for k in 0..count {
+            let who = self.slow.who[k];
+            match self.slow.rows.fate(k) {
+                Fate::Landed => {
+                    batches[who.batch as usize].impacts.take(who.lane as usize, &self.slow_impacts, k)
+                }
+                Fate::GoesLow => self.go_low(batches, who, shared),
+                Fate::GoesAbove => self.go_above(batches, who, shared),
+                Fate::Doubtful => self.hard.push(who),
+            }
+        }
+    }
+
+    fn fly_low(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.low.len;
+        if count == 0 {
+            return;
+        }
+        let Self { dispatch, low: Queue { rows: low, .. }, times, verdicts, .. } = self;
+        if let Some(platforms) = &shared {
+            wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
+        } else {
+            let platforms = &self.low_platforms;
+            wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
+        }
+        self.low.len = 0;
+        for k in 0..count {
+            let who = self.low.who[k];
+            if self.verdicts.open[k] != 0 {
+                self.low_search.add(who, &self.low.rows, &self.times, k);
+                if self.low_search.is_full() {
+                    self.search_low(batches, LEFT);
+                }
+            } else if self.verdicts.clears[k] != 0 {
+                self.go_above(batches, who, shared);
+            } else {
+                self.hard.push(who);
+            }
+        }
+    }
+
+    fn fly_above(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.above.len;
+        if count == 0 {
+            return;
+        }
+        let Self { dispatch, above: Queue { rows: launches, .. }, work, above_impacts: impacts, .. } = self;
+        if let Some(platforms) = &shared {
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, launches, work, impacts }));
+        } else {
+            let platforms = &self.above_platforms;
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, launches, work, impacts }));
+        }
+        self.above.len = 0;
+        for k in 0..count {
+            let who = self.above.who[k];
+            if self.work.landed[k] == 0 {
+                self.keep_falling(batches, who, k);
+            } else {
+                batches[who.batch as usize].impacts.take(who.lane as usize, &self.above_impacts, k);
+            }
+        }
+    }
+
+    /// Goes on with a lane that `work` has brought, as number `k`, to the height of the crests.
+    fn keep_falling(&mut self, batches: &mut [Batch], who: Who, k: usize) {
+        if self.work.regular[k] == 0 {
+            self.hard.push(who);
+            return;
+        }
+        let platform = batches[who.batch as usize].platform(who.lane as usize);
+        let place = self.fallen.place(who);
+        self.fallen.rows.set(place, &platform, &self.work, k);
+        self.behind.set(place, &platform);
+        if self.fallen.len == LANES {
+            self.fly_fallen(batches);
+        }
+    }
+
+    fn fly_fallen(&mut self, batches: &mut [Batch]) {
+        let count = self.fallen.len;
+        if count == 0 {
+            return;
+        }
+        let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, times, .. } = self;
+        wide!(count, N => dispatch.run(fallen::Windows::<N> { fallen, behind, times }));
+        self.fallen.len = 0;
+        for k in 0..count {
+            let who = self.fallen.who[k];
+            if self.behind.open[k] == 0 {
+                self.hard.push(who);
+                continue;
+            }
+            self.fallen_search.add(who, &self.fallen.rows, &self.times, k);
+            if self.fallen_search.is_full() {
+                self.search_fallen(batches, LEFT);
+            }
+        }
+    }
+
+    fn search_low(&mut self, batches: &mut [Batch], left: usize) {
+        let Self { dispatch, low_search, hard, .. } = self;
+        low_search.go_on(*dispatch, left, |who, from, k| land(batches, who, from, k), |who| hard.push(who));
+    }
+
+    fn search_fallen(&mut self, batches: &mut [Batch], left: usize) {
+        let Self { dispatch, fallen_search, hard, .. } = self;
+        fallen_search.go_on(
+            *dispatch,
+            left,
+            |who, from, k| land(batches, who, from, k),
+            |who| hard.push(who),
+        );
+    }
+}
+
+#[inline(always)]
+fn land(batches: &mut [Batch], who: Who, from: &Impacts, k: usize) {
+    batches[who.batch as usize].impacts.take(who.lane as usize, from, k);
+}
+
+/// The platform that all lanes share, if they do.
+fn shared_platform(batches: &[Batch]) -> Option<Platform> {
+    let shared = |batch: &Batch| match &batch.ground {
+        Ground::Shared(platform) => Some(*platform),
+        Ground::Own(_) => None,
+    };
+    let first = shared(batches.first()?)?;
+    batches.iter().all(|batch| shared(batch) == Some(first)).then_some(first)
+}
