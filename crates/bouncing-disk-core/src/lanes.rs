@@ -138,15 +138,23 @@ impl Dispatch {
     }
 }
 
-/// Launches of all lanes.
+/// Launches of all lanes: from the impacts before, with relative speeds >= 0.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Launches<'a> {
+    pub(crate) from: &'a Impacts,
+    pub(crate) speed: &'a Row,
+}
+
+/// Disks that have come down to the height of the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
-pub(crate) struct Launches {
-    angle: Row,
-    sin: Row,
-    cos: Row,
-    /// Relative speed, >= 0.
-    speed: Row,
+struct Arcs {
+    /// Phase less the whole periods flown, those periods, and the speed.
+    start: Row,
+    free_periods: Row,
+    fall: Row,
+    /// Lanes that come down at all, within the longest flight.
+    regular: Mask,
 }
 
 /// Impacts of all lanes.
@@ -175,13 +183,15 @@ enum Ground {
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     ground: Ground,
-    pub(crate) launches: Launches,
-    pub(crate) impacts: Impacts,
+    /// The impacts, and those that the launches follow; they change places with every flight.
+    impacts: [Impacts; 2],
+    last: usize,
+    /// Relative speeds of the launches.
+    speed: Row,
+    arcs: Arcs,
     vibrations: [Vibration; LANES],
     /// P of every lane.
     pub(crate) peaks: Row,
-    /// The velocities of the impacts that the launches follow.
-    velocities_before: Row,
 }
 
 /// A lane of one of several batches.
@@ -202,11 +212,12 @@ impl Batch {
     pub(crate) fn new(vibration: Vibration) -> Self {
         Self {
             ground: Ground::Shared(Platform::from(&vibration)),
-            launches: Launches::new(),
-            impacts: Impacts::new(),
+            impacts: [Impacts::new(), Impacts::new()],
+            last: 0,
+            speed: ROW,
+            arcs: Arcs::new(),
             vibrations: [vibration; LANES],
             peaks: [vibration.peak_acceleration(); LANES],
-            velocities_before: ROW,
         }
     }
 
@@ -234,65 +245,83 @@ impl Batch {
     fn platform(&self, lane: usize) -> Platform {
         match &self.ground {
             Ground::Shared(platform) => *platform,
-            Ground::Own(platforms) => platforms.lane(lane),
+            Ground::Own(platforms) => platforms.as_ref().lane(lane),
         }
+    }
+
+    /// The impacts of all lanes.
+    #[inline(always)]
+    pub(crate) const fn impacts(&self) -> &Impacts {
+        &self.impacts[self.last]
+    }
+
+    /// The launches of all lanes.
+    #[inline(always)]
+    pub(crate) const fn launches(&self) -> Launches<'_> {
+        Launches { from: &self.impacts[1 - self.last], speed: &self.speed }
+    }
+
+    #[inline(always)]
+    const fn impacts_mut(&mut self) -> &mut Impacts {
+        &mut self.impacts[self.last]
+    }
+
+    /// Platform, launches, arcs and impacts.
+    #[inline(always)]
+    const fn parts(&mut self) -> (&Ground, Launches<'_>, &mut Arcs, &mut Impacts) {
+        let [first, second] = &mut self.impacts;
+        let (from, to) = if self.last == 0 { (second, first) } else { (first, second) };
+        (&self.ground, Launches { from, speed: &self.speed }, &mut self.arcs, to)
     }
 
     /// Sets the impact of a lane: what its next launch starts from.
     pub(crate) const fn set_impact(&mut self, lane: usize, phase: Phase, velocity: f64) {
-        self.impacts.angle[lane] = phase.angle();
-        self.impacts.sin[lane] = phase.sin();
-        self.impacts.cos[lane] = phase.cos();
-        self.impacts.velocity[lane] = velocity;
+        let impacts = self.impacts_mut();
+        impacts.angle[lane] = phase.angle();
+        impacts.sin[lane] = phase.sin();
+        impacts.cos[lane] = phase.cos();
+        impacts.velocity[lane] = velocity;
     }
 
-    /// Sets every launch to what follows the impact of its lane with this coefficient of restitution.
+    /// Lets every launch follow the impact of its lane with this coefficient of restitution.
     pub(crate) fn rebound(&mut self, restitution: &Row) {
-        let Self { launches, impacts, velocities_before, .. } = self;
-        *velocities_before = impacts.velocity;
-        launches.angle = impacts.angle;
-        launches.sin = impacts.sin;
-        launches.cos = impacts.cos;
-        for ((speed, restitution), velocity) in
-            launches.speed.iter_mut().zip(restitution).zip(&impacts.velocity)
-        {
+        self.last = 1 - self.last;
+        let velocities = &self.impacts[1 - self.last].velocity;
+        for ((speed, restitution), velocity) in self.speed.iter_mut().zip(restitution).zip(velocities) {
             *speed = -restitution * velocity;
         }
     }
 
     /// Sets the impact of a lane back to the one before [`Self::rebound`].
     pub(crate) const fn stay(&mut self, lane: usize) {
-        self.set_impact(lane, self.launch_phase(lane), self.velocities_before[lane]);
+        let velocity = self.launches().from.velocity[lane];
+        self.set_impact(lane, self.launch_phase(lane), velocity);
     }
 
     /// The impact of a lane.
     pub(crate) const fn impact_state(&self, lane: usize) -> ImpactState {
-        ImpactState::of_impact(self.impact_phase(lane), self.impacts.velocity[lane])
+        let impacts = self.impacts();
+        ImpactState::of_impact(impacts.phase(lane), impacts.velocity[lane])
     }
 
     /// The phase of a lane's launch.
     pub(crate) const fn launch_phase(&self, lane: usize) -> Phase {
-        Phase::from_parts(self.launches.angle[lane], self.launches.sin[lane], self.launches.cos[lane])
-    }
-
-    /// The phase of a lane's impact.
-    pub(crate) const fn impact_phase(&self, lane: usize) -> Phase {
-        Phase::from_parts(self.impacts.angle[lane], self.impacts.sin[lane], self.impacts.cos[lane])
+        self.launches().from.phase(lane)
     }
 }
 
-impl Launches {
+impl Arcs {
     const fn new() -> Self {
-        Self { angle: ROW, sin: ROW, cos: [1.0; LANES], speed: ROW }
+        Self { start: ROW, free_periods: ROW, fall: ROW, regular: [0; LANES] }
     }
 
-    /// Takes over the launch of a lane as number `k`.
+    /// Takes over the arc of a lane as number `k`.
     #[inline(always)]
     const fn take(&mut self, k: usize, others: &Self, lane: usize) {
-        self.angle[k] = others.angle[lane];
-        self.sin[k] = others.sin[lane];
-        self.cos[k] = others.cos[lane];
-        self.speed[k] = others.speed[lane];
+        self.start[k] = others.start[lane];
+        self.free_periods[k] = others.free_periods[lane];
+        self.fall[k] = others.fall[lane];
+        self.regular[k] = others.regular[lane];
     }
 }
 
@@ -302,6 +331,10 @@ impl Impacts {
 
     const fn new() -> Self {
         Self { angle: ROW, sin: ROW, cos: [1.0; LANES], velocity: ROW, turns: ROW, duration: ROW }
+    }
+
+    const fn phase(&self, lane: usize) -> Phase {
+        Phase::from_parts(self.angle[lane], self.sin[lane], self.cos[lane])
     }
 
     /// Takes over number `k` of others as the impact of a lane.

@@ -113,7 +113,7 @@ impl ImpactMap {
             // From the last lane, so that a lane moved into a gap has been judged.
             for number in (0..used).rev() {
                 flyer.dispatch().run(Screen {
-                    impacts: &lockstep.batches[number].impacts,
+                    impacts: lockstep.batches[number].impacts(),
                     targets: &targets,
                     peak: self.vibration().peak_acceleration(),
                     restitution: self.restitution(),

@@ -5,9 +5,8 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
-use crate::elementary::{nearby_wrapped_of_lane, nearest_periods, nearest_whole, rotated, sin_cos_of_lane};
-use crate::flight::MAX_FLIGHT_DURATION;
+use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask};
+use crate::elementary::{nearby_wrapped_of_lane, nearest_whole, rotated, sin_cos_of_lane};
 use crate::gap::{CrestForm, Jet};
 
 /// Comparisons that decide which path a lane takes keep this far from a tie (radians; relative to the pull).
@@ -17,18 +16,12 @@ const CLEAR: f64 = 1.0e-9;
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Work {
-    /// Phase, periods and speed when the disk has come down to the height of the crests.
-    pub(super) start: Row,
-    pub(super) free_periods: Row,
-    pub(super) fall: Row,
     time: Row,
     sin: Row,
     cos: Row,
     root: Row,
     step: Row,
     inverse: Row,
-    /// Lanes that come down to the height of the crests within the longest flight.
-    pub(super) regular: Mask,
     /// Lanes landed.
     pub(super) landed: Mask,
     /// Whether all lanes have landed.
@@ -38,16 +31,12 @@ pub(super) struct Work {
 impl Work {
     pub(super) const fn new() -> Self {
         Self {
-            start: ROW,
-            free_periods: ROW,
-            fall: ROW,
             time: ROW,
             sin: ROW,
             cos: ROW,
             root: ROW,
             step: ROW,
             inverse: ROW,
-            regular: [0; LANES],
             landed: [0; LANES],
             all: false,
         }
@@ -56,8 +45,8 @@ impl Work {
 
 /// Flights: two evaluations of the gap and the last step. Lanes that need more are left to the search.
 pub(super) struct Fly<'a, P, const N: usize> {
-    pub(super) platforms: &'a P,
-    pub(super) launches: &'a Launches,
+    pub(super) platforms: P,
+    pub(super) arcs: &'a Arcs,
     pub(super) work: &'a mut Work,
     pub(super) impacts: &'a mut Impacts,
 }
@@ -67,70 +56,62 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, launches, work, impacts } = self;
-        fall_to_crest_height::<P, N>(platforms, launches, work);
+        let Self { platforms, arcs, work, impacts } = self;
         for k in 0..N {
-            (work.sin[k], work.cos[k]) = sin_cos_of_lane(work.start[k]);
+            (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k]);
         }
-        first_step::<P, N>(platforms, work);
+        first_step::<P, N>(platforms, arcs, work);
         for k in 0..N {
-            (work.sin[k], work.cos[k]) = sin_cos_of_lane(work.start[k] + work.time[k]);
+            (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k] + work.time[k]);
         }
-        last_step::<P, N>(platforms, work);
-        impact::<P, N>(platforms, work, impacts);
+        last_step::<P, N>(platforms, arcs, work);
+        impact::<P, N>(platforms, arcs, work, impacts);
     }
 }
 
-/// Down to the height of the crests the disk flies free.
+/// Gap and derivatives at the height of the crests, with the pair there known: [`jet`] at the time zero, where products
+/// with the time vanish.
 #[inline(always)]
-fn fall_to_crest_height<P: Below, const N: usize>(platforms: &P, launches: &Launches, work: &mut Work) {
-    for k in 0..N {
-        let peak = platforms.lane(k).peak;
-        let disk_speed = launches.speed[k] + peak * launches.cos[k];
-        let depth = peak - peak * launches.sin[k];
-        // Not a number where the disk stays below: no comparison with it holds.
-        let fall = (disk_speed * disk_speed - 2.0 * depth).sqrt();
-        let free = disk_speed + fall;
-        let (periods, rest) = nearest_periods(free);
-        work.fall[k] = fall;
-        work.free_periods[k] = periods;
-        work.start[k] = launches.angle[k] + rest;
-        work.regular[k] = mask(free <= MAX_FLIGHT_DURATION);
+fn first_jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet {
+    let peak = platforms.lane(k).peak;
+    let (platform, third) = (peak * work.sin[k], peak * work.cos[k]);
+    Jet {
+        gap: peak - platform,
+        slope: -arcs.fall[k] - third,
+        curvature: platform - 1.0,
+        third,
+        platform,
+        sin: work.sin[k],
+        cos: work.cos[k],
     }
-}
-
-/// Gap and derivatives at the height of the crests, with the pair there known.
-#[inline(always)]
-fn first_jet<P: Below>(platforms: &P, work: &Work, k: usize) -> Jet {
-    form(platforms, work, k).jet_of_pair(0.0, work.sin[k], work.cos[k])
 }
 
 /// Gap and derivatives at the time reached.
 #[inline(always)]
-fn jet<P: Below>(platforms: &P, work: &Work, k: usize) -> Jet {
-    form(platforms, work, k).jet_of_pair(work.time[k], work.sin[k], work.cos[k])
+fn jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet {
+    form(platforms, arcs, k).jet_of_pair(work.time[k], work.sin[k], work.cos[k])
 }
 
 #[inline(always)]
-fn form<P: Below>(platforms: &P, work: &Work, k: usize) -> CrestForm {
-    CrestForm { peak: platforms.lane(k).peak, angle: work.start[k], speed: -work.fall[k], depth: 0.0 }
+fn form<P: Below>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
+    CrestForm { peak: platforms.lane(k).peak, angle: arcs.start[k], speed: -arcs.fall[k], depth: 0.0 }
 }
 
 /// The first step of the search of one flight; none where the root is near.
 #[inline(always)]
-fn first_step<P: Below, const N: usize>(platforms: &P, work: &mut Work) {
+fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
     for k in 0..N {
-        work.root[k] = first_jet(platforms, work, k).radicand().sqrt();
+        work.root[k] = first_jet(platforms, arcs, work, k).radicand().sqrt();
     }
     for k in 0..N {
-        work.step[k] = first_jet(platforms, work, k).quadratic_step(work.root[k]);
+        work.step[k] = first_jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
     }
     for k in 0..N {
-        work.step[k] = first_jet(platforms, work, k).corrected_step(work.step[k], work.root[k]);
+        work.step[k] = first_jet(platforms, arcs, work, k).corrected_step(work.step[k], work.root[k]);
     }
     for k in 0..N {
-        let jet = first_jet(platforms, work, k);
-        let (start, step) = (work.start[k], work.step[k]);
+        let jet = first_jet(platforms, arcs, work, k);
+        let (start, step) = (arcs.start[k], work.step[k]);
         let near = mask(jet.is_near_root());
         // No crest between the start and the step's end.
         let crests = |angle: f64| nearest_whole(angle * (1.0 / TAU) - 0.75);
@@ -139,41 +120,41 @@ fn first_step<P: Below, const N: usize>(platforms: &P, work: &mut Work) {
         // Behind a crest, the platform falling away faster than the disk may fall: two windows.
         let two_windows = mask(jet.curvature > -CLEAR)
             & mask(jet.third < CLEAR * platforms.lane(k).peak)
-            & mask(work.fall[k] < platforms.lane(k).peak);
+            & mask(arcs.fall[k] < platforms.lane(k).peak);
         work.time[k] = kept(!near, step);
-        work.landed[k] = work.regular[k] & (near | inside) & !two_windows;
+        work.landed[k] = arcs.regular[k] & (near | inside) & !two_windows;
     }
 }
 
 #[inline(always)]
-fn last_step<P: Below, const N: usize>(platforms: &P, work: &mut Work) {
+fn last_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
     for k in 0..N {
-        let jet = jet(platforms, work, k);
+        let jet = jet(platforms, arcs, work, k);
         let inverse = 1.0 / jet.slope;
         work.inverse[k] = inverse;
         work.step[k] = -(jet.gap * inverse);
         work.landed[k] &= mask(jet.is_near_root());
     }
     for k in 0..N {
-        let jet = jet(platforms, work, k);
+        let jet = jet(platforms, arcs, work, k);
         work.step[k] = jet.reverted(work.step[k], work.inverse[k]);
     }
 }
 
 #[inline(always)]
-fn impact<P: Below, const N: usize>(platforms: &P, work: &mut Work, impacts: &mut Impacts) {
+fn impact<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work, impacts: &mut Impacts) {
     let mut all = u64::MAX;
     for k in 0..N {
         let delta = work.step[k];
         let time = work.time[k] + delta;
         let (sin, cos) = rotated(work.sin[k], work.cos[k], delta);
-        let velocity = (-work.fall[k] - time) - platforms.lane(k).peak * cos;
-        let (wrapped, turns) = nearby_wrapped_of_lane(work.start[k] + time);
+        let velocity = (-arcs.fall[k] - time) - platforms.lane(k).peak * cos;
+        let (wrapped, turns) = nearby_wrapped_of_lane(arcs.start[k] + time);
         impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
         impacts.sin[k] = sin;
         impacts.cos[k] = cos;
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
-        impacts.turns[k] = work.free_periods[k] + turns;
+        impacts.turns[k] = arcs.free_periods[k] + turns;
         impacts.duration[k] = Impacts::BETWEEN_PHASES;
         all &= work.landed[k];
     }

@@ -1,12 +1,14 @@
-//! What kind of flight follows each launch, as `Vibration::impact_after` decides it.
+//! What kind of flight follows each launch, as `Vibration::impact_after` decides it, and the free flight of disks that rise
+//! above the crests.
 
 use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{LANES, Launches, Mask, mask};
-use crate::elementary::CREST;
+use super::{Arcs, LANES, Launches, Mask, mask};
+use crate::elementary::{CREST, nearest_periods};
+use crate::flight::MAX_FLIGHT_DURATION;
 use crate::gap::CrestForm;
 
 /// Coefficients of the pull's bound over half a radian (docs/numerics.md, section 9), rounded up.
@@ -32,9 +34,10 @@ impl Kinds {
 }
 
 pub(super) struct Classify<'a, P> {
-    pub(super) platforms: &'a P,
-    pub(super) launches: &'a Launches,
+    pub(super) platforms: P,
+    pub(super) launches: Launches<'a>,
     pub(super) kinds: &'a mut Kinds,
+    pub(super) arcs: &'a mut Arcs,
 }
 
 impl<P: Below> WithSimd for Classify<'_, P> {
@@ -42,14 +45,15 @@ impl<P: Below> WithSimd for Classify<'_, P> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, launches, kinds } = self;
+        let Self { platforms, launches, kinds, arcs } = self;
+        let mut any_slow = 0;
         for lane in 0..LANES {
             let platform = platforms.lane(lane);
             let peak = platform.peak;
-            let (angle, speed) = (launches.angle[lane], launches.speed[lane]);
-            let cosine = peak * launches.cos[lane];
+            let (angle, speed) = (launches.from.angle[lane], launches.speed[lane]);
+            let cosine = peak * launches.from.cos[lane];
             let disk_speed = speed + cosine;
-            let depth = peak - peak * launches.sin[lane];
+            let depth = peak - peak * launches.from.sin[lane];
             let rising = CrestForm { peak, angle, speed: disk_speed, depth };
             let ahead = platform.separation_angle - angle;
             let inflection = if ahead > 0.0 { ahead } else { ahead + TAU };
@@ -61,18 +65,39 @@ impl<P: Below> WithSimd for Classify<'_, P> {
             let no_dip =
                 mask(disk_speed - inflection >= platform.separation_speed) | mask(disk_speed <= crest);
             kinds.low[lane] = !(from_falling_away | (above & no_dip));
+            let slow = mask(speed < platform.long_launch_speed);
+            kinds.slow[lane] = slow;
+            any_slow |= slow;
+            // Down to the height of the crests the disk flies free. Not a number where it stays below: no comparison with it
+            // holds.
+            let fall = (disk_speed * disk_speed - 2.0 * depth).sqrt();
+            let free = disk_speed + fall;
+            let (periods, rest) = nearest_periods(free);
+            arcs.fall[lane] = fall;
+            arcs.free_periods[lane] = periods;
+            arcs.start[lane] = angle + rest;
+            arcs.regular[lane] = mask(free <= MAX_FLIGHT_DURATION);
         }
-        for lane in 0..LANES {
-            let platform = platforms.lane(lane);
-            let (peak, speed) = (platform.peak, launches.speed[lane]);
-            let (sine, cosine) = (peak * launches.sin[lane], peak * launches.cos[lane]);
-            let pull = 1.0 - sine;
-            let drift = if cosine < 0.0 { -cosine } else { 0.0 };
-            let returns =
-                0.25 * (if pull > 0.0 { pull } else { 0.0 }) + (DRIFT_SHARE * drift + BEND_SHARE * peak);
-            kinds.slow[lane] = mask(speed < platform.long_launch_speed) & mask(speed < returns);
+        if any_slow != 0 {
+            slow(platforms, launches, kinds);
         }
         let special = kinds.slow.iter().zip(&kinds.low).fold(0, |any, (slow, low)| any | slow | low);
         kinds.special = special != 0;
+    }
+}
+
+/// Marks the launches that may land within half a radian: the pull over that time is bounded by its value, its slope and
+/// the platform's peak.
+#[inline(always)]
+fn slow<P: Below>(platforms: P, launches: Launches<'_>, kinds: &mut Kinds) {
+    for lane in 0..LANES {
+        let platform = platforms.lane(lane);
+        let (peak, speed) = (platform.peak, launches.speed[lane]);
+        let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
+        let pull = 1.0 - sine;
+        let drift = if cosine < 0.0 { -cosine } else { 0.0 };
+        let returns =
+            0.25 * (if pull > 0.0 { pull } else { 0.0 }) + (DRIFT_SHARE * drift + BEND_SHARE * peak);
+        kinds.slow[lane] &= mask(speed < returns);
     }
 }

@@ -4,10 +4,9 @@ use core::f64::consts::{PI, TAU};
 
 use pulp::{Simd, WithSimd};
 
-use super::above::Work;
 use super::platform::Platform;
 use super::search::{Forms, Times};
-use super::{Impacts, LANES, Mask, ROW, Row, kept, mask};
+use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::gap::{CrestForm, Jet};
 
@@ -120,13 +119,13 @@ impl Fallen {
         Self { peak: ROW, start: ROW, fall: ROW, free_periods: ROW }
     }
 
-    /// Sets number `k` to an arc that `work` has brought down to the height of the crests.
+    /// Sets number `k` to one of some arcs.
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, platform: &Platform, work: &Work, from: usize) {
+    pub(super) fn set(&mut self, k: usize, platform: &Platform, arcs: &Arcs, from: usize) {
         self.peak[k] = platform.peak;
-        self.start[k] = work.start[from];
-        self.fall[k] = work.fall[from];
-        self.free_periods[k] = work.free_periods[from];
+        self.start[k] = arcs.start[from];
+        self.fall[k] = arcs.fall[from];
+        self.free_periods[k] = arcs.free_periods[from];
     }
 }
 

@@ -7,9 +7,8 @@ use super::low::{self, Low, Verdicts};
 use super::platform::{Platform, Platforms};
 use super::search::{Search, Times};
 use super::short::{self, Fate, Short};
-use super::{Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Launches, Who, wide};
+use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Who, wide};
 use crate::error::Error;
-use crate::phase::Phase;
 
 /// Flights under search are taken further once there are [`LANES`] of them, until so many are left.
 const LEFT: usize = LANES / 2;
@@ -22,7 +21,7 @@ pub(crate) struct Flyer {
     work: Work,
     slow: Queue<Short>,
     low: Queue<Low>,
-    above: Queue<Launches>,
+    above: Queue<Arcs>,
     fallen: Queue<Fallen>,
     low_search: Search<Low>,
     fallen_search: Search<Fallen>,
@@ -68,7 +67,7 @@ impl Flyer {
             work: Work::new(),
             slow: Queue::new(Short::new()),
             low: Queue::new(Low::new()),
-            above: Queue::new(Launches::new()),
+            above: Queue::new(Arcs::new()),
             fallen: Queue::new(Fallen::new()),
             low_search: Search::new(Low::new()),
             fallen_search: Search::new(Fallen::new()),
@@ -105,11 +104,9 @@ impl Flyer {
         // In the order of the lanes, so that the first failure does not depend on how flights were collected.
         self.hard.sort_unstable_by_key(|who| (who.batch, who.lane));
         for &who in &self.hard {
-            let (lane, Batch { launches, impacts, vibrations, .. }) =
-                (who.lane as usize, &mut batches[who.batch as usize]);
-            let from = Phase::from_parts(launches.angle[lane], launches.sin[lane], launches.cos[lane]);
-            match vibrations[lane].impact_after(from, launches.speed[lane]) {
-                Ok(impact) => impacts.set(lane, &impact),
+            let (lane, batch) = (who.lane as usize, &mut batches[who.batch as usize]);
+            match batch.vibrations[lane].impact_after(batch.launch_phase(lane), batch.speed[lane]) {
+                Ok(impact) => batch.impacts_mut().set(lane, &impact),
                 Err(error) => failed(who.batch as usize * LANES + lane, error),
             }
         }
@@ -118,28 +115,29 @@ impl Flyer {
     /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the queues.
     fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
         let Self { dispatch, kinds, work, .. } = self;
-        let Batch { ground, launches, impacts, .. } = &mut batches[number];
+        let (ground, launches, arcs, impacts) = batches[number].parts();
         match ground {
-            Ground::Shared(platforms) => dispatch.run(Classify { platforms, launches, kinds }),
+            Ground::Shared(platforms) => {
+                dispatch.run(Classify { platforms: *platforms, launches, kinds, arcs });
+            }
             Ground::Own(platforms) => {
-                dispatch.run(Classify { platforms: platforms.as_ref(), launches, kinds });
+                dispatch.run(Classify { platforms: platforms.as_ref(), launches, kinds, arcs });
             }
         }
         if !self.kinds.special {
             match ground {
                 Ground::Shared(platforms) => {
-                    dispatch.run(Fly::<_, LANES> { platforms, launches, work, impacts });
+                    dispatch.run(Fly::<_, LANES> { platforms: *platforms, arcs, work, impacts });
                 }
                 Ground::Own(platforms) => {
-                    let platforms = platforms.as_ref();
-                    dispatch.run(Fly::<_, LANES> { platforms, launches, work, impacts });
+                    dispatch.run(Fly::<_, LANES> { platforms: platforms.as_ref(), arcs, work, impacts });
                 }
             }
             if !self.work.all {
                 for lane in 0..lanes {
                     if self.work.landed[lane] == 0 {
                         let who = Who { batch: number as u32, lane: lane as u32 };
-                        self.keep_falling(batches, who, lane);
+                        self.keep_falling(batches, who);
                     }
                 }
             }
@@ -150,7 +148,7 @@ impl Flyer {
             if self.kinds.slow[lane] != 0 {
                 let k = self.slow.place(who);
                 let batch = &batches[number];
-                self.slow.rows.set(k, &batch.platform(lane), &batch.launches, lane, self.kinds.low[lane]);
+                self.slow.rows.set(k, &batch.platform(lane), batch.launches(), lane, self.kinds.low[lane]);
                 if self.slow.len == LANES {
                     self.fly_slow(batches, shared);
                 }
@@ -167,7 +165,7 @@ impl Flyer {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         let k = self.low.place(who);
         let platform = batch.platform(lane);
-        self.low.rows.set(k, &platform, &batch.launches, lane);
+        self.low.rows.set(k, &platform, batch.launches(), lane);
         if shared.is_none() {
             self.low_platforms.set(k, platform);
         }
@@ -180,7 +178,7 @@ impl Flyer {
     fn go_above(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         let k = self.above.place(who);
-        self.above.rows.take(k, &batch.launches, lane);
+        self.above.rows.take(k, &batch.arcs, lane);
         if shared.is_none() {
             self.above_platforms.set(k, batch.platform(lane));
         }
@@ -201,7 +199,7 @@ impl Flyer {
             let who = self.slow.who[k];
             match self.slow.rows.fate(k) {
                 Fate::Landed => {
-                    batches[who.batch as usize].impacts.take(who.lane as usize, &self.slow_impacts, k)
+                    batches[who.batch as usize].impacts_mut().take(who.lane as usize, &self.slow_impacts, k)
                 }
                 Fate::GoesLow => self.go_low(batches, who, shared),
                 Fate::GoesAbove => self.go_above(batches, who, shared),
@@ -216,7 +214,7 @@ impl Flyer {
             return;
         }
         let Self { dispatch, low: Queue { rows: low, .. }, times, verdicts, .. } = self;
-        if let Some(platforms) = &shared {
+        if let Some(platforms) = shared {
             wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
         } else {
             let platforms = &self.low_platforms;
@@ -243,33 +241,34 @@ impl Flyer {
         if count == 0 {
             return;
         }
-        let Self { dispatch, above: Queue { rows: launches, .. }, work, above_impacts: impacts, .. } = self;
-        if let Some(platforms) = &shared {
-            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, launches, work, impacts }));
+        let Self { dispatch, above: Queue { rows: arcs, .. }, work, above_impacts: impacts, .. } = self;
+        if let Some(platforms) = shared {
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts }));
         } else {
             let platforms = &self.above_platforms;
-            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, launches, work, impacts }));
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts }));
         }
         self.above.len = 0;
         for k in 0..count {
             let who = self.above.who[k];
             if self.work.landed[k] == 0 {
-                self.keep_falling(batches, who, k);
+                self.keep_falling(batches, who);
             } else {
-                batches[who.batch as usize].impacts.take(who.lane as usize, &self.above_impacts, k);
+                batches[who.batch as usize].impacts_mut().take(who.lane as usize, &self.above_impacts, k);
             }
         }
     }
 
-    /// Goes on with a lane that `work` has brought, as number `k`, to the height of the crests.
-    fn keep_falling(&mut self, batches: &mut [Batch], who: Who, k: usize) {
-        if self.work.regular[k] == 0 {
+    /// Goes on with a lane at the height of the crests.
+    fn keep_falling(&mut self, batches: &mut [Batch], who: Who) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        if batch.arcs.regular[lane] == 0 {
             self.hard.push(who);
             return;
         }
-        let platform = batches[who.batch as usize].platform(who.lane as usize);
+        let platform = batch.platform(lane);
         let place = self.fallen.place(who);
-        self.fallen.rows.set(place, &platform, &self.work, k);
+        self.fallen.rows.set(place, &platform, &batch.arcs, lane);
         self.behind.set(place, &platform);
         if self.fallen.len == LANES {
             self.fly_fallen(batches);
@@ -315,7 +314,7 @@ impl Flyer {
 
 #[inline(always)]
 fn land(batches: &mut [Batch], who: Who, from: &Impacts, k: usize) {
-    batches[who.batch as usize].impacts.take(who.lane as usize, from, k);
+    batches[who.batch as usize].impacts_mut().take(who.lane as usize, from, k);
 }
 
 /// The platform that all lanes share, if they do.

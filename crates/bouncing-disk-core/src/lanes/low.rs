@@ -96,7 +96,7 @@ impl Forms for Low {
 
 /// The windows of launches.
 pub(super) struct Windows<'a, P, const N: usize> {
-    pub(super) platforms: &'a P,
+    pub(super) platforms: P,
     pub(super) low: &'a Low,
     pub(super) times: &'a mut Times,
     pub(super) verdicts: &'a mut Verdicts,
@@ -173,12 +173,12 @@ impl Low {
 
     /// Sets number `k` to the launch of a lane.
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, platform: &Platform, launches: &Launches, lane: usize) {
+    pub(super) fn set(&mut self, k: usize, platform: &Platform, launches: Launches<'_>, lane: usize) {
         let peak = platform.peak;
-        self.angle[k] = launches.angle[lane];
+        self.angle[k] = launches.from.angle[lane];
         self.speed[k] = launches.speed[lane];
         self.peak[k] = peak;
-        self.sine[k] = peak * launches.sin[lane];
-        self.cosine[k] = peak * launches.cos[lane];
+        self.sine[k] = peak * launches.from.sin[lane];
+        self.cosine[k] = peak * launches.from.cos[lane];
     }
 }

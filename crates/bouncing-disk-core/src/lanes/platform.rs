@@ -40,20 +40,20 @@ pub(crate) struct Platforms {
 }
 
 /// The platform below a lane. A shared one stays in registers, which is why there are two kinds.
-pub(super) trait Below {
-    fn lane(&self, lane: usize) -> Platform;
+pub(super) trait Below: Copy {
+    fn lane(self, lane: usize) -> Platform;
 }
 
 impl Below for Platform {
     #[inline(always)]
-    fn lane(&self, _: usize) -> Platform {
-        *self
+    fn lane(self, _: usize) -> Platform {
+        self
     }
 }
 
-impl Below for Platforms {
+impl Below for &Platforms {
     #[inline(always)]
-    fn lane(&self, lane: usize) -> Platform {
+    fn lane(self, lane: usize) -> Platform {
         Platform {
             peak: self.peak[lane],
             separation_angle: self.separation_angle[lane],

@@ -29,7 +29,10 @@ pub(super) struct Short {
     /// Where the piece of constant curvature that the launch lies in ends.
     end: Row,
     time: Row,
+    /// Time and relative velocity before the last step, and that step.
+    before: Row,
     velocity: Row,
+    step: Row,
     /// Where the next piece ends.
     next_end: Row,
     /// Launches with a pull towards the platform, those still inside the piece, and those landed.
@@ -95,9 +98,10 @@ fn step<const N: usize>(short: &mut Short) {
         let step = -ratio * h / slope;
         let last = inside & !short.landed[k] & mask(ShortForm::is_last(step, h, slope));
         let moves = inside & !short.landed[k];
-        let landing = form.impact_velocity(h, velocity, step);
         let next = h + step;
-        short.velocity[k] = if last != 0 { landing } else { short.velocity[k] };
+        short.before[k] = if last != 0 { h } else { short.before[k] };
+        short.step[k] = if last != 0 { step } else { short.step[k] };
+        short.velocity[k] = if last != 0 { velocity } else { short.velocity[k] };
         short.time[k] = if moves != 0 { next } else { h };
         short.landed[k] |= last;
         short.inside[k] = inside;
@@ -116,7 +120,8 @@ fn impact<const N: usize>(short: &Short, impacts: &mut Impacts) {
         impacts.angle[k] = sum - kept(turned, TAU);
         impacts.sin[k] = s + (c * sin_h - s * versine);
         impacts.cos[k] = c - (s * sin_h + c * versine);
-        impacts.velocity[k] = short.velocity[k];
+        impacts.velocity[k] =
+            form(short, k).impact_velocity(short.before[k], short.velocity[k], short.step[k]);
         impacts.turns[k] = kept(turned, 1.0);
         impacts.duration[k] = h;
     }
@@ -143,7 +148,9 @@ impl Short {
             angle: ROW,
             end: ROW,
             time: ROW,
+            before: ROW,
             velocity: ROW,
+            step: ROW,
             next_end: ROW,
             pulled: MASK,
             inside: MASK,
@@ -154,18 +161,25 @@ impl Short {
 
     /// Sets number `k` to the launch of a lane.
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, platform: &Platform, launches: &Launches, lane: usize, low: u64) {
-        let (angle, peak, separation) = (launches.angle[lane], platform.peak, platform.separation_angle);
+    pub(super) fn set(
+        &mut self,
+        k: usize,
+        platform: &Platform,
+        launches: Launches<'_>,
+        lane: usize,
+        low: u64,
+    ) {
+        let (angle, peak, separation) = (launches.from.angle[lane], platform.peak, platform.separation_angle);
         let retention = PI - separation;
         let away = angle >= separation && angle < retention;
         let ahead = separation - angle;
         let to_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
         self.low[k] = low;
         self.speed[k] = launches.speed[lane];
-        self.sin[k] = launches.sin[lane];
-        self.cos[k] = launches.cos[lane];
-        self.sine[k] = peak * launches.sin[lane];
-        self.cosine[k] = peak * launches.cos[lane];
+        self.sin[k] = launches.from.sin[lane];
+        self.cos[k] = launches.from.cos[lane];
+        self.sine[k] = peak * launches.from.sin[lane];
+        self.cosine[k] = peak * launches.from.cos[lane];
         self.angle[k] = angle;
         self.end[k] = if away { retention - angle } else { to_separation };
         let next = if away { 2.0 * separation } else { -2.0 * separation };
