@@ -12,8 +12,10 @@ use crate::map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::periodic::PeriodicOrbit;
 use crate::phase::Phase;
 
-/// Cells that one thread labels at a time: enough for lanes to be refilled many times over.
-const CHUNK_CELLS: usize = 8_192;
+/// Cells that one thread labels at a time: enough for lanes to be refilled many times over, and enough shares for the
+/// threads to finish together.
+const CHUNK_CELLS: core::ops::RangeInclusive<usize> = 4_096..=32_768;
+const SHARES: usize = 16;
 
 /// What became of a start: one byte a cell.
 pub type Label = u8;
@@ -214,12 +216,13 @@ impl ImpactMap {
         let phases: Vec<Phase> = (0..columns)
             .map(|column| Phase::new(grid.phase.centre(column) * TAU))
             .collect::<Result<_, _>>()?;
-        let rows = (CHUNK_CELLS / columns).max(1);
+        let chunk = (labels.len() / SHARES).clamp(*CHUNK_CELLS.start(), *CHUNK_CELLS.end());
+        let rows = (chunk / columns).max(1);
         let fill = |(chunk, cells): (usize, &mut [Label])| -> Result<(), Error> {
             let first = chunk * rows * columns;
             let start = |index: usize| {
                 let (row, column) = ((first + index) / columns, (first + index) % columns);
-                ImpactState::new(phases[column], -grid.speed.centre(row) * PI)
+                (phases[column], grid.speed.centre(row) * PI)
             };
             self.label_cells(start, cells, known, settings)?;
             (0..cells.len() / columns).for_each(|_| row_done());

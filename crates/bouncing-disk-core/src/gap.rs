@@ -318,14 +318,9 @@ impl LaunchForm {
         self.slope_of(t, Self::versine_and_sine(t))
     }
 
-    /// As [`Self::slope`], bit for bit.
+    /// The gap at `t`, with 1 - cos t and sin t known.
     #[inline(always)]
-    pub(crate) fn slope_of_lane(&self, t: f64) -> f64 {
-        self.slope_of(t, Self::versine_and_sine_of_lane(t))
-    }
-
-    #[inline(always)]
-    fn gap_of(&self, t: f64, (versine, sin_t): (f64, f64)) -> f64 {
+    pub(crate) fn gap_of(&self, t: f64, (versine, sin_t): (f64, f64)) -> f64 {
         t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t))
     }
 

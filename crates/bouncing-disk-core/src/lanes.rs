@@ -283,6 +283,11 @@ impl Batch {
         impacts.velocity[lane] = velocity;
     }
 
+    /// Sets the impact of a lane to one of another batch.
+    pub(crate) const fn take_impact(&mut self, lane: usize, from: &Self, other: usize) {
+        self.impacts_mut().take(lane, from.impacts(), other);
+    }
+
     /// Lets every launch follow the impact of its lane with this coefficient of restitution.
     pub(crate) fn rebound(&mut self, restitution: &Row) {
         self.last = 1 - self.last;

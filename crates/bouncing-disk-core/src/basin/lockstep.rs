@@ -4,35 +4,45 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::{BasinSettings, KnownOrbit, Label, UNDECIDED};
+use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
 use crate::chatter::{ChatterPolicy, chatters_to_rest};
 use crate::elementary::nearest_whole;
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, mask};
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, Row, mask};
 use crate::map::{ImpactMap, ImpactState};
+use crate::phase::Phase;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
 
 /// Batches that are computed together: enough of each kind of flight to fill vectors.
-const BATCHES: usize = 8;
+const BATCHES: usize = 16;
 
 /// An impact of a known orbit.
 #[derive(Debug, Clone, Copy)]
 struct Target {
+    label: Label,
     angle: f64,
     velocity: f64,
     square_radius: f64,
 }
 
-/// Finds the lanes whose impacts may decide a label.
+/// The labels that the impacts of lanes decide, as [`ImpactMap::settles`] finds them.
+#[derive(Debug, Clone)]
+struct Verdicts {
+    labels: Mask,
+    /// Lanes left to [`ImpactMap::settles`].
+    doubtful: Mask,
+    /// One bit for each lane that is labelled or doubtful.
+    settled: u64,
+}
+
 struct Screen<'a> {
     impacts: &'a Impacts,
     targets: &'a [Target],
     peak: f64,
     restitution: f64,
-    rests: &'a mut Mask,
-    near: &'a mut Mask,
+    verdicts: &'a mut Verdicts,
 }
 
 impl WithSimd for Screen<'_> {
@@ -40,104 +50,126 @@ impl WithSimd for Screen<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { impacts, targets, peak, restitution, rests, near } = self;
-        for lane in 0..LANES {
-            let speed = -restitution * impacts.velocity[lane];
-            let (sin, cos) = (impacts.sin[lane], impacts.cos[lane]);
-            rests[lane] = mask(chatters_to_rest(peak, sin, cos, speed, restitution)) | mask(speed <= 0.0);
-            near[lane] = 0;
+        let Self { impacts, targets, peak, restitution, verdicts } = self;
+        find_rest(impacts, peak, restitution, verdicts);
+        // From the last one: the first known orbit that catches a state has it.
+        for target in targets.iter().rev() {
+            find_caught(impacts, *target, 1.0 / peak, verdicts);
         }
-        let inverse_peak = 1.0 / peak;
-        for target in targets {
-            for (lane, near) in near.iter_mut().enumerate() {
-                let turned = impacts.angle[lane] - target.angle;
-                let phase = turned - TAU * nearest_whole(turned * (1.0 / TAU));
-                let velocity = (impacts.velocity[lane] - target.velocity) * inverse_peak;
-                *near |= mask(phase * phase + velocity * velocity <= target.square_radius);
-            }
+        let mut settled = 0;
+        for (lane, (label, doubtful)) in verdicts.labels.iter().zip(&verdicts.doubtful).enumerate() {
+            settled |= u64::from(label | doubtful != 0) << lane;
         }
+        verdicts.settled = settled;
+    }
+}
+
+#[inline(always)]
+fn find_rest(impacts: &Impacts, peak: f64, restitution: f64, verdicts: &mut Verdicts) {
+    for lane in 0..LANES {
+        let speed = -restitution * impacts.velocity[lane];
+        let (sin, cos) = (impacts.sin[lane], impacts.cos[lane]);
+        let rests = mask(chatters_to_rest(peak, sin, cos, speed, restitution));
+        verdicts.labels[lane] = rests & u64::from(ATTACHED);
+        verdicts.doubtful[lane] = mask(speed <= 0.0);
+    }
+}
+
+#[inline(always)]
+fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut Verdicts) {
+    let label = u64::from(target.label);
+    let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
+    for lane in 0..LANES {
+        let turned = impacts.angle[lane] - target.angle;
+        let phase = turned - TAU * nearest_whole(turned * (1.0 / TAU));
+        let velocity = (impacts.velocity[lane] - target.velocity) * inverse_peak;
+        let square = phase * phase + velocity * velocity;
+        let inside = mask(square < least);
+        verdicts.labels[lane] = (verdicts.labels[lane] & !inside) | (label & inside);
+        verdicts.doubtful[lane] |= mask(square <= most) & !inside;
     }
 }
 
 impl ImpactMap {
-    /// Labels `cells`, the one of index i with the start `start(i)`.
+    /// Labels `cells`; the one of index i starts with the impact `start(i)`, a phase and a speed >= 0.
     pub(super) fn label_cells(
         &self,
-        start: impl Fn(usize) -> Result<ImpactState, Error>,
+        start: impl Fn(usize) -> (Phase, f64),
         cells: &mut [Label],
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<(), Error> {
-        if settings.policy != ChatterPolicy::Complete {
+        if settings.policy != ChatterPolicy::Complete || settings.max_impacts == 0 {
             for (index, label) in cells.iter_mut().enumerate() {
-                *label = self.basin_label(start(index)?, known, settings)?;
+                let (phase, speed) = start(index);
+                *label = self.basin_label(ImpactState::new(phase, -speed)?, known, settings)?;
             }
             return Ok(());
         }
-        let targets: Vec<Target> = known
-            .iter()
-            .flat_map(|known| {
-                known.orbit.states.iter().map(|state| Target {
-                    angle: state.phase().angle(),
-                    velocity: state.velocity(),
-                    square_radius: known.radius * known.radius * (1.0 + SLACK),
-                })
-            })
-            .collect();
-        let mut lockstep = Lockstep {
-            map: self,
-            known,
-            settings,
-            batches: vec![Batch::new(*self.vibration()); BATCHES],
-            cell: vec![0; BATCHES * LANES],
-            impacts: vec![0; BATCHES * LANES],
-            lanes: 0,
-            next: 0,
-        };
-        let mut flyer = Box::new(Flyer::new(InstructionSet::best()));
-        let (mut rests, mut near) = ([0; LANES], [0; LANES]);
-        let restitution = [self.restitution(); LANES];
-        while lockstep.lanes < BATCHES * LANES && lockstep.load(lockstep.lanes, &start, cells)? {
+        let mut lockstep = Lockstep::new(self, known, settings);
+        let mut starts = Starts::new(self, start);
+        while lockstep.lanes < BATCHES * LANES && lockstep.load(lockstep.lanes, &mut starts, cells) {
             lockstep.lanes += 1;
         }
         while lockstep.lanes > 0 {
-            let mut failure = None;
-            let used = lockstep.lanes.div_ceil(LANES);
-            for batch in &mut lockstep.batches[..used] {
-                batch.rebound(&restitution);
-            }
-            flyer.fly(&mut lockstep.batches[..used], lockstep.lanes, |_, error| failure = Some(error));
-            if let Some(error) = failure {
-                return Err(error);
-            }
+            lockstep.fly()?;
             // From the last lane, so that a lane moved into a gap has been judged.
-            for number in (0..used).rev() {
-                flyer.dispatch().run(Screen {
-                    impacts: lockstep.batches[number].impacts(),
-                    targets: &targets,
-                    peak: self.vibration().peak_acceleration(),
-                    restitution: self.restitution(),
-                    rests: &mut rests,
-                    near: &mut near,
-                });
-                let first = number * LANES;
-                for lane in (first..lockstep.lanes.min(first + LANES)).rev() {
-                    lockstep.impacts[lane] += 1;
-                    let decided = match (rests[lane - first] | near[lane - first]) != 0 {
-                        true => self.settles(lockstep.state(lane), known, settings.policy),
-                        false => None,
-                    };
-                    let spent = lockstep.impacts[lane] >= settings.max_impacts;
-                    if let Some(label) = decided.or(spent.then_some(UNDECIDED)) {
-                        cells[lockstep.cell[lane]] = label;
-                        if !lockstep.load(lane, &start, cells)? {
-                            lockstep.retire(lane);
-                        }
-                    }
+            for number in (0..lockstep.lanes.div_ceil(LANES)).rev() {
+                lockstep.judge(number, &mut starts, cells);
+            }
+            lockstep.give_up(&mut starts, cells);
+        }
+        Ok(())
+    }
+}
+
+/// Starts that have been screened and are not decided yet, a batch at a time.
+struct Starts<F> {
+    start: F,
+    batch: Batch,
+    verdicts: Verdicts,
+    /// The first cell of the batch, and one bit for each lane not taken yet.
+    first: usize,
+    open: u64,
+    /// The first cell of the next batch.
+    next: usize,
+}
+
+impl<F: Fn(usize) -> (Phase, f64)> Starts<F> {
+    fn new(map: &ImpactMap, start: F) -> Self {
+        let batch = Batch::new(*map.vibration());
+        Self { start, batch, verdicts: Verdicts::new(), first: 0, open: 0, next: 0 }
+    }
+
+    /// The next start that is not decided at once: its cell, and its lane of the batch. The cells of the others get their
+    /// labels.
+    fn next(&mut self, lockstep: &Lockstep<'_>, cells: &mut [Label]) -> Option<(usize, usize)> {
+        while self.open == 0 {
+            let count = (cells.len() - self.next).min(LANES);
+            if count == 0 {
+                return None;
+            }
+            self.first = self.next;
+            self.next += count;
+            for lane in 0..count {
+                let (phase, speed) = (self.start)(self.first + lane);
+                self.batch.set_impact(lane, phase, -speed);
+            }
+            lockstep.screen(self.batch.impacts(), &mut self.verdicts);
+            self.open = u64::MAX >> (LANES - count);
+            let mut settled = self.verdicts.settled & self.open;
+            while settled != 0 {
+                let lane = settled.trailing_zeros() as usize;
+                settled &= settled - 1;
+                if let Some(label) = lockstep.label(&self.verdicts, &self.batch, lane) {
+                    cells[self.first + lane] = label;
+                    self.open &= !(1 << lane);
                 }
             }
         }
-        Ok(())
+        let lane = self.open.trailing_zeros() as usize;
+        self.open &= self.open - 1;
+        Some((self.first + lane, lane))
     }
 }
 
@@ -146,60 +178,161 @@ struct Lockstep<'a> {
     map: &'a ImpactMap,
     known: &'a [KnownOrbit],
     settings: BasinSettings,
+    targets: Vec<Target>,
+    flyer: Box<Flyer>,
     batches: Vec<Batch>,
-    /// The cell of each lane, and the impacts since its start.
+    restitution: Row,
+    verdicts: Verdicts,
+    /// The cell of each lane, and the round before its first flight.
     cell: Vec<usize>,
-    impacts: Vec<u32>,
+    begun: Vec<u64>,
     /// Lanes in use: the first ones.
     lanes: usize,
-    /// The first cell not begun.
-    next: usize,
+    /// Flights made, and the round in which some lane may have spent its impacts.
+    round: u64,
+    deadline: u64,
 }
 
-impl Lockstep<'_> {
-    /// Begins the next cell that its start does not decide in `lane`; false if there is none.
-    fn load(
+impl<'a> Lockstep<'a> {
+    fn new(map: &'a ImpactMap, known: &'a [KnownOrbit], settings: BasinSettings) -> Self {
+        let targets = known.iter().zip(FIRST_ORBIT..).flat_map(|(known, label)| {
+            known.orbit.states.iter().map(move |state| Target {
+                label,
+                angle: state.phase().angle(),
+                velocity: state.velocity(),
+                square_radius: known.radius * known.radius,
+            })
+        });
+        Self {
+            map,
+            known,
+            settings,
+            targets: targets.collect(),
+            flyer: Box::new(Flyer::new(InstructionSet::best())),
+            batches: vec![Batch::new(*map.vibration()); BATCHES],
+            restitution: [map.restitution(); LANES],
+            verdicts: Verdicts::new(),
+            cell: vec![0; BATCHES * LANES],
+            begun: vec![0; BATCHES * LANES],
+            lanes: 0,
+            round: 0,
+            deadline: u64::from(settings.max_impacts),
+        }
+    }
+
+    /// One more impact for all lanes.
+    fn fly(&mut self) -> Result<(), Error> {
+        self.round += 1;
+        let batches = &mut self.batches[..self.lanes.div_ceil(LANES)];
+        for batch in &mut *batches {
+            batch.rebound(&self.restitution);
+        }
+        let mut failure = None;
+        self.flyer.fly(batches, self.lanes, |_, error| failure = Some(error));
+        failure.map_or(Ok(()), Err)
+    }
+
+    fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
+        self.flyer.dispatch().run(Screen {
+            impacts,
+            targets: &self.targets,
+            peak: self.map.vibration().peak_acceleration(),
+            restitution: self.map.restitution(),
+            verdicts,
+        });
+    }
+
+    /// The label of a lane that was found settled, if the doubt is resolved so.
+    fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
+        if verdicts.doubtful[lane] == 0 {
+            return Some(verdicts.labels[lane] as Label);
+        }
+        self.map.settles(batch.impact_state(lane), self.known, self.settings.policy)
+    }
+
+    /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
+    fn judge<F: Fn(usize) -> (Phase, f64)>(
         &mut self,
-        lane: usize,
-        start: impl Fn(usize) -> Result<ImpactState, Error>,
+        number: usize,
+        starts: &mut Starts<F>,
         cells: &mut [Label],
-    ) -> Result<bool, Error> {
-        while self.next < cells.len() {
-            let index = self.next;
-            self.next += 1;
-            let state = start(index)?;
-            let decided = self.map.settles(state, self.known, self.settings.policy);
-            let spent = (self.settings.max_impacts == 0).then_some(UNDECIDED);
-            match decided.or(spent) {
-                Some(label) => cells[index] = label,
-                None => {
-                    self.batches[lane / LANES].set_impact(lane % LANES, state.phase(), state.velocity());
-                    self.cell[lane] = index;
-                    self.impacts[lane] = 0;
-                    return Ok(true);
-                }
+    ) {
+        let mut verdicts = core::mem::replace(&mut self.verdicts, Verdicts::new());
+        self.screen(self.batches[number].impacts(), &mut verdicts);
+        let first = number * LANES;
+        let mut settled = verdicts.settled & (u64::MAX >> (LANES - (self.lanes - first).min(LANES)));
+        while settled != 0 {
+            let lane = LANES - 1 - settled.leading_zeros() as usize;
+            settled &= !(1 << lane);
+            if let Some(label) = self.label(&verdicts, &self.batches[number], lane) {
+                self.finish(first + lane, label, starts, cells);
             }
         }
-        Ok(false)
+        self.verdicts = verdicts;
     }
 
-    /// Fills the gap that a finished lane leaves with the last one in use.
-    fn retire(&mut self, lane: usize) {
-        self.lanes -= 1;
-        let last = self.state(self.lanes);
-        self.batches[lane / LANES].set_impact(lane % LANES, last.phase(), last.velocity());
-        self.cell[lane] = self.cell[self.lanes];
-        self.impacts[lane] = self.impacts[self.lanes];
+    /// Labels the lanes that have spent their impacts.
+    fn give_up<F: Fn(usize) -> (Phase, f64)>(&mut self, starts: &mut Starts<F>, cells: &mut [Label]) {
+        if self.round < self.deadline {
+            return;
+        }
+        let allowed = u64::from(self.settings.max_impacts);
+        for lane in (0..self.lanes).rev() {
+            if self.round - self.begun[lane] >= allowed {
+                self.finish(lane, UNDECIDED, starts, cells);
+            }
+        }
+        let first = self.begun[..self.lanes].iter().min();
+        self.deadline = first.map_or(u64::MAX, |begun| begun + allowed);
     }
 
-    fn state(&self, lane: usize) -> ImpactState {
-        self.batches[lane / LANES].impact_state(lane % LANES)
+    fn finish<F: Fn(usize) -> (Phase, f64)>(
+        &mut self,
+        lane: usize,
+        label: Label,
+        starts: &mut Starts<F>,
+        cells: &mut [Label],
+    ) {
+        cells[self.cell[lane]] = label;
+        if !self.load(lane, starts, cells) {
+            // The last lane in use fills the gap.
+            self.lanes -= 1;
+            let last = self.lanes;
+            self.take(lane, last);
+            self.cell[lane] = self.cell[last];
+            self.begun[lane] = self.begun[last];
+        }
+    }
+
+    /// Begins the next start in `lane`; false if there is none.
+    fn load<F: Fn(usize) -> (Phase, f64)>(
+        &mut self,
+        lane: usize,
+        starts: &mut Starts<F>,
+        cells: &mut [Label],
+    ) -> bool {
+        let Some((cell, from)) = starts.next(self, cells) else { return false };
+        self.batches[lane / LANES].take_impact(lane % LANES, &starts.batch, from);
+        self.cell[lane] = cell;
+        self.begun[lane] = self.round;
+        true
+    }
+
+    fn take(&mut self, lane: usize, from: usize) {
+        let state = self.batches[from / LANES].impact_state(from % LANES);
+        self.batches[lane / LANES].set_impact(lane % LANES, state.phase(), state.velocity());
+    }
+}
+
+impl Verdicts {
+    const fn new() -> Self {
+        Self { labels: [0; LANES], doubtful: [0; LANES], settled: 0 }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ATTACHED, Axis, Grid};
+    use super::super::{Axis, Grid};
     use super::*;
     use crate::vibration::Vibration;
 

@@ -8,13 +8,12 @@ use super::platform::Platform;
 use super::search::{Forms, Times};
 use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
-use crate::gap::{CrestForm, Jet};
+use crate::gap::CrestForm;
 
 /// Arcs from the height of the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Fallen {
-    peak: Row,
     start: Row,
     fall: Row,
     free_periods: Row,
@@ -26,19 +25,20 @@ impl Forms for Fallen {
         for k in 0..N {
             (times.sin[k], times.cos[k]) = sin_cos_of_lane(self.start[k] + times.time[k]);
         }
-    }
-
-    #[inline(always)]
-    fn jet(&self, times: &Times, k: usize) -> Jet {
-        let form = CrestForm { peak: self.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 };
-        form.jet_of_pair(times.time[k], times.sin[k], times.cos[k])
+        for k in 0..N {
+            let form =
+                CrestForm { peak: times.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 };
+            let jet = form.jet_of_pair(times.time[k], times.sin[k], times.cos[k]);
+            times.gap[k] = jet.gap;
+            times.slope[k] = jet.slope;
+        }
     }
 
     #[inline(always)]
     fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
         for k in 0..N {
             let time = times.time[k];
-            let velocity = (-self.fall[k] - time) - self.peak[k] * times.cos[k];
+            let velocity = (-self.fall[k] - time) - times.peak[k] * times.cos[k];
             let (wrapped, turns) = nearby_wrapped_of_lane(self.start[k] + time);
             impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
             impacts.sin[k] = times.sin[k];
@@ -51,7 +51,6 @@ impl Forms for Fallen {
 
     #[inline(always)]
     fn copy(&mut self, to: usize, others: &Self, from: usize) {
-        self.peak[to] = others.peak[from];
         self.start[to] = others.start[from];
         self.fall[to] = others.fall[from];
         self.free_periods[to] = others.free_periods[from];
@@ -59,7 +58,6 @@ impl Forms for Fallen {
 
     #[inline(always)]
     fn copy_within(&mut self, to: usize, from: usize) {
-        self.peak[to] = self.peak[from];
         self.start[to] = self.start[from];
         self.fall[to] = self.fall[from];
         self.free_periods[to] = self.free_periods[from];
@@ -70,6 +68,7 @@ impl Forms for Fallen {
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Behind {
+    peak: Row,
     /// Where the curvature of the gap is negative again, and the platform's speed and depth there.
     retention: Row,
     retention_speed: Row,
@@ -93,7 +92,7 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { fallen, behind: platforms, times } = self;
         for k in 0..N {
-            let (fall, peak, retention) = (fallen.fall[k], fallen.peak[k], platforms.retention[k]);
+            let (fall, peak, retention) = (fallen.fall[k], platforms.peak[k], platforms.retention[k]);
             let (turned, _) = nearby_wrapped_of_lane(fallen.start[k]);
             let behind = mask(turned > CREST) & mask(turned < retention) & mask(fall < peak);
             let end = retention - turned;
@@ -106,6 +105,7 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
             let lowest = CrestForm::lowest_of_tangents(peak - peak * sin, gap_at_end, first, last, end);
             let dips = mask(first < 0.0) & mask(last > 0.0) & mask(lowest <= platforms.doubtful_gap[k]);
             let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
+            times.peak[k] = peak;
             times.lo[k] = kept(behind & !passed, end);
             times.time[k] = times.lo[k];
             times.hi[k] = if behind & passed != 0 { end } else { crest };
@@ -116,13 +116,12 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
 
 impl Fallen {
     pub(super) const fn new() -> Self {
-        Self { peak: ROW, start: ROW, fall: ROW, free_periods: ROW }
+        Self { start: ROW, fall: ROW, free_periods: ROW }
     }
 
     /// Sets number `k` to one of some arcs.
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, platform: &Platform, arcs: &Arcs, from: usize) {
-        self.peak[k] = platform.peak;
+    pub(super) fn set(&mut self, k: usize, arcs: &Arcs, from: usize) {
         self.start[k] = arcs.start[from];
         self.fall[k] = arcs.fall[from];
         self.free_periods[k] = arcs.free_periods[from];
@@ -132,6 +131,7 @@ impl Fallen {
 impl Behind {
     pub(super) const fn new() -> Self {
         Self {
+            peak: ROW,
             retention: ROW,
             retention_speed: ROW,
             retention_depth: ROW,
@@ -142,6 +142,7 @@ impl Behind {
 
     #[inline(always)]
     pub(super) const fn set(&mut self, k: usize, platform: &Platform) {
+        self.peak[k] = platform.peak;
         self.retention[k] = PI - platform.separation_angle;
         self.retention_speed[k] = platform.separation_speed;
         self.retention_depth[k] = platform.separation_depth;

@@ -44,6 +44,29 @@ struct Queue<Rows> {
     len: usize,
 }
 
+/// Some lanes of one batch.
+struct List {
+    lanes: [u8; LANES],
+    len: usize,
+}
+
+impl List {
+    const fn new() -> Self {
+        Self { lanes: [0; LANES], len: 0 }
+    }
+
+    /// Adds a lane where all bits of the mask are set.
+    #[inline(always)]
+    const fn push_where(&mut self, mask: u64, lane: usize) {
+        self.lanes[self.len % LANES] = lane as u8;
+        self.len += (mask & 1) as usize;
+    }
+
+    fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+        self.lanes.iter().take(self.len).map(|&lane| usize::from(lane))
+    }
+}
+
 impl<Rows> Queue<Rows> {
     const fn new(rows: Rows) -> Self {
         Self { rows, who: [Who::NONE; LANES], len: 0 }
@@ -143,20 +166,34 @@ impl Flyer {
             }
             return;
         }
+        // Without a branch: the kind of a flight cannot be predicted.
+        let (mut slow, mut low, mut above) = (List::new(), List::new(), List::new());
         for lane in 0..lanes {
-            let who = Who { batch: number as u32, lane: lane as u32 };
-            if self.kinds.slow[lane] != 0 {
-                let k = self.slow.place(who);
-                let batch = &batches[number];
-                self.slow.rows.set(k, &batch.platform(lane), batch.launches(), lane, self.kinds.low[lane]);
-                if self.slow.len == LANES {
-                    self.fly_slow(batches, shared);
-                }
-            } else if self.kinds.low[lane] != 0 {
-                self.go_low(batches, who, shared);
-            } else {
-                self.go_above(batches, who, shared);
-            }
+            let (is_slow, is_low) = (self.kinds.slow[lane], self.kinds.low[lane]);
+            slow.push_where(is_slow, lane);
+            low.push_where(is_low & !is_slow, lane);
+            above.push_where(!(is_low | is_slow), lane);
+        }
+        let who = |lane| Who { batch: number as u32, lane: lane as u32 };
+        for lane in slow.iter() {
+            self.go_slow(batches, who(lane), shared);
+        }
+        for lane in low.iter() {
+            self.go_low(batches, who(lane), shared);
+        }
+        for lane in above.iter() {
+            self.go_above(batches, who(lane), shared);
+        }
+    }
+
+    #[inline(always)]
+    fn go_slow(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let k = self.slow.place(who);
+        let platform = shared.unwrap_or_else(|| batch.platform(lane));
+        self.slow.rows.set(k, &platform, batch.launches(), lane, self.kinds.low[lane]);
+        if self.slow.len == LANES {
+            self.fly_slow(batches, shared);
         }
     }
 
@@ -164,7 +201,7 @@ impl Flyer {
     fn go_low(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         let k = self.low.place(who);
-        let platform = batch.platform(lane);
+        let platform = shared.unwrap_or_else(|| batch.platform(lane));
         self.low.rows.set(k, &platform, batch.launches(), lane);
         if shared.is_none() {
             self.low_platforms.set(k, platform);
@@ -268,7 +305,7 @@ impl Flyer {
         }
         let platform = batch.platform(lane);
         let place = self.fallen.place(who);
-        self.fallen.rows.set(place, &platform, &batch.arcs, lane);
+        self.fallen.rows.set(place, &batch.arcs, lane);
         self.behind.set(place, &platform);
         if self.fallen.len == LANES {
             self.fly_fallen(batches);

@@ -10,7 +10,10 @@ use super::search::{Forms, Times};
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::flight::SHORT_FLIGHT;
-use crate::gap::{CrestForm, Jet, LaunchForm};
+use crate::gap::{CrestForm, LaunchForm};
+
+/// Share of 1 + P by which gaps, speeds and times of flights that clear the crest exceed a tie.
+const CLEAR: f64 = 1.0e-9;
 
 /// Launches that may land before the first crest.
 #[derive(Debug, Clone)]
@@ -18,7 +21,6 @@ use crate::gap::{CrestForm, Jet, LaunchForm};
 pub(super) struct Low {
     angle: Row,
     speed: Row,
-    peak: Row,
     /// P sin and P cos at launch.
     sine: Row,
     cosine: Row,
@@ -48,12 +50,11 @@ impl Forms for Low {
             (times.sin[k], times.cos[k]) = sin_cos_of_lane(self.angle[k] + times.time[k]);
         }
         self.turn::<N>(times);
-    }
-
-    #[inline(always)]
-    fn jet(&self, times: &Times, k: usize) -> Jet {
-        let of_time = (self.versine[k], self.sine_of_time[k]);
-        self.form(k).jet_of_pairs(times.time[k], (times.sin[k], times.cos[k]), of_time)
+        for k in 0..N {
+            let (form, of_time) = (self.form(times, k), (self.versine[k], self.sine_of_time[k]));
+            times.gap[k] = form.gap_of(times.time[k], of_time);
+            times.slope[k] = form.slope_of(times.time[k], of_time);
+        }
     }
 
     #[inline(always)]
@@ -62,7 +63,7 @@ impl Forms for Low {
         for k in 0..N {
             // The velocity is the slope of the launch form at the impact.
             let time = times.time[k];
-            let velocity = self.form(k).slope_of(time, (self.versine[k], self.sine_of_time[k]));
+            let velocity = self.form(times, k).slope_of(time, (self.versine[k], self.sine_of_time[k]));
             let (wrapped, turns) = nearby_wrapped_of_lane(self.angle[k] + time);
             impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
             impacts.sin[k] = times.sin[k];
@@ -77,18 +78,14 @@ impl Forms for Low {
     fn copy(&mut self, to: usize, others: &Self, from: usize) {
         self.angle[to] = others.angle[from];
         self.speed[to] = others.speed[from];
-        self.peak[to] = others.peak[from];
         self.sine[to] = others.sine[from];
         self.cosine[to] = others.cosine[from];
-        self.versine[to] = others.versine[from];
-        self.sine_of_time[to] = others.sine_of_time[from];
     }
 
     #[inline(always)]
     fn copy_within(&mut self, to: usize, from: usize) {
         self.angle[to] = self.angle[from];
         self.speed[to] = self.speed[from];
-        self.peak[to] = self.peak[from];
         self.sine[to] = self.sine[from];
         self.cosine[to] = self.cosine[from];
     }
@@ -108,7 +105,6 @@ impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, low, times, verdicts } = self;
-        let mut any_clear = 0;
         for k in 0..N {
             let platform = platforms.lane(k);
             let (angle, speed, peak) = (low.angle[k], low.speed[k], platform.peak);
@@ -131,33 +127,32 @@ impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
             times.hi[k] = if concave != 0 { inflection } else { crest };
             let guess = if inside != 0 { parabola } else { inflection };
             times.time[k] = if concave != 0 { guess } else { from };
+            times.peak[k] = peak;
             verdicts.open[k] = certain & (concave | convex);
-            let clears = certain & !concave & mask(at_crest > doubt);
-            verdicts.clears[k] = clears;
-            any_clear |= clears;
-        }
-        if any_clear == 0 {
-            return;
-        }
-        // Above the crest, without a dip before it where the gap does not first fall and then rise.
-        for k in 0..N {
-            let form = low.form(k);
-            let (first, last) = (form.slope_of_lane(times.lo[k]), form.slope_of_lane(times.hi[k]));
-            verdicts.clears[k] &= mask(first >= 0.0) | mask(last <= 0.0);
+            // Above inflection and crest; no dip between them if the gap does not first fall and then rise, or is positive even at
+            // the crossing of the tangents, below which a convex gap cannot lie.
+            let disk_speed = speed + cosine;
+            let first = (disk_speed - inflection) - platform.separation_speed;
+            let last = disk_speed - crest;
+            let between = crest - inflection;
+            let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, between);
+            let clear = CLEAR * (1.0 + peak);
+            let no_dip = mask(first >= clear) | mask(last <= -clear) | mask(lowest > clear);
+            verdicts.clears[k] = mask(at_inflection > clear) & mask(at_crest > clear) & no_dip;
         }
     }
 }
 
 impl Low {
     pub(super) const fn new() -> Self {
-        Self { angle: ROW, speed: ROW, peak: ROW, sine: ROW, cosine: ROW, versine: ROW, sine_of_time: ROW }
+        Self { angle: ROW, speed: ROW, sine: ROW, cosine: ROW, versine: ROW, sine_of_time: ROW }
     }
 
     #[inline(always)]
-    fn form(&self, k: usize) -> LaunchForm {
+    fn form(&self, times: &Times, k: usize) -> LaunchForm {
         LaunchForm {
             angle: self.angle[k],
-            peak: self.peak[k],
+            peak: times.peak[k],
             speed: self.speed[k],
             sine: self.sine[k],
             cosine: self.cosine[k],
@@ -177,7 +172,6 @@ impl Low {
         let peak = platform.peak;
         self.angle[k] = launches.from.angle[lane];
         self.speed[k] = launches.speed[lane];
-        self.peak[k] = peak;
         self.sine[k] = peak * launches.from.sin[lane];
         self.cosine[k] = peak * launches.from.cos[lane];
     }

@@ -11,11 +11,8 @@ const EVALUATIONS: u8 = 8;
 
 /// Flights in one of the forms of the gap.
 pub(super) trait Forms: Clone {
-    /// Evaluates what [`Self::jet`] needs: the pairs of the phases, and what the form itself needs.
+    /// Evaluates gaps, slopes and the pairs of the phases at the times reached.
     fn evaluate<const N: usize>(&mut self, times: &mut Times);
-
-    /// Gap and derivatives of one flight at the time evaluated last.
-    fn jet(&self, times: &Times, k: usize) -> Jet;
 
     /// The impacts of flights whose times and pairs are those of the impact.
     fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts);
@@ -26,13 +23,17 @@ pub(super) trait Forms: Clone {
     fn copy_within(&mut self, to: usize, from: usize);
 }
 
-/// Times reached, the windows that hold the roots, and the pairs of the phases.
+/// Times reached, the windows that hold the roots, and the gaps there.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Times {
+    /// P.
+    pub(super) peak: Row,
     pub(super) lo: Row,
     pub(super) hi: Row,
     pub(super) time: Row,
+    pub(super) gap: Row,
+    pub(super) slope: Row,
     pub(super) sin: Row,
     pub(super) cos: Row,
     root: Row,
@@ -42,7 +43,35 @@ pub(super) struct Times {
 
 impl Times {
     pub(super) const fn new() -> Self {
-        Self { lo: ROW, hi: ROW, time: ROW, sin: ROW, cos: ROW, root: ROW, step: ROW, near: [0; LANES] }
+        Self {
+            peak: ROW,
+            lo: ROW,
+            hi: ROW,
+            time: ROW,
+            gap: ROW,
+            slope: ROW,
+            sin: ROW,
+            cos: ROW,
+            root: ROW,
+            step: ROW,
+            near: [0; LANES],
+        }
+    }
+
+    /// Gap and derivatives at the time evaluated last.
+    #[inline(always)]
+    fn jet(&self, k: usize) -> Jet {
+        let (sin, cos) = (self.sin[k], self.cos[k]);
+        let platform = self.peak[k] * sin;
+        Jet {
+            gap: self.gap[k],
+            slope: self.slope[k],
+            curvature: platform - 1.0,
+            third: self.peak[k] * cos,
+            platform,
+            sin,
+            cos,
+        }
     }
 }
 
@@ -67,17 +96,20 @@ impl<F: Forms, const N: usize> WithSimd for Advance<'_, F, N> {
         let Self { forms, times } = self;
         forms.evaluate::<N>(times);
         for k in 0..N {
-            times.root[k] = forms.jet(times, k).radicand().sqrt();
+            times.root[k] = times.jet(k).radicand().sqrt();
         }
         for k in 0..N {
-            let jet = forms.jet(times, k);
+            times.step[k] = times.jet(k).quadratic_step(times.root[k]);
+        }
+        for k in 0..N {
+            let jet = times.jet(k);
             let root = times.root[k];
-            let model = jet.corrected_step(jet.quadratic_step(root), root);
+            let model = jet.corrected_step(times.step[k], root);
             let newton = -(jet.gap * (1.0 / jet.slope));
             times.step[k] = if root > 0.0 { model } else { newton };
         }
         for k in 0..N {
-            let jet = forms.jet(times, k);
+            let jet = times.jet(k);
             let t = times.time[k];
             let near = mask(jet.is_near_root());
             let above = jet.gap > 0.0;
@@ -101,7 +133,7 @@ impl<F: Forms, const N: usize> WithSimd for Finish<'_, F, N> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { forms, times, impacts } = self;
         for k in 0..N {
-            times.step[k] = forms.jet(times, k).last_step();
+            times.step[k] = times.jet(k).last_step();
         }
         for k in 0..N {
             let delta = times.step[k];
@@ -149,6 +181,7 @@ impl<F: Forms> Search<F> {
     pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize) {
         let slot = self.active % LANES;
         self.forms.copy(slot, forms, k);
+        self.times.peak[slot] = times.peak[k];
         self.times.lo[slot] = times.lo[k];
         self.times.hi[slot] = times.hi[k];
         self.times.time[slot] = times.time[k];
@@ -199,6 +232,7 @@ impl<F: Forms> Search<F> {
         self.active -= 1;
         let last = self.active;
         self.forms.copy_within(k, last);
+        self.times.peak[k] = self.times.peak[last];
         self.times.lo[k] = self.times.lo[last];
         self.times.hi[k] = self.times.hi[last];
         self.times.time[k] = self.times.time[last];
@@ -212,7 +246,10 @@ impl<F: Forms> Near<F> {
     fn take(&mut self, forms: &F, times: &Times, who: Who, k: usize) {
         let slot = self.len % LANES;
         self.forms.copy(slot, forms, k);
+        self.times.peak[slot] = times.peak[k];
         self.times.time[slot] = times.time[k];
+        self.times.gap[slot] = times.gap[k];
+        self.times.slope[slot] = times.slope[k];
         self.times.sin[slot] = times.sin[k];
         self.times.cos[slot] = times.cos[k];
         self.who[slot] = who;

@@ -29,6 +29,9 @@ pub(super) struct Short {
     /// Where the piece of constant curvature that the launch lies in ends.
     end: Row,
     time: Row,
+    /// gap/h and the relative velocity there.
+    ratio: Row,
+    slope: Row,
     /// Time and relative velocity before the last step, and that step.
     before: Row,
     velocity: Row,
@@ -90,14 +93,16 @@ const fn within_short(end: f64) -> f64 {
 #[inline(always)]
 fn step<const N: usize>(short: &mut Short) {
     for k in 0..N {
-        let form = form(short, k);
+        (short.ratio[k], short.slope[k]) = form(short, k).at(short.time[k]);
+    }
+    for k in 0..N {
         let h = short.time[k];
         let inside = short.inside[k] & mask(h > 0.0) & mask(h < within_short(short.end[k]));
-        let (ratio, velocity) = form.at(h);
+        let (ratio, velocity) = (short.ratio[k], short.slope[k]);
         let slope = velocity - ratio;
         let step = -ratio * h / slope;
-        let last = inside & !short.landed[k] & mask(ShortForm::is_last(step, h, slope));
         let moves = inside & !short.landed[k];
+        let last = moves & mask(ShortForm::is_last(step, h, slope));
         let next = h + step;
         short.before[k] = if last != 0 { h } else { short.before[k] };
         short.step[k] = if last != 0 { step } else { short.step[k] };
@@ -148,6 +153,8 @@ impl Short {
             angle: ROW,
             end: ROW,
             time: ROW,
+            ratio: ROW,
+            slope: ROW,
             before: ROW,
             velocity: ROW,
             step: ROW,
