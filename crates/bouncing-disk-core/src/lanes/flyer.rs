@@ -27,7 +27,9 @@ pub(crate) struct Flyer {
     fallen_search: Search<Fallen>,
     verdicts: Verdicts,
     behind: Behind,
-    times: Times,
+    /// Windows: flights of one kind are added to another while their own are read.
+    low_windows: Times,
+    fallen_windows: Times,
     /// The platforms of `low` and of `above`, unless all lanes share one.
     low_platforms: Platforms,
     above_platforms: Platforms,
@@ -96,7 +98,8 @@ impl Flyer {
             fallen_search: Search::new(Fallen::new()),
             verdicts: Verdicts::new(),
             behind: Behind::new(),
-            times: Times::new(),
+            low_windows: Times::new(),
+            fallen_windows: Times::new(),
             low_platforms: Platforms::new(),
             above_platforms: Platforms::new(),
             slow_impacts: Impacts::new(),
@@ -250,7 +253,7 @@ impl Flyer {
         if count == 0 {
             return;
         }
-        let Self { dispatch, low: Queue { rows: low, .. }, times, verdicts, .. } = self;
+        let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, verdicts, .. } = self;
         if let Some(platforms) = shared {
             wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
         } else {
@@ -261,7 +264,7 @@ impl Flyer {
         for k in 0..count {
             let who = self.low.who[k];
             if self.verdicts.open[k] != 0 {
-                self.low_search.add(who, &self.low.rows, &self.times, k);
+                self.low_search.add(who, &self.low.rows, &self.low_windows, k);
                 if self.low_search.is_full() {
                     self.search_low(batches, LEFT);
                 }
@@ -317,7 +320,7 @@ impl Flyer {
         if count == 0 {
             return;
         }
-        let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, times, .. } = self;
+        let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, fallen_windows: times, .. } = self;
         wide!(count, N => dispatch.run(fallen::Windows::<N> { fallen, behind, times }));
         self.fallen.len = 0;
         for k in 0..count {
@@ -326,7 +329,7 @@ impl Flyer {
                 self.hard.push(who);
                 continue;
             }
-            self.fallen_search.add(who, &self.fallen.rows, &self.times, k);
+            self.fallen_search.add(who, &self.fallen.rows, &self.fallen_windows, k);
             if self.fallen_search.is_full() {
                 self.search_fallen(batches, LEFT);
             }
