@@ -61,6 +61,8 @@ fn third(k: u64) -> f64 {
 
 /// Peak acceleration, launch phase and launch speed.
 type Start = (f64, f64, f64);
+/// The launches of one kind, counted through.
+type Regime = fn(u64) -> Start;
 
 fn monotone(k: u64) -> Start {
     let peak = 1.0 + 2.0 * third(k);
@@ -112,7 +114,7 @@ fn grazing(k: u64) -> Start {
         }
     }
     let speed = peak * cos + inside - peak * elementary::cos(touch - inside);
-    let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let off = libm::exp10(-3.0 - 13.0 * second(k));
     (peak, touch - inside, speed * (1.0 + sign * off))
 }
@@ -132,7 +134,7 @@ fn long(k: u64) -> Start {
     (10.0 * third(k), TAU * first(k), 3.0 * libm::exp10(6.0 * second(k)))
 }
 
-fn prepared(regime: fn(u64) -> Start) -> Vec<(ImpactMap, ImpactState)> {
+fn prepared(regime: Regime) -> Vec<(ImpactMap, ImpactState)> {
     (0..LAUNCHES)
         .map(|k| {
             let (peak, angle, speed) = regime(k);
@@ -193,7 +195,7 @@ fn assert_none(differences: &[String]) {
 
 #[test]
 fn launches_of_every_regime() {
-    let regimes: [(&str, fn(u64) -> Start, [u64; 2]); 9] = [
+    let regimes: [(&str, Regime, [u64; 2]); 9] = [
         ("monotone", monotone, [0xdfe2_a0cc_9a1b_00d4, 0x5d08_2394_1611_8a1f]),
         ("guarded", guarded, [0xd0b1_c4c4_a9fb_df9e, 0xc402_e885_84c9_2f8e]),
         ("still", still, [0x057d_f178_251b_f12e, 0x8b9c_4c48_04ca_592b]),
