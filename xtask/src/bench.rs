@@ -28,6 +28,9 @@ const RESULTS_FOLDER: &str = "performance";
 /// The options of `cargo xtask bench`.
 #[derive(Args)]
 pub(crate) struct Options {
+    /// Bench programs to run, such as impact or basin; all when none is given
+    #[arg(value_name = "PROGRAM", value_parser = criterion::NAMES, conflicts_with = "reuse")]
+    programs: Vec<String>,
     /// Show the ratios of the stored baseline beside this run's and write docs/performance.md
     #[arg(long)]
     compare: bool,
@@ -87,7 +90,8 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     }
     let machine = machine(&root)?;
     let mut record = Record { machine, quick: options.quick, benches: Default::default(), figures: None };
-    for program in PROGRAMS {
+    let selected = |name: &str| options.programs.is_empty() || options.programs.iter().any(|own| own == name);
+    for program in PROGRAMS.into_iter().filter(|program| selected(program.name())) {
         program.run(&root, &results, options.quick)?;
         record.benches.extend(program.read(&results)?);
     }

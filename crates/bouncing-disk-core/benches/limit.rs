@@ -71,12 +71,12 @@ fn run(set: InstructionSet, rows: &mut Rows) {
         if set == InstructionSet::Avx512
             && let Some(level) = pulp::x86::V4::try_new()
         {
-            return level.vectorize(pairs);
+            return Simd::vectorize(level, pairs);
         }
         if set == InstructionSet::Avx2
             && let Some(level) = pulp::x86::V3::try_new()
         {
-            return level.vectorize(pairs);
+            return Simd::vectorize(level, pairs);
         }
     }
     let _ = set;

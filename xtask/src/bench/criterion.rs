@@ -33,6 +33,17 @@ pub(super) const PROGRAMS: [Program; 7] = [
     program("bouncing-disk-experiments", "figures"),
 ];
 
+/// The names of all programs.
+pub(super) const NAMES: [&str; PROGRAMS.len()] = {
+    let mut names = [""; PROGRAMS.len()];
+    let mut index = 0;
+    while index < names.len() {
+        names[index] = PROGRAMS[index].bench;
+        index += 1;
+    }
+    names
+};
+
 /// The names of the reference kernel.
 const REFERENCE: [&str; 2] = ["reference/before", "reference/after"];
 /// Arguments of a short run: a second for each bench.
@@ -72,6 +83,11 @@ struct Interval {
 type Times = [f64; 3];
 
 impl Program {
+    /// What it is called on the command line.
+    pub(super) const fn name(self) -> &'static str {
+        self.bench
+    }
+
     fn cargo(self, arguments: &[&str]) -> Command {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")));
         command.args(["bench", "--package", self.package, "--bench", self.bench]).args(arguments);
