@@ -21,6 +21,8 @@ struct Aim {
     /// The same as the floor where there is only one number.
     goal: f64,
     value: Option<f64>,
+    /// Whether the run was long enough for a verdict.
+    decides: bool,
 }
 
 impl Aim {
@@ -31,6 +33,7 @@ impl Aim {
     fn verdict(&self) -> &'static str {
         match self.value {
             None => "-",
+            Some(_) if !self.decides => "no verdict from a short run",
             Some(value) if self.reaches(value, self.goal) => "met",
             Some(value) if self.reaches(value, self.floor) => "floor met, goal not",
             Some(_) => "**not met**",
@@ -73,7 +76,8 @@ fn aims(run: &Record) -> Vec<Aim> {
     let two = run.machine.processors >= 2;
     let ns = |name: &str| run.median_ns(name);
     let rate = |name: &str| ns(name).map(|ns| 1.0e9 / ns);
-    let aim = |what, unit, rate, (floor, goal), value| Aim { what, unit, rate, floor, goal, value };
+    let decides = !run.quick;
+    let aim = |what, unit, rate, (floor, goal), value| Aim { what, unit, rate, floor, goal, value, decides };
     let panel = ns("w3/panel_1000/threads_2").filter(|_| two).map(|ns| ns * 1.0e6 / 1.0e9);
     let figures = run.figures.filter(|_| two);
     vec![
@@ -257,6 +261,8 @@ mod tests {
         assert!(line(&rows(&run), "| panel").ends_with("not measured in this run | - |"));
         run.benches = record(&[("w1/scalar", 140.0)]).benches;
         assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | **not met** |"));
+        run.quick = true;
+        assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | no verdict from a short run |"));
     }
 
     #[test]
