@@ -1,7 +1,7 @@
 //! `cargo xtask figures`.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Context as _;
@@ -16,11 +16,10 @@ use clap::Args;
 
 use crate::report::Report;
 use crate::work::{self, Finished};
+use crate::workspace::{DOCS_FOLDER, in_workspace};
 
 /// The folder of the figures, relative to the root of the workspace.
 const DEFAULT_FOLDER: &str = "target/figures";
-/// The documentation, relative to the root of the workspace.
-const DOCS_FOLDER: &str = "docs";
 /// Where `--docs` makes the drafts whose digests it stores, in the output folder.
 const DRAFTS_FOLDER: &str = "draft";
 /// What repairs the documentation.
@@ -91,12 +90,6 @@ impl Options {
         }
         command
     }
-}
-
-/// A path relative to the root of the workspace, where the package of this program lies.
-fn in_workspace(path: &str) -> PathBuf {
-    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-    package.parent().unwrap_or(package).join(path)
 }
 
 /// Does what the options ask for.

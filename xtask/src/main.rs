@@ -1,12 +1,15 @@
 //! The chores of this repository.
 //!
-//! `cargo xtask figures` computes and draws the figures and tables of the paper.
+//! `cargo xtask figures` computes and draws the figures and tables of the paper; `cargo xtask bench` measures how fast
+//! the library is.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command-line program talks to its user")]
 
+mod bench;
 mod figures;
 mod report;
 mod work;
+mod workspace;
 
 use std::process::ExitCode;
 
@@ -23,12 +26,15 @@ struct Arguments {
 enum Chore {
     /// Compute and draw the figures and tables of the paper.
     Figures(figures::Options),
+    /// Measure the speed of everything that costs time, beside a stored baseline.
+    Bench(bench::Options),
 }
 
 fn main() -> ExitCode {
     let Arguments { chore } = Arguments::parse();
     let done = match chore {
         Chore::Figures(options) => figures::run(&options),
+        Chore::Bench(options) => bench::run(&options),
     };
     match done {
         Ok(code) => code,

@@ -1,22 +1,33 @@
-//! One impact of the scalar solver, by regime; `w1` is one chaotic orbit at Gamma = 0.55, restitution 0.5.
+//! One impact: W1 (one after the other and in lockstep) and single flights by regime.
 
+#[path = "reference/mod.rs"]
+mod reference;
+
+use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk_core::{
     ChatterPolicy, Ensemble, ImpactMap, ImpactState, InstructionSet, Launch, OrbitEvent, Phase, Vibration,
 };
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// Impacts of one chaotic orbit per timed call.
+/// Impacts of one orbit per timed call.
 const IMPACTS: u64 = 1_000;
+/// Orbits in lockstep.
+const ORBITS: usize = 64;
+/// Launches of one regime: enough that the processor does not learn their branches by heart.
+const LAUNCHES: usize = 1_000;
+/// Launches next to a graze, on either side of it.
+const CASES: &str = include_str!("../../../data/cases/first_impact.json");
 
-fn chaotic_orbit(c: &mut Criterion) {
+/// W1: one chaotic orbit at Gamma = 0.55, restitution 0.5; the time is that of one impact.
+fn w1(c: &mut Criterion) {
     let vibration = Vibration::from_axial_forcing(0.55).expect("legal forcing");
     let map = ImpactMap::new(vibration, 0.5).expect("legal restitution");
     let start = ImpactState::from_normalised(0.8, 1.3).expect("legal state");
-    let mut group = c.benchmark_group("one_impact");
-    group.throughput(criterion::Throughput::Elements(IMPACTS));
-    group.bench_function("w1_chaotic_gamma_0.55", |bencher| {
+    let mut group = c.benchmark_group("w1");
+    group.throughput(Throughput::Elements(IMPACTS));
+    group.bench_function("scalar", |bencher| {
         let mut state = start;
         bencher.iter(|| {
             for _ in 0..IMPACTS {
@@ -25,7 +36,8 @@ fn chaotic_orbit(c: &mut Criterion) {
             black_box(state)
         });
     });
-    group.bench_function("w1_chaotic_orbit_with_policy", |bencher| {
+    // With the question after every impact whether the disk chatters to rest.
+    group.bench_function("scalar_with_policy", |bencher| {
         let mut orbit = map.orbit(start, ChatterPolicy::Complete);
         bencher.iter(|| {
             let mut last = 0.0;
@@ -37,50 +49,88 @@ fn chaotic_orbit(c: &mut Criterion) {
             black_box(last)
         });
     });
-    group.finish();
-    // The same orbit from many of its own states, in lockstep: the time is that of one impact of one orbit.
-    let mut group = c.benchmark_group("many_orbits");
+    // The same orbit from many of its own states; the time is that of one impact of one orbit.
     let mut state = start;
-    let states: Vec<_> = (0..64)
+    let states: Vec<_> = (0..ORBITS)
         .map(|_| {
             state = map.step(state).expect("an impact follows").into();
             (map, state)
         })
         .collect();
-    group.throughput(criterion::Throughput::Elements(states.len() as u64));
+    group.throughput(Throughput::Elements(states.len() as u64));
     for set in InstructionSet::available() {
         let mut ensemble = Ensemble::with_instruction_set(states.iter().copied(), set);
-        group.bench_function(format!("w1_chaotic_gamma_0.55/{set:?}"), |bencher| {
+        group.bench_function(format!("lanes/{set:?}"), |bencher| {
             bencher.iter(|| black_box(ensemble.step()));
         });
     }
     group.finish();
 }
 
-fn launches(c: &mut Criterion) {
-    let mut group = c.benchmark_group("one_launch");
-    let cases = [
-        ("monotone", 1.7279, 0.9, 2.0),
-        ("guarded", 1.7279, 5.5, 1.9),
-        ("short_chatter", 1.7279, 5.0, 1.0e-3),
-        ("from_rest", 1.7279, f64::NAN, 0.0),
-        ("motor_peak_acceleration_197", 197.39, 0.7, 250.0),
-        ("half_a_million_periods", 1.0e6, 0.7, 8.0e5),
+/// Well spread numbers in [0, 1).
+fn spread(k: usize, factor: f64) -> f64 {
+    (k as f64 * factor) % 1.0
+}
+
+/// Launches from evenly spread phases at speeds from `low` to `high` times 1 + P.
+fn launches(peak: f64, low: f64, high: f64) -> Vec<(Vibration, Launch)> {
+    let vibration = Vibration::new(peak).expect("legal");
+    (0..LAUNCHES)
+        .map(|k| {
+            let phase = Phase::new(TAU * spread(k, 0.618_033_988_749_894_9)).expect("finite");
+            let speed = (1.0 + peak) * (low + (high - low) * spread(k, 0.754_877_666_246_692_7));
+            (vibration, Launch::new(phase, speed).expect("legal"))
+        })
+        .collect()
+}
+
+/// The stored launches next to a graze.
+fn grazes() -> Vec<(Vibration, Launch)> {
+    let cases: serde_json::Value = serde_json::from_str(CASES).expect("JSON");
+    let cases = cases["cases"].as_array().expect("a list");
+    let grazes = cases.iter().filter(|case| case["class"].as_str().is_some_and(|c| c.starts_with("grazing")));
+    grazes
+        .map(|case| {
+            let number = |field: &str| case[field].as_f64().expect("a number");
+            let phase = Phase::new(number("launch_phase")).expect("finite");
+            let vibration = Vibration::new(number("peak_acceleration")).expect("legal");
+            (vibration, Launch::new(phase, number("relative_speed")).expect("legal"))
+        })
+        .collect()
+}
+
+/// A flight of each regime; independent launches, so that the processor may begin one before the last is done.
+fn regimes(c: &mut Criterion) {
+    // P at Gamma = 0.55.
+    let peak = 0.55 * TAU / 2.0;
+    let from_rest = Vibration::new(peak).expect("legal");
+    let lift_off = Launch::new(from_rest.separation_phase().expect("lifts off"), 0.0).expect("legal");
+    let regimes = [
+        // Fast launches: the gap from the crests' height down is monotone.
+        ("monotone", launches(peak, 1.0, 4.0)),
+        // The first crest is in doubt, so that the window must be found first.
+        ("guarded", launches(peak, 0.2, 1.0)),
+        ("grazing", grazes()),
+        ("chatter", launches(peak, 1.0e-6, 1.0e-2)),
+        ("from_rest", vec![(from_rest, lift_off)]),
+        // The motor of Table III.
+        ("peak_acceleration_197", launches(197.392_088, 0.0, 2.0)),
+        ("peak_acceleration_1e5", launches(1.0e5, 0.0, 2.0)),
     ];
-    for (name, peak, angle, speed) in cases {
-        let vibration = Vibration::new(peak).expect("legal");
-        let phase = if angle.is_nan() {
-            vibration.separation_phase().expect("lifts off")
-        } else {
-            Phase::new(angle).expect("finite")
-        };
-        let launch = Launch::new(phase, speed).expect("legal");
+    let mut group = c.benchmark_group("impact");
+    for (name, launches) in regimes {
+        group.throughput(Throughput::Elements(launches.len() as u64));
         group.bench_function(name, |bencher| {
-            bencher.iter(|| vibration.first_impact(black_box(launch)));
+            bencher.iter(|| {
+                for (vibration, launch) in black_box(&launches) {
+                    // A launch from rest may have no impact; its refusal is timed as well.
+                    let _ = black_box(vibration.first_impact(*launch));
+                }
+            });
         });
     }
     group.finish();
 }
 
-criterion_group!(benches, chaotic_orbit, launches);
+criterion_group!(benches, reference::before, w1, regimes, reference::after);
 criterion_main!(benches);

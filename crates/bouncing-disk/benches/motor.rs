@@ -1,13 +1,22 @@
-//! Ten seconds of the motor of Table III (70 kHz, A = 1e-8 m, g = 9.8 m/s^2, restitution 0.5, friction 0.1).
+//! W2: the motor of Table III (70 kHz, A = 1e-8 m, g = 9.8 m/s^2, restitution 0.5, friction 0.1). The time is that of one
+//! motor second.
+
+#[path = "../../bouncing-disk-core/benches/reference/mod.rs"]
+mod reference;
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::{DiskParameters, PlatformParameters, System, TransientSettings, transient};
-use criterion::{Criterion, criterion_group, criterion_main};
+use bouncing_disk::{DiskParameters, PlatformParameters, System, TransientSettings, ensemble, transient};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-fn motor_second(c: &mut Criterion) {
+/// Motor seconds of one transient.
+const DURATION: u32 = 10;
+/// Transients of an ensemble.
+const MEMBERS: u32 = 64;
+
+fn motor() -> System {
     let angular_frequency = TAU * 70e3;
     let platform = PlatformParameters {
         amplitude: 1e-8,
@@ -23,19 +32,38 @@ fn motor_second(c: &mut Criterion) {
         preload_acceleration: 9.8,
         load_acceleration: 0.0,
     };
-    let system =
-        System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal system");
-    let phase = Phase::new(4.0).expect("finite");
-    let mut seed = 0;
-    // Another seed every time: the mean over the orbits that rounding or a perturbation may choose.
-    c.bench_function("w2_ten_motor_seconds", |bencher| {
-        bencher.iter(|| {
-            seed += 1;
-            let settings = TransientSettings { duration: 10.0, seed, ..TransientSettings::default() };
-            black_box(transient(&system, phase, &settings))
-        });
-    });
+    System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal system")
 }
 
-criterion_group!(benches, motor_second);
+fn w2(c: &mut Criterion) {
+    let system = motor();
+    let phase = Phase::new(4.0).expect("finite");
+    let settings =
+        TransientSettings { duration: f64::from(DURATION), seed: 0, ..TransientSettings::default() };
+    let mut group = c.benchmark_group("w2");
+    group.throughput(Throughput::Elements(u64::from(DURATION)));
+    let mut seed = 0;
+    // Another seed every time: the mean over the orbits that rounding or a perturbation may choose.
+    group.bench_function("one_motor", |bencher| {
+        bencher.iter(|| {
+            seed += 1;
+            black_box(transient(&system, phase, &TransientSettings { seed, ..settings }).expect("no failure"))
+        });
+    });
+    group.sample_size(10).throughput(Throughput::Elements(u64::from(DURATION * MEMBERS)));
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        group.bench_function(format!("ensemble/threads_{threads}"), |bencher| {
+            bencher.iter(|| {
+                seed += u64::from(MEMBERS);
+                let settings = TransientSettings { seed, ..settings };
+                let together = pool.install(|| ensemble(&system, &settings, MEMBERS as usize));
+                black_box(together.expect("no failure"))
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, reference::before, w2, reference::after);
 criterion_main!(benches);

@@ -1,0 +1,272 @@
+//! `docs/performance.md`: the template with the numbers of a run.
+
+use std::fmt::Write as _;
+
+use anyhow::bail;
+
+use super::record::Record;
+use super::table::{self, digits, time};
+
+const TEMPLATE: &str = include_str!("performance.md");
+/// What stands where there is no number.
+const NOT_MEASURED: &str = "not measured in this run";
+
+/// A number that is held against a floor and a goal.
+struct Aim {
+    what: &'static str,
+    unit: &'static str,
+    /// Whether more is better.
+    rate: bool,
+    floor: f64,
+    /// The same as the floor where there is only one number.
+    goal: f64,
+    value: Option<f64>,
+    /// Whether the run was long enough for a verdict.
+    decides: bool,
+}
+
+impl Aim {
+    fn reaches(&self, value: f64, aim: f64) -> bool {
+        if self.rate { value >= aim } else { value <= aim }
+    }
+
+    fn verdict(&self) -> &'static str {
+        match self.value {
+            None => "-",
+            Some(_) if !self.decides => "no verdict from a short run",
+            Some(value) if self.reaches(value, self.goal) => "met",
+            Some(value) if self.reaches(value, self.floor) => "floor met, goal not",
+            Some(_) => "**not met**",
+        }
+    }
+
+    fn row(&self) -> String {
+        let number = |value: f64| if value >= 1.0e3 { grouped(value) } else { digits(value) };
+        let goal = if self.reaches(self.floor, self.goal) { "-".to_owned() } else { number(self.goal) };
+        let value = self.value.map_or_else(|| NOT_MEASURED.to_owned(), number);
+        let (what, unit, floor) = (self.what, self.unit, number(self.floor));
+        format!("| {what} | {unit} | {floor} | {goal} | {value} | {} |\n", self.verdict())
+    }
+}
+
+/// A whole number with commas, three digits significant.
+fn grouped(value: f64) -> String {
+    let mut scale = 1.0;
+    while value / scale >= 1.0e3 {
+        scale *= 10.0;
+    }
+    let text = format!("{:.0}", (value / scale).round() * scale);
+    let mut grouped = String::new();
+    for (index, digit) in text.chars().enumerate() {
+        if index > 0 && (text.len() - index).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// How much faster two threads are; only where two processors were there.
+fn speed_up(run: &Record, prefix: &str) -> Option<f64> {
+    let of = |threads: usize| run.median_ns(&format!("{prefix}threads_{threads}"));
+    (run.machine.processors >= 2).then(|| Some(of(1)? / of(2)?)).flatten()
+}
+
+fn aims(run: &Record) -> Vec<Aim> {
+    let two = run.machine.processors >= 2;
+    let ns = |name: &str| run.median_ns(name);
+    let rate = |name: &str| ns(name).map(|ns| 1.0e9 / ns);
+    let decides = !run.quick;
+    let aim = |what, unit, rate, (floor, goal), value| Aim { what, unit, rate, floor, goal, value, decides };
+    let panel = ns("w3/panel_1000/threads_2").filter(|_| two).map(|ns| ns * 1.0e6 / 1.0e9);
+    let figures = run.figures.filter(|_| two);
+    vec![
+        aim("W1, one after the other", "ns an impact", false, (130.0, 95.0), ns("w1/scalar")),
+        aim("W1, in lockstep, AVX-512", "ns an impact", false, (8.0, 5.0), ns("w1/lanes/Avx512")),
+        aim("W1, in lockstep, AVX2", "ns an impact", false, (12.0, 9.0), ns("w1/lanes/Avx2")),
+        aim("W1, in lockstep, baseline", "ns an impact", false, (22.0, 22.0), ns("w1/lanes/Baseline")),
+        aim("W2, one motor", "motor s/s", true, (5_500.0, 5_500.0), rate("w2/one_motor")),
+        aim("W2, ensemble, a core", "motor s/s", true, (4.0e4, 4.0e4), rate("w2/ensemble/threads_1")),
+        aim("W3, a core", "cells/s", true, (3.0e6, 8.0e6), rate("w3/threads_1")),
+        aim("panel of 1000 x 1000 cells, two threads", "s", false, (0.2, 0.2), panel),
+        aim("W3, two threads over one", "times", true, (1.9, 1.9), speed_up(run, "w3/panel_1000/")),
+        aim("all figures, draft, two processors", "s", false, (15.0, 15.0), figures.map(|f| f.draft_s)),
+        aim("all figures, paper, two processors", "s", false, (120.0, 120.0), figures.map(|f| f.paper_s)),
+    ]
+}
+
+fn aims_table(run: &Record) -> String {
+    let head = "| | unit | floor | goal | measured | |\n| --- | --- | ---: | ---: | ---: | --- |\n";
+    aims(run).iter().fold(head.to_owned(), |text, aim| text + &aim.row())
+}
+
+/// How a time grows along a group of benches whose last name is a number.
+fn growth_table(run: &Record, group: &str, along: &str) -> String {
+    let prefix = format!("growth/{group}/");
+    let number = |name: &str| name.strip_prefix(&prefix)?.parse::<f64>().ok();
+    let mut points: Vec<_> =
+        run.benches.iter().filter_map(|(name, measured)| Some((number(name)?, measured))).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, first)) = points.first().copied() else { return format!("{NOT_MEASURED}\n") };
+    let mut text = format!(
+        "| {along} | time of one {} | against the first |\n| ---: | ---: | ---: |\n",
+        table::element(&prefix)
+    );
+    for (at, measured) in points {
+        let at = if at >= 1.0e3 { grouped(at) } else { at.to_string() };
+        let against = measured.ratio() / first.ratio();
+        let _ = writeln!(text, "| {at} | {} | {against:.2} |", time(measured.median_ns));
+    }
+    text
+}
+
+/// What an impact costs in pairs.
+fn limit_table(run: &Record) -> String {
+    let mut text =
+        "| | one impact | one pair | pairs an impact costs |\n| --- | ---: | ---: | ---: |\n".to_owned();
+    let rows = [
+        ("one after the other", "w1/scalar", "limit/pair/chained"),
+        ("in lockstep, baseline", "w1/lanes/Baseline", "limit/pair/lanes/Baseline"),
+        ("in lockstep, AVX2", "w1/lanes/Avx2", "limit/pair/lanes/Avx2"),
+        ("in lockstep, AVX-512", "w1/lanes/Avx512", "limit/pair/lanes/Avx512"),
+    ];
+    for (what, impact, pair) in rows {
+        let (Some(impact), Some(pair)) = (run.benches.get(impact), run.benches.get(pair)) else {
+            let _ = writeln!(text, "| {what} | {NOT_MEASURED} | | |");
+            continue;
+        };
+        let (ns, pair_ns) = (time(impact.median_ns), time(pair.median_ns));
+        let _ = writeln!(text, "| {what} | {ns} | {pair_ns} | {} |", digits(impact.ratio() / pair.ratio()));
+    }
+    text
+}
+
+fn threads_table(run: &Record) -> String {
+    if run.machine.processors < 2 {
+        return "Not measured in this run: one processor was available.\n".to_owned();
+    }
+    let prefixes = run.benches.keys().filter_map(|name| name.strip_suffix("threads_1"));
+    let mut text = "| | one thread | two threads | times faster |\n| --- | ---: | ---: | ---: |\n".to_owned();
+    for prefix in prefixes {
+        let of = |threads: usize| run.median_ns(&format!("{prefix}threads_{threads}")).map(time);
+        if let (Some(one), Some(two), Some(faster)) = (of(1), of(2), speed_up(run, prefix)) {
+            let _ =
+                writeln!(text, "| `{}` | {one} | {two} | {faster:.2} |", prefix.trim_end_matches(['_', '/']));
+        }
+    }
+    text
+}
+
+/// Our numbers in the units of the other tools' table.
+fn own_row(run: &Record) -> String {
+    let cell = |value: Option<f64>| value.map_or_else(|| NOT_MEASURED.to_owned(), grouped);
+    let ns = |name: &str| run.median_ns(name).map_or_else(|| NOT_MEASURED.to_owned(), digits);
+    let rate = |name: &str| cell(run.median_ns(name).map(|ns| 1.0e9 / ns));
+    let one = format!(
+        "| this crate, one after the other | {} | {} | {} |",
+        ns("w1/scalar"),
+        rate("w2/one_motor"),
+        rate("w3/scalar")
+    );
+    let best = ["Avx512", "Avx2", "Baseline"]
+        .into_iter()
+        .map(|set| format!("w1/lanes/{set}"))
+        .find(|name| run.benches.contains_key(name))
+        .unwrap_or_default();
+    format!(
+        "{one}\n| this crate, in lockstep, one thread | {} | {} | {} |",
+        ns(&best),
+        rate("w2/ensemble/threads_1"),
+        rate("w3/threads_1")
+    )
+}
+
+fn run_table(run: &Record, baseline: Option<&Record>) -> String {
+    let mut text = match baseline {
+        Some(_) => "| | this run | baseline |\n| --- | --- | --- |\n".to_owned(),
+        None => "| | this run |\n| --- | --- |\n".to_owned(),
+    };
+    let mut row = |name: &str, value: &dyn Fn(&Record) -> String| {
+        let values = std::iter::once(run).chain(baseline).map(value);
+        let _ = writeln!(text, "| {name} | {} |", values.collect::<Vec<_>>().join(" | "));
+    };
+    row("processor", &|run| run.machine.processor.clone());
+    row("processors used", &|run| run.machine.processors.to_string());
+    row("compiler", &|run| run.machine.compiler.clone());
+    row("source", &|run| format!("`{}`", run.machine.source));
+    row("length of the run", &|run| if run.quick { "short" } else { "full" }.to_owned());
+    text
+}
+
+/// The page.
+pub(super) fn page(run: &Record, baseline: Option<&Record>) -> anyhow::Result<String> {
+    let tables = [
+        ("run", run_table(run, baseline)),
+        ("aims", aims_table(run)),
+        ("all", table::markdown(&table::rows(run, baseline))),
+        ("growth_cells", growth_table(run, "cells", "cells")),
+        ("growth_impacts", growth_table(run, "impacts", "impacts")),
+        ("growth_forcing", growth_table(run, "forcing", "Γ")),
+        ("growth_flight", growth_table(run, "flight_periods", "periods in flight")),
+        ("limit", limit_table(run)),
+        ("threads", threads_table(run)),
+        ("own", own_row(run)),
+    ];
+    let mut page = TEMPLATE.to_owned();
+    for (name, text) in tables {
+        let place = format!("{{{{{name}}}}}");
+        if !page.contains(&place) {
+            bail!("the template of the page has no place {place}");
+        }
+        page = page.replace(&place, text.trim_end());
+    }
+    if let Some((_, rest)) = page.split_once("{{") {
+        bail!(
+            "the template of the page has an unknown place {{{{{}",
+            rest.lines().next().unwrap_or_default()
+        );
+    }
+    Ok(page)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record::tests::record;
+    use super::*;
+
+    #[test]
+    fn every_place_of_the_template_is_filled() {
+        let run = record(&[("growth/cells/100", 400.0), ("growth/cells/10000", 300.0)]);
+        let page = page(&run, Some(&run)).expect("complete");
+        assert!(page.contains("| 10,000 | 300 ns | 0.75 |"), "{page}");
+        assert!(page.contains("| `growth/cells/100` | 400 ns | cell | 40.0 | 40.0 |"), "{page}");
+    }
+
+    #[test]
+    fn a_verdict_needs_a_measurement() {
+        let rows = |run: &Record| aims_table(run);
+        let line = |text: &str, start: &str| {
+            text.lines().find(|line| line.starts_with(start)).expect("listed").to_owned()
+        };
+        let mut run = record(&[("w1/scalar", 100.0), ("w3/panel_1000/threads_2", 100.0)]);
+        let scalar = line(&rows(&run), "| W1, one after");
+        assert_eq!(
+            scalar,
+            "| W1, one after the other | ns an impact | 130 | 95.0 | 100 | floor met, goal not |"
+        );
+        assert!(line(&rows(&run), "| W1, in lockstep, AVX2").ends_with("not measured in this run | - |"));
+        assert!(line(&rows(&run), "| panel").ends_with("| 0.100 | met |"));
+        // Two threads on one processor are no measurement of two threads.
+        run.machine.processors = 1;
+        assert!(line(&rows(&run), "| panel").ends_with("not measured in this run | - |"));
+        run.benches = record(&[("w1/scalar", 140.0)]).benches;
+        assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | **not met** |"));
+        run.quick = true;
+        assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | no verdict from a short run |"));
+    }
+
+    #[test]
+    fn large_numbers_are_grouped_to_three_digits() {
+        assert_eq!([grouped(1_234.0), grouped(7_654_321.0), grouped(999.6)], ["1,230", "7,650,000", "1,000"]);
+    }
+}

@@ -1,0 +1,188 @@
+//! What a run of the benches has measured, as it is stored.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use serde::{Deserialize, Serialize};
+
+/// All times of one run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Record {
+    pub(crate) machine: Machine,
+    /// Whether the run was a short one, with wider intervals.
+    pub(crate) quick: bool,
+    /// By the name of the bench.
+    pub(crate) benches: BTreeMap<String, Measured>,
+    /// Wall times of `cargo xtask figures`, if they were measured.
+    pub(crate) figures: Option<FigureTimes>,
+}
+
+/// Where a run was made, and of what.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Machine {
+    pub(crate) processor: String,
+    /// How many processors this program may use.
+    pub(crate) processors: usize,
+    pub(crate) compiler: String,
+    /// The source, as Git describes it.
+    pub(crate) source: String,
+}
+
+/// Wall times of all figures and tables in seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FigureTimes {
+    pub(crate) draft_s: f64,
+    pub(crate) paper_s: f64,
+}
+
+/// The time of one bench.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Measured {
+    /// Median time (ns) of one element, with the ends of its 95 % confidence interval.
+    pub(crate) low_ns: f64,
+    pub(crate) median_ns: f64,
+    pub(crate) high_ns: f64,
+    /// Time (ns) of the reference kernel in the same program: the mean of before and after.
+    pub(crate) reference_ns: f64,
+    /// How much the reference differed between before and after, relative to its mean.
+    pub(crate) reference_drift: f64,
+}
+
+impl Measured {
+    /// The time in units of the reference kernel.
+    pub(crate) fn ratio(&self) -> f64 {
+        self.median_ns / self.reference_ns
+    }
+
+    /// How far the ratio may be off, relative to it.
+    fn uncertainty(&self) -> f64 {
+        0.5 * (self.high_ns - self.low_ns) / self.median_ns + 0.5 * self.reference_drift
+    }
+
+    fn is_sound(&self) -> bool {
+        let times = [self.low_ns, self.median_ns, self.high_ns, self.reference_ns];
+        times.iter().all(|time| time.is_finite() && *time > 0.0)
+            && self.low_ns <= self.median_ns
+            && self.median_ns <= self.high_ns
+            && self.reference_drift.is_finite()
+    }
+}
+
+/// How a ratio differs from that of a baseline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Change {
+    /// Relative change; negative is faster.
+    pub(crate) relative: f64,
+    /// What both uncertainties together explain.
+    pub(crate) uncertainty: f64,
+}
+
+impl Change {
+    pub(crate) fn between(baseline: &Measured, now: &Measured) -> Self {
+        Self {
+            relative: now.ratio() / baseline.ratio() - 1.0,
+            uncertainty: now.uncertainty() + baseline.uncertainty(),
+        }
+    }
+}
+
+impl Record {
+    /// The median time of a bench in nanoseconds.
+    pub(crate) fn median_ns(&self, name: &str) -> Option<f64> {
+        Some(self.benches.get(name)?.median_ns)
+    }
+
+    /// Reads the record that `command` stores.
+    pub(crate) fn read(path: &Path, command: &str) -> anyhow::Result<Self> {
+        let shown = path.display();
+        let text = fs::read(path).with_context(|| format!("cannot read {shown}; `{command}` makes it"))?;
+        let record: Self = serde_json::from_slice(&text).with_context(|| {
+            format!("{shown} does not have the form of this version; `{command}` makes it anew")
+        })?;
+        if let Some((name, _)) = record.benches.iter().find(|(_, measured)| !measured.is_sound()) {
+            bail!("{}: the times of {name} are not positive numbers in rising order", path.display());
+        }
+        Ok(record)
+    }
+
+    /// The text to store.
+    pub(crate) fn to_json(&self) -> anyhow::Result<Vec<u8>> {
+        let mut text = serde_json::to_vec_pretty(self).context("the record cannot be written as JSON")?;
+        text.push(b'\n');
+        Ok(text)
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A record of benches that took so many nanoseconds, with a reference of 10 ns.
+    pub(crate) fn record(times: &[(&str, f64)]) -> Record {
+        let measured = |median_ns: f64| Measured {
+            low_ns: 0.99 * median_ns,
+            median_ns,
+            high_ns: 1.01 * median_ns,
+            reference_ns: 10.0,
+            reference_drift: 0.02,
+        };
+        Record {
+            machine: Machine {
+                processor: "a processor".to_owned(),
+                processors: 2,
+                compiler: "rustc".to_owned(),
+                source: "0123456".to_owned(),
+            },
+            quick: false,
+            benches: times.iter().map(|(name, time)| ((*name).to_owned(), measured(*time))).collect(),
+            figures: None,
+        }
+    }
+
+    fn stored(name: &str, text: &[u8]) -> anyhow::Result<Record> {
+        let path = std::env::temp_dir().join(format!("bouncing-disk-{name}-{}.json", std::process::id()));
+        fs::write(&path, text).expect("writable");
+        let record = Record::read(&path, "the command");
+        fs::remove_file(&path).expect("removable");
+        record
+    }
+
+    #[test]
+    fn a_record_is_stored_and_read() {
+        let record = record(&[("w1/scalar", 150.0)]);
+        let text = record.to_json().expect("JSON");
+        assert_eq!(stored("sound", &text).expect("readable"), record);
+    }
+
+    #[test]
+    fn a_malformed_baseline_is_refused_with_what_repairs_it() {
+        let error = stored("malformed", b"{\"benches\": 3}").expect_err("malformed");
+        assert!(format!("{error:#}").contains("the command"), "{error:#}");
+        let mut record = record(&[("w1/scalar", 150.0)]);
+        record.benches.get_mut("w1/scalar").expect("there").reference_ns = 0.0;
+        let error = stored("unsound", &record.to_json().expect("JSON")).expect_err("no time is zero");
+        assert!(format!("{error:#}").contains("w1/scalar"), "{error:#}");
+        let error = Record::read(Path::new("/nowhere/baseline.json"), "the command").expect_err("missing");
+        assert!(format!("{error:#}").contains("/nowhere/baseline.json"), "{error:#}");
+    }
+
+    #[test]
+    fn a_change_is_one_of_ratios() {
+        let (before, after) = (record(&[("a", 100.0)]), record(&[("a", 150.0)]));
+        let mut now = after.benches["a"];
+        // A machine that is half as fast.
+        now.low_ns *= 2.0;
+        now.median_ns *= 2.0;
+        now.high_ns *= 2.0;
+        now.reference_ns *= 2.0;
+        let change = Change::between(&before.benches["a"], &now);
+        assert!((change.relative - 0.5).abs() < 1e-12, "{change:?}");
+        assert!((change.uncertainty - 0.04).abs() < 1e-12, "{change:?}");
+    }
+}

@@ -1,0 +1,134 @@
+//! The table of a run, beside that of a baseline.
+
+use super::record::{Change, Measured, Record};
+
+/// The heads of the columns.
+const HEADS: [&str; 6] = ["bench", "time", "per", "ratio", "baseline", "change"];
+
+/// What one element of a bench is.
+pub(super) fn element(name: &str) -> &'static str {
+    let (group, rest) = name.split_once('/').unwrap_or((name, ""));
+    match group {
+        "w1" | "impact" => "impact",
+        "w2" => "motor second",
+        "w3" => "cell",
+        "growth" if rest.starts_with("cells") => "cell",
+        "growth" => "impact",
+        "limit" => "pair",
+        "figures" => "figure",
+        _ => "call",
+    }
+}
+
+/// A time with three to four digits and its unit.
+pub(super) fn time(ns: f64) -> String {
+    let (value, unit) = match ns {
+        ns if ns < 1.0e3 => (ns, "ns"),
+        ns if ns < 1.0e6 => (ns / 1.0e3, "µs"),
+        ns if ns < 1.0e9 => (ns / 1.0e6, "ms"),
+        ns => (ns / 1.0e9, "s"),
+    };
+    format!("{} {unit}", digits(value))
+}
+
+/// A positive number to three or four digits.
+pub(super) fn digits(value: f64) -> String {
+    match value {
+        value if value < 1.0 => format!("{value:.3}"),
+        value if value < 10.0 => format!("{value:.2}"),
+        value if value < 100.0 => format!("{value:.1}"),
+        value => format!("{value:.0}"),
+    }
+}
+
+/// A change with its sign, or that it is within what the uncertainties explain.
+fn change(change: Change) -> String {
+    let Change { relative, uncertainty } = change;
+    let number = format!("{:+.1} % ± {:.1}", 100.0 * relative, 100.0 * uncertainty);
+    if relative.abs() <= uncertainty { format!("{number} (noise)") } else { number }
+}
+
+/// The rows of the table, one for each bench of the run or the baseline.
+pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 6]> {
+    let none = || "-".to_owned();
+    let known = |name: &String| baseline.and_then(|baseline| baseline.benches.get(name));
+    let mut rows: Vec<_> = run
+        .benches
+        .iter()
+        .map(|(name, now)| {
+            let before: Option<&Measured> = known(name);
+            [
+                name.clone(),
+                time(now.median_ns),
+                element(name).to_owned(),
+                digits(now.ratio()),
+                before.map_or_else(none, |before| digits(before.ratio())),
+                before.map_or_else(none, |before| change(Change::between(before, now))),
+            ]
+        })
+        .collect();
+    let lost = baseline.iter().flat_map(|baseline| &baseline.benches);
+    for (name, before) in lost.filter(|(name, _)| !run.benches.contains_key(*name)) {
+        let ratio = digits(before.ratio());
+        rows.push([
+            name.clone(),
+            none(),
+            element(name).to_owned(),
+            none(),
+            ratio,
+            "not measured now".to_owned(),
+        ]);
+    }
+    rows
+}
+
+/// The table with aligned columns: names to the left, numbers to the right.
+pub(super) fn aligned(rows: &[[String; 6]]) -> String {
+    let heads = HEADS.map(str::to_owned);
+    let all = || std::iter::once(&heads).chain(rows);
+    let width = |column: usize| all().map(|row| row[column].chars().count()).max().unwrap_or_default();
+    let widths: [usize; 6] = std::array::from_fn(width);
+    all()
+        .map(|row| {
+            let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| match column {
+                0 | 2 => format!("{cell:<width$}"),
+                _ => format!("{cell:>width$}"),
+            });
+            format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+        })
+        .collect()
+}
+
+/// The table in Markdown.
+pub(super) fn markdown(rows: &[[String; 6]]) -> String {
+    let mut text = format!("| {} |\n| --- | ---: | --- | ---: | ---: | ---: |\n", HEADS.join(" | "));
+    for [name, rest @ ..] in rows {
+        text.push_str(&format!("| `{name}` | {} |\n", rest.join(" | ")));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::record::tests::record;
+    use super::*;
+
+    #[test]
+    fn a_table_shows_both_runs_and_what_is_lost() {
+        let run = record(&[("w1/scalar", 150.0), ("w3/scalar", 2_500.0)]);
+        let baseline = record(&[("w1/scalar", 100.0), ("w2/one_motor", 200_000.0)]);
+        let text = aligned(&rows(&run, Some(&baseline)));
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(
+            lines,
+            [
+                "bench            time  per           ratio  baseline            change",
+                "w1/scalar      150 ns  impact         15.0      10.0     +50.0 % ± 4.0",
+                "w3/scalar     2.50 µs  cell            250         -                 -",
+                "w2/one_motor        -  motor second      -     20000  not measured now",
+            ]
+        );
+        let same = aligned(&rows(&run, Some(&run)));
+        assert!(same.contains("+0.0 % ± 4.0 (noise)"), "{same}");
+    }
+}
