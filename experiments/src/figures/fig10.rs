@@ -18,6 +18,7 @@ use crate::draw::{
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::exponent;
+use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
 use crate::ledger;
 use crate::measured::{Layout, Series};
 use crate::paper::{self, SectionFive, TableThree};
@@ -31,10 +32,6 @@ const SMALLEST_COMPARED: f64 = 1e-5;
 
 /// A relaunch perturbation (units of g/omega) that breaks the low-period cycle of panel (a).
 const BREAKING_PERTURBATION: f64 = 0.1;
-
-/// A chattering cycle with so many flights longer than a period of the platform, or fewer, is called low-period. The
-/// paper draws no line; its example in Fig. 12 is "multiple lines" that can be told apart.
-const LOW_PERIOD_FLIGHTS: usize = 4;
 
 /// Curve points of the member that is drawn, and of the ensemble's band.
 const MEMBER_INTERVALS: usize = 600;
