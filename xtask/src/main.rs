@@ -2,9 +2,8 @@
 //!
 //! `cargo xtask figures` computes and draws the figures and tables of the paper.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command-line program talks to its user")]
-
 mod figures;
+mod output;
 mod report;
 mod work;
 
@@ -33,7 +32,7 @@ fn main() -> ExitCode {
     match done {
         Ok(code) => code,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            output::warn!("error: {error:#}");
             ExitCode::FAILURE
         }
     }
