@@ -14,7 +14,7 @@ use bouncing_disk_experiments::summary::Summary;
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
-use crate::output::{say, warn};
+use crate::output::{complain, say};
 use crate::report::Report;
 use crate::work::{self, Finished};
 
@@ -106,14 +106,14 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let selected = match registry::select(&entries, &options.ids) {
         Ok(selected) => selected,
         Err(error) => {
-            warn!("error: {error}");
+            complain!("error: {error}");
             return Ok(ExitCode::from(USAGE));
         }
     };
     let folder = options.measured_folder();
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        warn!("error: --measured {}: there is no such folder", folder.display());
+        complain!("error: --measured {}: there is no such folder", folder.display());
         return Ok(ExitCode::from(USAGE));
     }
     let measurements = Measurements::read(&folder)

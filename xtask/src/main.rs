@@ -32,7 +32,7 @@ fn main() -> ExitCode {
     match done {
         Ok(code) => code,
         Err(error) => {
-            output::warn!("error: {error:#}");
+            output::complain!("error: {error:#}");
             ExitCode::FAILURE
         }
     }

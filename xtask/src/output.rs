@@ -22,11 +22,11 @@ macro_rules! say {
 }
 
 /// As `eprintln!`, but without its panic. A standard error that refuses a line leaves nobody to be told.
-macro_rules! warn {
+macro_rules! complain {
     ($($text:tt)*) => {{ let _ = $crate::output::line(std::io::stderr(), format_args!($($text)*)); }};
 }
 
-pub(crate) use {say, warn};
+pub(crate) use {complain, say};
 
 #[cfg(test)]
 mod tests {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use bouncing_disk_experiments::Progress;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use crate::output::warn;
+use crate::output::complain;
 
 /// The shortest time between two lines about one figure.
 const PAUSE: Duration = Duration::from_secs(10);
@@ -47,7 +47,7 @@ impl Report {
                 Some(bar)
             }
             Self::Lines => {
-                warn!("{id:<8} begins");
+                complain!("{id:<8} begins");
                 None
             }
             Self::Silent => None,
@@ -96,7 +96,7 @@ impl Running<'_> {
                 // Only a closed terminal refuses a line.
                 let _ = bars.println(line);
             }
-            Report::Lines => warn!("{line}"),
+            Report::Lines => complain!("{line}"),
             Report::Silent => {}
         }
     }
@@ -128,7 +128,7 @@ impl Progress for Running<'_> {
             && stage.told.elapsed() >= PAUSE
         {
             stage.told = Instant::now();
-            warn!("{}", line(self.id, done, stage.total, stage.unit, stage.began.elapsed()));
+            complain!("{}", line(self.id, done, stage.total, stage.unit, stage.began.elapsed()));
         }
     }
 }
