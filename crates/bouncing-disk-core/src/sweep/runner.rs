@@ -102,7 +102,7 @@ where
         loop {
             let (index, orbit) = self.queue.take()?;
             let mut run = Run { index, orbit, value: (self.start)(index) };
-            match run.to_launch(self.visit) {
+            match run.show_until_launch(self.visit) {
                 None => return Some(run),
                 Some(done) => self.finish(run, done),
             }
@@ -160,7 +160,7 @@ impl<S> Run<S> {
     }
 
     /// Shows the events before the next launch.
-    fn to_launch(&mut self, visit: &impl Fn(&mut S, &SweepEvent) -> ControlFlow<()>) -> Done {
+    fn show_until_launch(&mut self, visit: &impl Fn(&mut S, &SweepEvent) -> ControlFlow<()>) -> Done {
         while self.orbit.launch().is_none() {
             let done = self.event(visit);
             if done.is_some() {
@@ -185,7 +185,7 @@ impl<S> Run<S> {
             return Some(Ok(()));
         }
         if self.orbit.launch().is_none() {
-            let done = self.to_launch(visit);
+            let done = self.show_until_launch(visit);
             if done.is_some() {
                 return done;
             }
