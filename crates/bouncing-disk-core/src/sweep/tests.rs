@@ -69,7 +69,7 @@ fn expected(orbit: &Orbit, most: usize) -> Vec<Vec<u64>> {
 #[test]
 fn a_sweep_shows_the_events_of_single_orbits() {
     // Orbits that are done early, and some that outlive all others.
-    let most = |index: usize| if index % 97 == 0 { 600 } else { 20 + index % 50 };
+    let most = |index: usize| if index.is_multiple_of(97) { 600 } else { 20 + index % 50 };
     for count in [1, 11, 12, 64, 65, 4_000] {
         let orbits = orbits(count);
         let expected: Vec<_> = orbits.iter().enumerate().map(|(k, orbit)| expected(orbit, most(k))).collect();
