@@ -179,3 +179,20 @@ fn chaos_has_a_positive_exponent_and_rest_none() {
     assert!(exponents[0].is_some_and(|exponent| exponent > 0.05), "{exponents:?}");
     assert_eq!(exponents[1], None);
 }
+
+#[test]
+fn a_sweep_does_not_depend_on_the_number_of_threads() {
+    let orbits = orbits(1_000);
+    let events = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        let visit = |events: &mut Vec<_>, event: &SweepEvent| {
+            events.push(bits(event));
+            if events.len() < 200 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        pool.install(|| sweep(&orbits, |_| Vec::new(), visit)).expect("no failure")
+    };
+    let expected: Vec<_> = orbits.iter().map(|orbit| expected(orbit, 200)).collect();
+    for threads in [1, 2, 7] {
+        assert!(events(threads) == expected, "{threads} threads");
+    }
+}
