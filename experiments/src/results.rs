@@ -2,7 +2,8 @@
 //!
 //! The page and its pictures are committed, made in paper quality. Whether they are out of date must be known without
 //! the minutes that takes: [`Digests`], written with them, holds for each figure a digest of what it was made from in
-//! *both* qualities, data, drawing and text. Any change of a number, a line or a word changes the digest of the draft, too.
+//! *both* qualities, data, drawing and text. A draft run sees every change of model, drawing, caption, claims and printed
+//! numbers. It does not see one that only the paper grids feel, nor one of the page's head (docs/architecture.md).
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

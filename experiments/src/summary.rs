@@ -5,6 +5,7 @@ use crate::experiment::{self, Entry};
 use crate::measured::Measurements;
 use crate::output::{OutputError, OutputFolder};
 use crate::page::{self, Section};
+use crate::stamp::Stale;
 use crate::{json, product};
 
 /// The texts of the common files, and the figures that are not in them.
@@ -52,7 +53,11 @@ impl Summary {
                     continue;
                 }
             };
-            warnings.extend(own.iter().map(|warning| (id.to_owned(), warning.clone())));
+            let state = folder.check(id, quality, &measurements.digest(entry.measurements()));
+            // What was wrong with measurements that have been replaced says nothing about the new ones.
+            if state != Err(Stale::Measurements) {
+                warnings.extend(own.iter().map(|warning| (id.to_owned(), warning.clone())));
+            }
             let section = Section {
                 id: id.to_owned(),
                 title: entry.title().to_owned(),
@@ -62,7 +67,7 @@ impl Summary {
                 quality,
                 run_time_s: stamp.run_time_s,
                 warnings: own,
-                outdated: folder.check(id, quality, &measurements.digest(entry.measurements())).is_err(),
+                outdated: state.is_err(),
                 has_table: folder.path().join(format!("{id}.csv")).exists(),
                 width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
             };

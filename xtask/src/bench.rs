@@ -14,6 +14,7 @@ use anyhow::{Context as _, bail};
 use bouncing_disk_experiments::output::OutputFolder;
 use clap::Args;
 
+use crate::output::say;
 use crate::workspace::{DOCS_FOLDER, in_workspace};
 use criterion::PROGRAMS;
 use record::{FigureTimes, Machine, Record};
@@ -57,22 +58,22 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         .then(|| Record::read(&baseline_path, "cargo xtask bench --save-baseline"))
         .transpose()?;
     let run = measured(options)?;
-    print!("{}", table::aligned(&table::rows(&run, baseline.as_ref())));
-    println!(
+    say!("{}", table::aligned(&table::rows(&run, baseline.as_ref())).trim_end())?;
+    say!(
         "\na ratio is a time over that of the reference kernel, measured before and after in the same program"
-    );
+    )?;
     if run.machine.processors < 2 {
-        println!("one processor was available: the times with two threads show no speed-up");
+        say!("one processor was available: the times with two threads show no speed-up")?;
     }
     if options.compare {
         let page = page::page(&run, baseline.as_ref())?;
         let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
         docs.write(PAGE_FILE, page.as_bytes())?;
-        println!("{} is written", docs.path().join(PAGE_FILE).display());
+        say!("{} is written", docs.path().join(PAGE_FILE).display())?;
     }
     if options.save_baseline {
         OutputFolder::create(in_workspace(BASELINE_FOLDER))?.write(BASELINE_FILE, &run.to_json()?)?;
-        println!("{} is written", baseline_path.display());
+        say!("{} is written", baseline_path.display())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -14,6 +14,7 @@ use bouncing_disk_experiments::summary::Summary;
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
+use crate::output::{complain, say};
 use crate::report::Report;
 use crate::work::{self, Finished};
 use crate::workspace::{DOCS_FOLDER, in_workspace};
@@ -98,20 +99,20 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let selected = match registry::select(&entries, &options.ids) {
         Ok(selected) => selected,
         Err(error) => {
-            eprintln!("error: {error}");
+            complain!("error: {error}");
             return Ok(ExitCode::from(USAGE));
         }
     };
     let folder = options.measured_folder();
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        eprintln!("error: --measured {}: there is no such folder", folder.display());
+        complain!("error: --measured {}: there is no such folder", folder.display());
         return Ok(ExitCode::from(USAGE));
     }
     let measurements = Measurements::read(&folder)
         .with_context(|| format!("cannot read the measurements in {}", folder.display()))?;
     if options.list {
-        return Ok(list(options, &selected, &measurements));
+        return list(options, &selected, &measurements);
     }
     if options.check {
         return check(options, &entries, &selected, &measurements);
@@ -138,13 +139,13 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
         let code = make(run, quality, &Measurements::none(), folder)?;
         if code != ExitCode::SUCCESS {
-            println!("the documentation is left as it was");
+            say!("the documentation is left as it was")?;
             return Ok(code);
         }
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
     results::write(run.entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
-    println!("{} is up to date", docs.path().join(results::RESULTS_FILE).display());
+    say!("{} is up to date", docs.path().join(results::RESULTS_FILE).display())?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -159,7 +160,7 @@ fn threads(options: &Options) -> usize {
     options.threads.map_or_else(available_threads, NonZeroUsize::get)
 }
 
-fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> ExitCode {
+fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
     let widest = selected.iter().map(|entry| entry.title().chars().count()).max().unwrap_or_default();
     for entry in selected {
@@ -167,9 +168,9 @@ fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements)
             Ok(()) => "up to date".to_owned(),
             Err(stale) => stale.to_string(),
         };
-        println!("{:<8} {:<widest$}  {state}", entry.id(), entry.title());
+        say!("{:<8} {:<widest$}  {state}", entry.id(), entry.title())?;
     }
-    ExitCode::SUCCESS
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Whether a figure is up to date with the sources and the measurements.
@@ -217,18 +218,18 @@ fn check(
     let mut outdated = Vec::new();
     for entry in selected {
         if let Err(stale) = state(*entry, options.quality, &folder, measurements) {
-            println!("{}: {stale}", entry.id());
+            say!("{}: {stale}", entry.id())?;
             outdated.push(entry.id());
         }
     }
     let summary = Summary::of(entries, &folder, measurements)?;
     let common = summary.outdated(&folder)?;
     for name in &common {
-        println!("{name}: missing or out of date");
+        say!("{name}: missing or out of date")?;
     }
     let faults = faults(options, entries, selected, measurements, &summary);
     for fault in &faults {
-        println!("{fault}");
+        say!("{fault}")?;
     }
     let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
     // A figure with a user's measurements is not the one of the documentation.
@@ -240,16 +241,16 @@ fn check(
         .collect();
     let committed = results::outdated(&comparable, options.quality, &folder, &docs)?;
     for name in &committed {
-        println!("{DOCS_FOLDER}/{name}: missing or out of date");
+        say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
     }
     if !committed.is_empty() {
-        println!("to repair: {DOCS_COMMAND}");
+        say!("to repair: {DOCS_COMMAND}")?;
     }
     if outdated.is_empty() && common.is_empty() {
         if !committed.is_empty() || !faults.is_empty() {
             return Ok(ExitCode::FAILURE);
         }
-        println!("all outputs in {} and the documentation are up to date", folder.path().display());
+        say!("all outputs in {} and the documentation are up to date", folder.path().display())?;
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
@@ -258,7 +259,7 @@ fn check(
         (true, true) => Vec::new(),
         _ => outdated,
     };
-    println!("to repair: {}", options.command(&named));
+    say!("to repair: {}", options.command(&named))?;
     Ok(ExitCode::FAILURE)
 }
 
@@ -274,7 +275,7 @@ fn make(
         .copied()
         .partition(|entry| !options.force && state(*entry, quality, folder, measurements).is_ok());
     for entry in &current {
-        println!("{:<8} up to date", entry.id());
+        say!("{:<8} up to date", entry.id())?;
     }
     let report = Report::new();
     let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
@@ -282,44 +283,49 @@ fn make(
     let summary = Summary::of(entries, folder, measurements)?;
     summary.write(folder)?;
     for (id, reason) in &summary.left_out {
-        println!("{id}: not in the gallery and in claims.json: {reason}");
-        println!("    make it again: {}", options.command(&[id]));
+        say!("{id}: not in the gallery and in claims.json: {reason}")?;
+        say!("    make it again: {}", options.command(&[id]))?;
     }
     let faults = faults(options, entries, selected, measurements, &summary);
-    Ok(conclude(options, &finished, folder, &faults))
+    conclude(options, &finished, folder, &faults)
 }
 
 /// Prints the times, the measurements that were left out and the failures.
 ///
 /// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and a script
 /// must not take it for one that shows them.
-fn conclude(options: &Options, finished: &[Finished], folder: &OutputFolder, faults: &[String]) -> ExitCode {
+fn conclude(
+    options: &Options,
+    finished: &[Finished],
+    folder: &OutputFolder,
+    faults: &[String],
+) -> anyhow::Result<ExitCode> {
     let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
     made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
     if !made.is_empty() {
-        println!("\nrun times, longest first");
+        say!("\nrun times, longest first")?;
         for figure in &made {
-            println!("{:<8} {:>9.2} s", figure.id, figure.run_time.as_secs_f64());
+            say!("{:<8} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
         }
     }
-    println!("\nfigures, claims.json and index.html are in {}", folder.path().display());
+    say!("\nfigures, claims.json and index.html are in {}", folder.path().display())?;
     let failed: Vec<_> =
         finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
     if !faults.is_empty() {
-        println!();
+        say!("")?;
     }
     for fault in faults {
-        println!("{fault}");
+        say!("{fault}")?;
     }
     if failed.is_empty() {
-        return if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+        return Ok(if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE });
     }
-    println!("\n{} of {} failed", failed.len(), finished.len());
+    say!("\n{} of {} failed", failed.len(), finished.len())?;
     for (id, error) in failed {
-        println!("{id}: {error:#}");
-        println!("    run it again: {}", options.command(&[id]));
+        say!("{id}: {error:#}")?;
+        say!("    run it again: {}", options.command(&[id]))?;
     }
-    ExitCode::FAILURE
+    Ok(ExitCode::FAILURE)
 }
 
 fn available_threads() -> usize {

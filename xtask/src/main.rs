@@ -3,10 +3,9 @@
 //! `cargo xtask figures` computes and draws the figures and tables of the paper; `cargo xtask bench` measures how fast
 //! the library is.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command-line program talks to its user")]
-
 mod bench;
 mod figures;
+mod output;
 mod report;
 mod work;
 mod workspace;
@@ -39,7 +38,7 @@ fn main() -> ExitCode {
     match done {
         Ok(code) => code,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            output::complain!("error: {error:#}");
             ExitCode::FAILURE
         }
     }

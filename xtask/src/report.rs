@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 use bouncing_disk_experiments::Progress;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
+use crate::output::complain;
+
 /// The shortest time between two lines about one figure.
 const PAUSE: Duration = Duration::from_secs(10);
 
@@ -45,7 +47,7 @@ impl Report {
                 Some(bar)
             }
             Self::Lines => {
-                eprintln!("{id:<8} begins");
+                complain!("{id:<8} begins");
                 None
             }
             Self::Silent => None,
@@ -94,7 +96,7 @@ impl Running<'_> {
                 // Only a closed terminal refuses a line.
                 let _ = bars.println(line);
             }
-            Report::Lines => eprintln!("{line}"),
+            Report::Lines => complain!("{line}"),
             Report::Silent => {}
         }
     }
@@ -126,7 +128,7 @@ impl Progress for Running<'_> {
             && stage.told.elapsed() >= PAUSE
         {
             stage.told = Instant::now();
-            eprintln!("{}", line(self.id, done, stage.total, stage.unit, stage.began.elapsed()));
+            complain!("{}", line(self.id, done, stage.total, stage.unit, stage.began.elapsed()));
         }
     }
 }

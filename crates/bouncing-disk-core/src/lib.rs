@@ -19,6 +19,7 @@ mod margin;
 mod periodic;
 mod phase;
 pub mod reference;
+mod sweep;
 mod vibration;
 
 pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};
@@ -33,4 +34,5 @@ pub use lanes::InstructionSet;
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use phase::Phase;
+pub use sweep::{Landing, SweepEvent, columns, lives, lyapunov_exponents, sweep};
 pub use vibration::Vibration;

@@ -117,11 +117,15 @@ impl ImpactMap {
     /// It is singular at a graze (impact velocity zero): the entries are infinite there.
     #[must_use]
     pub fn jacobian(&self, state: ImpactState, impact: &Impact) -> DMat2 {
-        let h = impact.duration();
+        self.derivative(state, (*impact).into(), impact.duration())
+    }
+
+    /// [`Self::jacobian`] for the impact in `next` after a flight of the duration `h`.
+    pub(crate) fn derivative(&self, state: ImpactState, next: ImpactState, h: f64) -> DMat2 {
         let p = self.vibration.peak_acceleration();
         let (s, c) = (state.phase.sin(), state.phase.cos());
-        let (s1, c1) = (impact.phase.sin(), impact.phase.cos());
-        let arrival = impact.velocity;
+        let (s1, c1) = (next.phase.sin(), next.phase.cos());
+        let arrival = next.velocity;
         // gap(h; tau, w) = 0: dh = -(gap_tau dtau + h dw) / arrival.
         let gap_by_phase = -p * (s * h + (c1 - c));
         let duration_by = DVec2::new(-gap_by_phase / arrival, self.restitution * h / arrival);
@@ -272,11 +276,23 @@ impl Orbit {
         Ok(())
     }
 
+    /// The map.
+    #[must_use]
+    pub const fn map(&self) -> &ImpactMap {
+        &self.map
+    }
+
+    /// Ends the flight in `state`, computed elsewhere from [`Self::launch`].
+    #[inline(always)]
+    pub(crate) fn land(&mut self, state: ImpactState, duration: f64) {
+        self.next = self.after(state.phase, state.velocity, duration);
+    }
+
     #[inline]
     fn report(&mut self, impact: Impact) -> OrbitEvent {
         // Only flights far below one period count as short.
         let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-        self.next = self.after(impact.phase, impact.velocity, duration);
+        self.land(impact.into(), duration);
         OrbitEvent::Impact(impact)
     }
 

@@ -5,6 +5,7 @@ mod data;
 mod merging;
 mod picture;
 mod regimes;
+mod rotation;
 mod scan;
 mod statements;
 

@@ -152,8 +152,8 @@ impl Experiment for Fig09 {
              motor is switched off at {} rad/s, at the lowest, the middle and the highest preload of Sec. V B, with the fitted \
              line −α̈_brake (t − t_c) (dashed) from which Eq. (17) gives μ; a residual vibration of the stator is not \
              modelled. (b) μ against preload: circles, recovered from the model's curves; dots, a synthetic record, not \
-             measured, with the printed mean {} and standard deviation {} (seed {SEED}, negative values drawn again); line, the \
-             printed mean. The paper's points are not in its text.{own}",
+             measured, drawn from the log-normal distribution with the printed mean {} and standard deviation {} (seed {SEED}); \
+             line, the printed mean. The paper's points are not in its text.{own}",
             data.first_speed_rad_per_s, data.printed_mean, data.printed_deviation
         )
     }
@@ -176,14 +176,12 @@ impl Experiment for Fig09 {
         let printed_mean = paper::value("section5.mean_friction")?;
         let printed_deviation = paper::value("section5.friction_deviation")?;
         let mut noise = Noise::new(SEED);
-        let mut drawn = || loop {
-            let friction = printed_mean + printed_deviation * noise.bell();
-            if friction > 0.0 {
-                return friction;
-            }
-        };
-        let synthetic: Vec<(f64, f64)> =
-            (0..SYNTHETIC).map(|k| (lowest + share(k, SYNTHETIC) * (highest - lowest), drawn())).collect();
+        let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
+            .map(|k| {
+                let friction = noise.log_normal(printed_mean, printed_deviation);
+                (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
+            })
+            .collect();
         let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
         let line = StraightLine::through(&synthetic);
         Ok(Fig09Data {

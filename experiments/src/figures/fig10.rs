@@ -5,10 +5,7 @@ mod measured;
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, OrbitEvent};
-use bouncing_disk::{
-    DiskParameters, Ensemble, ExponentialFit, PlatformParameters, RampFit, Spread, System, TransientSettings,
-    ensemble,
-};
+use bouncing_disk::{Ensemble, ExponentialFit, RampFit, Spread, System, TransientSettings, ensemble};
 use serde::{Deserialize, Serialize};
 
 use crate::claim::Claim;
@@ -18,6 +15,7 @@ use crate::draw::{
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::exponent;
+use crate::figures::motor_case::{LOW_PERIOD_FLIGHTS, MotorCase, core_error};
 use crate::ledger;
 use crate::measured::{Layout, Series};
 use crate::paper::{self, SectionFive, TableThree};
@@ -31,10 +29,6 @@ const SMALLEST_COMPARED: f64 = 1e-5;
 
 /// A relaunch perturbation (units of g/omega) that breaks the low-period cycle of panel (a).
 const BREAKING_PERTURBATION: f64 = 0.1;
-
-/// A chattering cycle with so many flights longer than a period of the platform, or fewer, is called low-period. The
-/// paper draws no line; its example in Fig. 12 is "multiple lines" that can be told apart.
-const LOW_PERIOD_FLIGHTS: usize = 4;
 
 /// Curve points of the member that is drawn, and of the ensemble's band.
 const MEMBER_INTERVALS: usize = 600;
@@ -107,16 +101,15 @@ struct Cycle {
 }
 
 /// The cycle of a motor that comes to rest within 200 impacts of a separation from rest: every separation leaves
-/// it in the same vertical state, so the first rest closes the cycle.
+/// it in the same vertical state, so the first rest closes the cycle. Not [`MotorCase::cycle`], which counts flights of more
+/// than half a period.
 fn cycle(system: &System) -> Result<Option<Cycle>, ExperimentError> {
     let map = system.dimensionless().map();
     let Some(phase) = map.vibration().separation_phase() else { return Ok(None) };
-    let orbit = map
-        .orbit_from_launch(phase, 0.0, ChatterPolicy::Complete)
-        .map_err(|error| ExperimentError::model(bouncing_disk::Error::from(error)))?;
+    let orbit = map.orbit_from_launch(phase, 0.0, ChatterPolicy::Complete).map_err(core_error)?;
     let mut cycle = Cycle { platform_periods: 0, long_flights: 0, impacts: 0 };
     for event in orbit.take(200) {
-        match event.map_err(|error| ExperimentError::model(bouncing_disk::Error::from(error)))? {
+        match event.map_err(core_error)? {
             OrbitEvent::Impact(impact) => {
                 cycle.impacts += 1;
                 cycle.long_flights += usize::from(impact.periods > 0);
@@ -148,32 +141,6 @@ struct BrokenCycle {
 struct PerturbationEffect {
     relaunch_perturbation: f64,
     steady_speed_rad_per_s: Spread,
-}
-
-/// The motor of Table III with amplitude `amplitude` (m) and preload acceleration `preload` (m/s^2).
-pub(crate) fn motor(
-    table: &TableThree,
-    frequency_hz: f64,
-    amplitude: f64,
-    preload: f64,
-) -> Result<System, ExperimentError> {
-    let angular_frequency = TAU * frequency_hz;
-    let platform = PlatformParameters {
-        amplitude,
-        twist_amplitude: table.peak_angular_speed_rad_per_s / angular_frequency,
-        angular_frequency,
-        phase_lag: table.phase_lag_rad,
-    };
-    let disk = DiskParameters {
-        contact_radius: 1e-3 * table.contact_radius_mm,
-        gyration_radius: 1e-3 * table.gyration_radius_mm,
-        friction: table.friction,
-        restitution: table.restitution,
-        preload_acceleration: preload,
-        load_acceleration: 0.0,
-    };
-    let build = || System::new(platform.build()?, disk.build()?);
-    build().map_err(ExperimentError::model)
 }
 
 /// Gamma of an amplitude (m), frequency (Hz) and preload acceleration (m/s^2).
@@ -268,6 +235,7 @@ impl Experiment for Fig10 {
     fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data, ExperimentError> {
         let table = paper::table_three()?;
         let section = paper::section_five()?;
+        let case = MotorCase::default_of(&table, &section);
         let members = quality.choose(6, 32);
         let mass = section.rotor_mass_kg();
         let defaults = TransientSettings::default();
@@ -280,7 +248,9 @@ impl Experiment for Fig10 {
         {
             let mut panels = Vec::new();
             for amplitude in amplitudes {
-                let system = motor(&table, section.default_frequency_hz, amplitude, preload)?;
+                let system =
+                    MotorCase { amplitude_m: amplitude, preload_acceleration_m_per_s2: preload, ..case }
+                        .system()?;
                 let settings = TransientSettings { duration, intervals: MEMBER_INTERVALS, ..defaults };
                 let runs = ensemble(&system, &settings, members).map_err(ExperimentError::model)?;
                 panels.push(transient(&system, &runs, mass)?);
@@ -298,7 +268,7 @@ impl Experiment for Fig10 {
         }
 
         let smallest = amplitudes[0];
-        let system = motor(&table, section.default_frequency_hz, smallest, section.gravity_m_per_s2)?;
+        let system = MotorCase { amplitude_m: smallest, ..case }.system()?;
         let settings = TransientSettings {
             duration: readings[0].duration_s,
             intervals: MEMBER_INTERVALS,
@@ -315,8 +285,7 @@ impl Experiment for Fig10 {
         };
         progress.advance(1);
 
-        let system =
-            motor(&table, section.default_frequency_hz, table.amplitude_m, section.gravity_m_per_s2)?;
+        let system = case.system()?;
         let mut perturbations = Vec::new();
         for relaunch_perturbation in PERTURBATIONS {
             let settings =

@@ -12,6 +12,10 @@ use serde::{Deserialize, Serialize};
 use crate::experiment::ExperimentError;
 use crate::paper::{SectionFive, TableThree};
 
+/// A chattering cycle of at most so many flights longer than a period of the platform is of low period. The paper draws
+/// no line; its example in Fig. 12 shows a few lines that can be told apart.
+pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
+
 /// A fit whose constant exceeds this share of the duration, or whose residual exceeds this share of its steady
 /// speed, has no meaning: the speed does not settle, or it is not told apart from zero.
 const LARGEST_CONSTANT: f64 = 0.5;

@@ -1,5 +1,7 @@
 //! Seeded noise for estimators that have no measured points to run on. Whatever is made with it is labelled synthetic.
 
+use bouncing_disk::core::elementary::{exp, ln};
+
 /// A documented, reproducible stream of numbers for each seed (splitmix64).
 #[derive(Clone, Debug)]
 pub(crate) struct Noise(u64);
@@ -22,6 +24,14 @@ impl Noise {
     pub(crate) fn bell(&mut self) -> f64 {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
+
+    /// Log-normal with this mean and standard deviation, both positive: for quantities that cannot be negative. A bell cut
+    /// at zero would have a larger mean and less scatter than asked for.
+    pub(crate) fn log_normal(&mut self, mean: f64, deviation: f64) -> f64 {
+        let relative = deviation / mean;
+        let variance = ln(1.0 + relative * relative);
+        exp(ln(mean) - 0.5 * variance + variance.sqrt() * self.bell())
+    }
 }
 
 #[cfg(test)]
@@ -40,5 +50,16 @@ mod tests {
         let variance = numbers.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 2e4;
         // Four standard errors.
         assert!(mean.abs() < 0.029 && (variance - 1.0).abs() < 0.04, "{mean} {variance}");
+    }
+
+    #[test]
+    fn the_log_normal_is_positive_and_has_the_moments_asked_for() {
+        let mut noise = Noise::new(7);
+        let numbers: Vec<f64> = (0..100_000).map(|_| noise.log_normal(0.10, 0.06)).collect();
+        assert!(numbers.iter().all(|&x| x > 0.0));
+        let mean = numbers.iter().sum::<f64>() / 1e5;
+        let deviation = (numbers.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 1e5).sqrt();
+        // Four standard errors.
+        assert!((mean - 0.10).abs() < 0.0008 && (deviation - 0.06).abs() < 0.0012, "{mean} {deviation}");
     }
 }

@@ -43,14 +43,14 @@ impl Experiment for Table1 {
             .iter()
             .map(|row| {
                 let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-                let computed = row.computed.as_ref().map_or_else(String::new, |computed| {
-                    let digits = row.decimals;
-                    if computed.sum > 0.0 {
-                        format!("{:.digits$} ± {:.digits$}{unit}", computed.value, computed.sum)
-                    } else {
-                        format!("{:.digits$}{unit}", computed.value)
-                    }
-                });
+                let digits = row.decimals;
+                let uncertainty = row
+                    .uncertainty
+                    .as_ref()
+                    .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
+                let computed = row
+                    .computed
+                    .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
                 let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
                 vec![
                     Label::new(&row.label),
@@ -93,16 +93,16 @@ impl Experiment for Table1 {
             "uncertainty, root sum of squares",
         ]);
         for row in &data.rows {
-            let computed = |of: fn(&super::uncertainty::Propagated) -> f64| {
-                row.computed.as_ref().map_or(Cell::Empty, |computed| of(computed).into())
+            let uncertainty = |of: fn(&super::uncertainty::Propagated) -> f64| {
+                row.uncertainty.as_ref().map_or(Cell::Empty, |uncertainty| of(uncertainty).into())
             };
             table.push([
                 Cell::from(row.symbol.as_str()),
                 Cell::from(row.unit.as_str()),
                 row.printed.as_deref().map_or(Cell::Empty, Cell::from),
-                computed(|computed| computed.value),
-                computed(|computed| computed.sum),
-                computed(|computed| computed.root_sum_of_squares),
+                row.computed.map_or(Cell::Empty, Cell::from),
+                uncertainty(|uncertainty| uncertainty.sum),
+                uncertainty(|uncertainty| uncertainty.root_sum_of_squares),
             ]);
         }
         Some(table)

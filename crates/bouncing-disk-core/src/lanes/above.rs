@@ -115,7 +115,7 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
         let near = mask(jet.is_near_root());
         // No crest between the start and the step's end.
         let crests = |angle: f64| nearest_whole(angle * (1.0 / TAU) - 0.75);
-        let within = mask(crests(start - CLEAR) == crests(start + (step + CLEAR)));
+        let within = mask(crests(start + (step + CLEAR)) <= crests(start - CLEAR));
         let inside = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(work.root[k] > 0.0) & within;
         // Behind a crest, the platform falling away faster than the disk may fall: two windows.
         let two_windows = mask(jet.curvature > -CLEAR)

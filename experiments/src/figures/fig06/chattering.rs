@@ -1,8 +1,9 @@
 //! The chattering orbit: its cycle, the end of the single tosses, and the two ways to end a chattering sequence.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, OrbitEvent, Phase, Vibration};
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Phase, SweepEvent, Vibration, sweep};
 use bouncing_disk::{Dimensionless, MultiTossSettings, OrbitClass, Start, TossOrbit, multi_toss};
 use rayon::prelude::*;
 
@@ -29,34 +30,45 @@ impl Cycle {
     }
 }
 
-/// The cycle of a disk that has been at rest; `None` if it never leaves or does not come to rest again.
-pub(super) fn cycle(
-    axial_forcing: f64,
+/// The cycles of a disk that has been at rest, at each Γ; `None` where it never leaves or does not come to rest again.
+pub(super) fn cycles(
+    forcings: &[f64],
     restitution: f64,
     policy: ChatterPolicy,
-) -> Result<Option<Cycle>, Error> {
-    let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?;
-    let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
-    let (mut impacts, mut turns, mut long_flights) = (0, 0, 0);
-    for event in map.orbit_from_launch(leaves, 0.0, policy)? {
-        match event? {
-            OrbitEvent::Impact(impact) => {
-                impacts += 1;
-                turns += impact.turns;
-                long_flights += usize::from(impact.duration() > 0.5 * TAU);
-            }
-            OrbitEvent::Stick(stick) => {
-                let platform_periods =
-                    turns + stick.attachment.turns + stick.separation.map_or(0, |(_, turns)| turns);
-                return Ok(Some(Cycle { impacts, platform_periods, long_flights }));
-            }
-            _ => break,
-        }
-        if impacts == LONGEST_CYCLE {
-            break;
+) -> Result<Vec<Option<Cycle>>, Error> {
+    let mut orbits = Vec::new();
+    let mut cycles = vec![None; forcings.len()];
+    let mut leaving = Vec::new();
+    for (index, &forcing) in forcings.iter().enumerate() {
+        let map = ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution)?;
+        if let Some(leaves) = map.vibration().separation_phase() {
+            orbits.push(map.orbit_from_launch(leaves, 0.0, policy)?);
+            leaving.push(index);
         }
     }
-    Ok(None)
+    let walked = sweep(
+        &orbits,
+        |_| (Cycle { impacts: 0, platform_periods: 0, long_flights: 0 }, false),
+        |(cycle, rests), event| match event {
+            SweepEvent::Impact(landing) => {
+                cycle.impacts += 1;
+                cycle.platform_periods += landing.turns;
+                cycle.long_flights += usize::from(landing.duration > 0.5 * TAU);
+                if cycle.impacts < LONGEST_CYCLE { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            }
+            SweepEvent::Stick(stick) => {
+                cycle.platform_periods +=
+                    stick.attachment.turns + stick.separation.map_or(0, |(_, turns)| turns);
+                *rests = true;
+                ControlFlow::Break(())
+            }
+            _ => ControlFlow::Break(()),
+        },
+    )?;
+    for (index, (cycle, rests)) in leaving.into_iter().zip(walked) {
+        cycles[index] = rests.then_some(cycle);
+    }
+    Ok(cycles)
 }
 
 /// Rest on the platform at its lowest point, turning with it.
@@ -69,13 +81,13 @@ fn tosses(system: &Dimensionless, settings: MultiTossSettings) -> Result<TossOrb
     multi_toss(*system, from_rest(system)?, settings).map_err(ExperimentError::model)
 }
 
-/// The impacts of the chattering orbit, if the disk chatters at this forcing.
+/// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.
 pub(super) fn chattering_slice(
     axial_forcing: f64,
+    cycle: Option<Cycle>,
     inputs: Inputs,
     settings: MultiTossSettings,
 ) -> Result<Option<Slice>, ExperimentError> {
-    let cycle = cycle(axial_forcing, inputs.restitution, settings.policy).map_err(ExperimentError::model)?;
     let Some(cycle) = cycle else {
         return Ok(None);
     };
@@ -86,39 +98,34 @@ pub(super) fn chattering_slice(
     Ok(Some(Slice { period: Some(cycle.impacts), ..slice }))
 }
 
-/// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` and bisected.
+/// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their cycles and bisected.
 pub(super) fn single_tosses(
-    forcings: &[f64],
+    forcings: &[(f64, Option<Cycle>)],
     section: &SectionFour,
     policy: ChatterPolicy,
 ) -> Result<SingleTosses, ExperimentError> {
     let (restitution, printed_end) = (section.restitution, section.single_tosses_end);
-    let single = |forcing: f64| -> Result<bool, ExperimentError> {
-        Ok(cycle(forcing, restitution, policy)
-            .map_err(ExperimentError::model)?
-            .is_some_and(|cycle| cycle.is_single_toss()))
-    };
+    let is_single = |cycle: &Option<Cycle>| cycle.is_some_and(|cycle| cycle.is_single_toss());
     let (mut last, mut first_other) = (f64::NAN, printed_end);
-    for &forcing in forcings.iter().filter(|forcing| **forcing * PI > 1.0 && **forcing < printed_end) {
-        if single(forcing)? {
-            last = forcing;
+    for (forcing, cycle) in
+        forcings.iter().filter(|(forcing, _)| *forcing * PI > 1.0 && *forcing < printed_end)
+    {
+        if is_single(cycle) {
+            last = *forcing;
         } else {
-            first_other = forcing;
+            first_other = *forcing;
             break;
         }
     }
     // A NaN (no Γ at all) ends the loop at once.
     while first_other - last > 1.0e-9 {
         let middle = 0.5 * (last + first_other);
-        if single(middle)? { last = middle } else { first_other = middle }
+        let cycle = cycles(&[middle], restitution, policy).map_err(ExperimentError::model)?;
+        if cycle.iter().all(is_single) { last = middle } else { first_other = middle }
     }
-    let beyond: Vec<Option<Cycle>> = (0..200)
-        .into_par_iter()
-        .map(|i| {
-            let forcing = first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / 200.0;
-            cycle(forcing, restitution, policy).map_err(ExperimentError::model)
-        })
-        .collect::<Result<_, _>>()?;
+    let beyond: Vec<f64> =
+        (0..200).map(|i| first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / 200.0).collect();
+    let beyond = cycles(&beyond, restitution, policy).map_err(ExperimentError::model)?;
     let periods: Vec<u64> = beyond.iter().flatten().map(|cycle| cycle.platform_periods).collect();
     let singles = beyond.iter().flatten().filter(|cycle| cycle.is_single_toss()).count();
     Ok(SingleTosses {
@@ -136,12 +143,12 @@ pub(super) fn policies(
     settings: MultiTossSettings,
 ) -> Result<Policies, ExperimentError> {
     let complete = MultiTossSettings { policy: ChatterPolicy::Complete, ..settings };
-    let pairs: Vec<Option<Pair>> = forcings
-        .par_iter()
-        .map(|&forcing| {
-            let cycle_of =
-                |policy| cycle(forcing, inputs.restitution, policy).map_err(ExperimentError::model);
-            let (Some(cut), Some(summed)) = (cycle_of(settings.policy)?, cycle_of(complete.policy)?) else {
+    let cycles_of = |policy| cycles(forcings, inputs.restitution, policy).map_err(ExperimentError::model);
+    let (cut, summed) = (cycles_of(settings.policy)?, cycles_of(complete.policy)?);
+    let pairs: Vec<Option<Pair>> = (forcings, cut, summed)
+        .into_par_iter()
+        .map(|(&forcing, cut, summed)| {
+            let (Some(cut), Some(summed)) = (cut, summed) else {
                 return Ok(None);
             };
             let same =

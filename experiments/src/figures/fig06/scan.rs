@@ -117,10 +117,13 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         .collect::<Result<_, _>>()?;
     // The attractor is lost where its orbit comes to rest in the longer run, too.
     let followed: Vec<Slice> = followed.into_iter().map_while(|slice| slice).collect();
-    let chattering: Vec<Option<Slice>> = forcings
+    let cycles =
+        chattering::cycles(&forcings, restitution, settings.policy).map_err(ExperimentError::model)?;
+    let cycles: Vec<_> = forcings.iter().copied().zip(cycles).collect();
+    let chattering: Vec<Option<Slice>> = cycles
         .par_iter()
-        .map(|&forcing| {
-            let slice = chattering::chattering_slice(forcing, inputs, settings);
+        .map(|&(forcing, cycle)| {
+            let slice = chattering::chattering_slice(forcing, cycle, inputs, settings);
             progress.advance(1);
             slice
         })
@@ -134,7 +137,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
         .map(|(forcing, _)| *forcing)
         .collect();
-    let single_tosses = chattering::single_tosses(&forcings, &section, settings.policy)?;
+    let single_tosses = chattering::single_tosses(&cycles, &section, settings.policy)?;
     progress.advance(1);
     let some: Vec<f64> = forcings.iter().copied().step_by(10).collect();
     let policies = chattering::policies(&some, inputs, settings)?;

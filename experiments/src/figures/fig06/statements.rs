@@ -6,7 +6,7 @@ use bouncing_disk::core::elementary::{acos, cos, sin};
 use bouncing_disk::core::{PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED};
 
 use super::data::Fig06Data;
-use super::regimes;
+use super::{regimes, rotation};
 use crate::claim::Claim;
 use crate::ledger;
 
@@ -76,6 +76,7 @@ fn ratio(doublings: &[f64]) -> f64 {
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = doublings(data);
     claims.extend(period_one(data));
+    claims.extend(rotation::claims(data));
     claims.extend(regimes::claims(data));
     claims
 }

@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Multipliers, OrbitEvent,
-    Phase, UNDECIDED, Vibration,
+    Phase, UNDECIDED, Vibration, lives,
 };
-use rayon::prelude::*;
 
 use super::data::{Other, Panel, Shares, Spot};
 use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, kind, runs};
@@ -189,21 +188,12 @@ pub(super) fn decay(map: &ImpactMap, top: f64, side: usize) -> Result<Vec<(u32, 
     const COUNTS: [u32; 9] = [20, 50, 100, 200, 300, CAUGHT_BY_CHAOS, 800, 1_600, 3_200];
     let grid = grid(top, side, side)?;
     let most = COUNTS[COUNTS.len() - 1];
-    let lives: Vec<u32> = (0..side * side)
-        .into_par_iter()
-        .map(|index| {
-            let from = start(&grid, index / side, index % side)?;
-            let mut orbit = map.orbit(from, ChatterPolicy::Complete);
-            for lived in 0..most {
-                match orbit.advance().map_err(ExperimentError::model)? {
-                    Some(OrbitEvent::Impact(_)) => {}
-                    Some(_) | None => return Ok(lived),
-                }
-            }
-            Ok(most)
-        })
-        .collect::<Result<_, ExperimentError>>()?;
-    let share =
-        |count: u32| lives.iter().filter(|lived| **lived >= count).count() as f64 / lives.len() as f64;
+    let orbits = (0..side * side)
+        .map(|index| Ok(map.orbit(start(&grid, index / side, index % side)?, ChatterPolicy::Complete)))
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let lives = lives(&orbits, most as usize).map_err(ExperimentError::model)?;
+    let share = |count: u32| {
+        lives.iter().filter(|lived| **lived >= count as usize).count() as f64 / lives.len() as f64
+    };
     Ok(COUNTS.into_iter().map(|count| (count, share(count))).collect())
 }

@@ -10,13 +10,11 @@ use bouncing_disk::{
 use super::data::{Fig12Data, Fits, Prediction, Reading, Rounding, Shown, Zoom};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::impulse::Impulses;
-use crate::figures::motor_case::{Cycle, MotorCase, core_error, perturbation_table};
+use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error, perturbation_table};
 use crate::figures::regression::StraightLine;
 use crate::paper;
 use crate::progress::Progress;
 
-/// Most flights of a low-period cycle: what the rounding of double precision still decides.
-const LOW_PERIOD_FLIGHTS: usize = 4;
 /// Relative distance of the amplitudes that are tried.
 const AMPLITUDE_STEP: f64 = 1e-13;
 /// Most amplitudes tried on each side.

@@ -27,7 +27,9 @@ pub(super) struct Row {
     pub(super) label: String,
     pub(super) unit: String,
     pub(super) printed: Option<String>,
-    pub(super) computed: Option<Propagated>,
+    pub(super) computed: Option<f64>,
+    /// Of the entries that are computed from measurements; the inputs of the others are not independent.
+    pub(super) uncertainty: Option<Propagated>,
     /// Decimals in the picture.
     pub(super) decimals: usize,
     /// The formula or the source, as it is set in print.

@@ -166,16 +166,16 @@ type Quantity = fn(&TossCase, &System) -> f64;
 type Following = (&'static str, &'static str, &'static str, usize, &'static str, Quantity);
 
 const FOLLOWING: [Following; 10] = [
-    ("A", "$A$", "m", 3, r"$c \cos \phi_L$, Eq. (13)", |_, system| system.platform().amplitude()),
-    ("a_e Φ", r"$a_e \Phi$", "m", 3, r"$c \sin \phi_L$, Eq. (13)", |case, system| {
+    ("A", "$A$", "m", 3, r"$c$ cos $\phi_L$, Eq. (13)", |_, system| system.platform().amplitude()),
+    ("a_e Φ", r"$a_e \Phi$", "m", 3, r"$c$ sin $\phi_L$, Eq. (13)", |case, system| {
         case.contact_radius_m * system.platform().twist_amplitude()
     }),
-    ("L", "$L$", "", 2, r"$\tan \phi_L$", |case, _| tan(case.amplitude_angle_rad)),
-    ("Φ", r"$\Phi$", "rad", 2, r"$c \sin \phi_L/a_e$", |_, system| system.platform().twist_amplitude()),
-    ("ωΦ", r"$\omega \Phi$", "rad/s", 1, r"$c \omega \sin \phi_L/a_e$", |_, system| {
+    ("L", "$L$", "", 2, r"tan $\phi_L$", |case, _| tan(case.amplitude_angle_rad)),
+    ("Φ", r"$\Phi$", "rad", 2, r"$c$ sin $\phi_L/a_e$", |_, system| system.platform().twist_amplitude()),
+    ("ωΦ", r"$\omega \Phi$", "rad/s", 1, r"$c \omega$ sin $\phi_L/a_e$", |_, system| {
         system.platform().peak_angular_speed()
     }),
-    ("Aω", r"$A \omega$", "m/s", 2, r"$c \omega \cos \phi_L$", |_, system| {
+    ("Aω", r"$A \omega$", "m/s", 2, r"$c \omega$ cos $\phi_L$", |_, system| {
         system.platform().amplitude() * system.platform().angular_frequency()
     }),
     ("Γ", r"$\Gamma$", "", 2, r"$A \omega^2/\pi g$", |_, system| system.axial_forcing()),
@@ -203,13 +203,17 @@ fn rows(
                 unit: unit.to_owned(),
                 printed: Some(ledger::text(&format!("table1.{name}"))?.to_owned()),
                 computed: None,
+                uncertainty: None,
                 decimals: 0,
                 origin: origin.to_owned(),
             })
         };
-    let with =
-        |row: Row, computed: Propagated, decimals: usize| Row { computed: Some(computed), decimals, ..row };
-    let exact = |value: f64| Propagated { value, sum: 0.0, root_sum_of_squares: 0.0 };
+    let with = |row: Row, computed: Propagated, decimals: usize| Row {
+        computed: Some(computed.value),
+        uncertainty: Some(computed),
+        decimals,
+        ..row
+    };
     let mut rows = vec![
         printed("θ", r"$\theta$", "rad", "phase_lag", "video")?,
         with(
@@ -225,10 +229,11 @@ fn rows(
         ),
         Row {
             symbol: "ω with cos τ_sep".to_owned(),
-            label: r"$\omega$ with $\cos \tau_{sep}$".to_owned(),
+            label: r"$\omega$ with cos $\tau_{sep}$".to_owned(),
             unit: "rad/s".to_owned(),
             printed: None,
-            computed: Some(separation.corrected_angular_frequency_rad_per_s),
+            computed: Some(separation.corrected_angular_frequency_rad_per_s.value),
+            uncertainty: Some(separation.corrected_angular_frequency_rad_per_s),
             decimals: 2,
             origin: r"the same, speeds taken at $\tau_{sep}$".to_owned(),
         },
@@ -237,54 +242,32 @@ fn rows(
         with(printed("μ", r"$\mu$", "", "friction", "tangent of the slope of slip")?, entries.friction, 2),
         printed("g", "$g$", "m/s²", "preload_acceleration", "gravity")?,
     ];
-    let inputs = [
-        table.amplitude_angle_rad,
-        table.stroke_m,
-        table.angular_frequency_rad_per_s,
-        table.contact_radius_m,
-        table.gyration_radius_m,
-        table.friction,
-    ];
+    let case = TossCase::from(table);
+    let system = case.system()?;
     for (symbol, label, unit, decimals, origin, quantity) in FOLLOWING {
-        let computed = Propagated::of(inputs, |[angle, stroke, frequency, contact, gyration, friction]| {
-            let case = TossCase {
-                amplitude_angle_rad: angle,
-                stroke_m: stroke,
-                angular_frequency_rad_per_s: frequency,
-                contact_radius_m: contact,
-                gyration_radius_m: gyration,
-                friction,
-                ..TossCase::from(table)
-            };
-            Ok::<_, ExperimentError>(quantity(&case, &case.system()?))
-        })?;
-        rows.push(following(symbol, label, unit, decimals, origin, computed));
+        rows.push(following(symbol, label, unit, decimals, origin, quantity(&case, &system)));
     }
+    let fastest = r"$\tau_{\mathit{max}|\dot{\beta}|}$";
+    // Subtracted from zero: minus zero would be shown with its sign.
     rows.push(following(
         "τ_max",
-        r"$\tau_{\mathit{max}|\dot{\beta}|}$",
+        fastest,
         "rad",
         0,
         r"$-\theta + n\pi$, Eq. (15)",
-        exact(0.0 - table.phase_lag_rad),
+        0.0 - table.phase_lag_rad,
     ));
     Ok(rows)
 }
 
-fn following(
-    symbol: &str,
-    label: &str,
-    unit: &str,
-    decimals: usize,
-    origin: &str,
-    computed: Propagated,
-) -> Row {
+fn following(symbol: &str, label: &str, unit: &str, decimals: usize, origin: &str, computed: f64) -> Row {
     Row {
         symbol: symbol.to_owned(),
         label: label.to_owned(),
         unit: unit.to_owned(),
         printed: None,
         computed: Some(computed),
+        uncertainty: None,
         decimals,
         origin: origin.to_owned(),
     }
