@@ -226,7 +226,6 @@ impl Orbit {
     }
 
     /// What follows an impact at `phase` with relative `velocity` after a flight of `duration`.
-    #[inline]
     fn after(&mut self, phase: Phase, velocity: f64, duration: f64) -> Next {
         let speed = -self.map.restitution * velocity;
         match self.policy {
@@ -274,9 +273,17 @@ impl Orbit {
 
     #[inline]
     fn report(&mut self, impact: Impact) -> OrbitEvent {
-        // Only flights far below one period count as short.
-        let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-        self.next = self.after(impact.phase, impact.velocity, duration);
+        let (phase, speed) = (impact.phase, -self.map.restitution * impact.velocity);
+        // Stored in place: nearly every impact, and the next flight waits for it.
+        if self.policy == ChatterPolicy::Complete
+            && self.map.vibration.bounces_on(phase, speed, self.map.restitution)
+        {
+            self.next = Next::Launch(phase, speed);
+        } else {
+            // Only flights far below one period count as short.
+            let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
+            self.next = self.after(phase, impact.velocity, duration);
+        }
         OrbitEvent::Impact(impact)
     }
 
