@@ -43,7 +43,7 @@ const fn packed(count: usize) -> usize {
 
 /// `value` where the mask is set, else +0.
 #[inline(always)]
-const fn kept(mask: u64, value: f64) -> f64 {
+pub(crate) const fn kept(mask: u64, value: f64) -> f64 {
     f64::from_bits(value.to_bits() & mask)
 }
 
@@ -343,5 +343,37 @@ impl Impacts {
         self.cos[lane] = impact.phase.cos();
         self.velocity[lane] = impact.velocity;
         self.turns[lane] = impact.turns as f64;
+    }
+}
+
+impl Batch {
+    /// Sets the launch of a lane.
+    pub(crate) const fn set_launch(&mut self, lane: usize, phase: Phase, speed: f64) {
+        self.launches.angle[lane] = phase.angle();
+        self.launches.sin[lane] = phase.sin();
+        self.launches.cos[lane] = phase.cos();
+        self.launches.speed[lane] = speed;
+    }
+
+    /// Phases of all launches (rad).
+    pub(crate) const fn launch_angles(&self) -> &Row {
+        &self.launches.angle
+    }
+}
+
+impl Flyer {
+    /// Writes the durations of those flights of the last [`Self::fly`] over the first `lanes` lanes whose impact was searched in
+    /// the time since the launch: the phases do not tell them to the last bit. The other durations stay.
+    pub(crate) fn write_durations(&self, batch: &Batch, lanes: usize, durations: &mut Row) {
+        self.short.write_durations(durations);
+        self.low.write_durations(durations);
+        for (lane, vibration) in batch.vibrations.iter().enumerate().take(lanes) {
+            if self.work.settled[lane] == 0
+                && let Ok(impact) =
+                    vibration.impact_after(batch.launch_phase(lane), batch.launches.speed[lane])
+            {
+                durations[lane] = impact.duration();
+            }
+        }
     }
 }

@@ -268,3 +268,14 @@ impl Low {
         }
     }
 }
+
+impl Low {
+    /// Writes the durations of the flights that have landed.
+    pub(super) fn write_durations(&self, durations: &mut Row) {
+        for k in 0..self.count {
+            if self.bracketed[k] != 0 {
+                durations[usize::from(self.lane[k])] = self.time[k];
+            }
+        }
+    }
+}

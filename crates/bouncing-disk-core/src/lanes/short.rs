@@ -219,3 +219,14 @@ impl Short {
         }
     }
 }
+
+impl Short {
+    /// Writes the durations of the flights that have landed.
+    pub(super) fn write_durations(&self, durations: &mut Row) {
+        for k in 0..self.count {
+            if self.landed[k] != 0 {
+                durations[usize::from(self.lane[k])] = self.time[k];
+            }
+        }
+    }
+}
