@@ -63,6 +63,11 @@ impl Launch {
         }
     }
 
+    /// A launch with a speed that is known to be legal.
+    pub(crate) const fn known(phase: Phase, relative_speed: f64) -> Self {
+        Self { phase, relative_speed }
+    }
+
     /// Launch phase.
     #[must_use]
     pub const fn phase(&self) -> Phase {

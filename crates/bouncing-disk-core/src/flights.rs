@@ -4,9 +4,10 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
+use crate::chatter::bounces_on;
 use crate::error::Error;
 use crate::flight::Launch;
-use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Row, kept, mask};
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Mask, Row, kept, mask};
 use crate::map::ImpactState;
 use crate::vibration::Vibration;
 
@@ -85,9 +86,19 @@ impl Flights {
         self.batch.set_launch(lane, launch.phase(), launch.relative_speed());
     }
 
-    /// Sets the next launch of every lane to what follows its impact with a coefficient of restitution of its own.
-    pub fn rebound(&mut self, restitution: &[f64; LANES]) {
+    /// The next launch of a lane below [`Self::LANES`].
+    #[must_use]
+    pub fn launch(&self, lane: usize) -> Launch {
+        Launch::known(self.batch.launch_phase(lane), self.batch.launch_speed(lane))
+    }
+
+    /// Sets the next launch of every lane to what follows its impact with a coefficient of restitution of its own in
+    /// [0, 1).
+    ///
+    /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
+    pub fn rebound(&mut self, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         self.batch.rebound(restitution);
+        self.flyer.dispatch().run(MayRest { batch: &self.batch, restitution, may_rest });
     }
 
     /// Computes the impacts of the first `lanes` launches. `failed` is told of each lane that has none (see
@@ -135,6 +146,36 @@ impl<Loop: LaneLoop> WithSimd for Vectorised<Loop> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         self.0.run();
+    }
+}
+
+/// Lanes whose launch may be the first of a chatter.
+struct MayRest<'a> {
+    batch: &'a Batch,
+    restitution: &'a Row,
+    may_rest: &'a mut Mask,
+}
+
+impl WithSimd for MayRest<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        may_rest(
+            &self.batch.platforms.peak,
+            &self.batch.impacts.sin,
+            &self.batch.impacts.velocity,
+            self.restitution,
+            self.may_rest,
+        );
+    }
+}
+
+#[inline(always)]
+fn may_rest(peak: &Row, sin: &Row, velocity: &Row, restitution: &Row, may_rest: &mut Mask) {
+    for lane in 0..LANES {
+        let (pull, restitution) = (1.0 - peak[lane] * sin[lane], restitution[lane]);
+        may_rest[lane] = !mask(bounces_on(pull, -restitution * velocity[lane], restitution));
     }
 }
 

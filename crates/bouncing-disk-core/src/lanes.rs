@@ -355,6 +355,11 @@ impl Batch {
         self.launches.speed[lane] = speed;
     }
 
+    /// The relative speed of a lane's launch.
+    pub(crate) const fn launch_speed(&self, lane: usize) -> f64 {
+        self.launches.speed[lane]
+    }
+
     /// Phases of all launches (rad).
     pub(crate) const fn launch_angles(&self) -> &Row {
         &self.launches.angle
