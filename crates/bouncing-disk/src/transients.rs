@@ -244,11 +244,14 @@ fn attend(
     if !may_rest {
         return Ok(false);
     }
-    let (periods, speed) = rotors.motion(lane);
-    run.rotor.go_on_after(flights.state(lane), ChatterPolicy::Complete, periods, speed);
-    if run.rotor.launch().is_some() {
+    let (state, restitution) = (flights.state(lane), rotors.restitution[lane]);
+    let vibration = run.rotor.system().vibration();
+    // Nine times in ten the chatter is not yet short enough to be summed.
+    if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {
         return Ok(false);
     }
+    let (periods, speed) = rotors.motion(lane);
+    run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
     rotors.store_curve(lane, run);
     let Some(launch) = fly_next(run)? else { return Ok(true) };
     flights.set_launch(lane, launch);
