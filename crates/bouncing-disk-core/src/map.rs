@@ -271,6 +271,13 @@ impl Orbit {
         Ok(())
     }
 
+    /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the next flight waits
+    /// for it.
+    #[inline(never)]
+    fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, duration: f64) {
+        self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, duration);
+    }
+
     #[inline]
     fn report(&mut self, impact: Impact) -> OrbitEvent {
         let (phase, speed) = (impact.phase, -self.map.restitution * impact.velocity);
@@ -282,7 +289,7 @@ impl Orbit {
         } else {
             // Only flights far below one period count as short.
             let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-            self.next = self.after(phase, impact.velocity, duration);
+            self.settle(phase.angle(), phase.sin(), phase.cos(), impact.velocity, duration);
         }
         OrbitEvent::Impact(impact)
     }
