@@ -260,14 +260,13 @@ fn attend(
 }
 
 /// The curve of a transient that leaves its lane at a launch.
-fn finished_alone(
-    mut run: Run,
-    launch: Launch,
-    (periods, speed): (u64, f64),
-) -> Result<SpeedCurve, Error> {
+fn finished_alone(mut run: Run, launch: Launch, (periods, speed): (u64, f64)) -> Result<SpeedCurve, Error> {
     run.rotor.go_on_with(launch, ChatterPolicy::Complete, periods, speed)?;
     while !run.is_done() {
         run.step()?;
     }
     Ok(run.finished())
 }
+
+#[cfg(test)]
+mod tests;
