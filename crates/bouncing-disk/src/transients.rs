@@ -12,8 +12,8 @@ use crate::transient::{Run, SpeedCurve, TransientSettings, transient};
 use rotors::{Carry, Rotors};
 
 /// With fewer transients under way they are advanced one by one: a step of the lanes costs nearly the same however many of
-/// them are in use.
-const FEWEST: usize = 16;
+/// them are in use, for motors as much as about this many single flights (docs/numerics.md, section 9).
+const FEWEST: usize = 48;
 
 /// The arguments of one [`transient`].
 #[derive(Debug, Clone, Copy, PartialEq)]
