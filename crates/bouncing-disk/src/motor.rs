@@ -58,7 +58,7 @@ pub struct Ensemble {
 /// `settings.seed`. The result is the same for any number of threads.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for no member or illegal settings; the errors of [`transient`].
+/// [`Error::OutOfRange`] for no member or illegal settings; the errors of [`transient`](crate::transient()).
 pub fn ensemble(system: &System, settings: &TransientSettings, members: usize) -> Result<Ensemble, Error> {
     settings.check()?;
     if members == 0 {
