@@ -76,14 +76,22 @@ impl Vibration {
     #[must_use]
     #[inline]
     pub fn accumulation(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
-        let pull = self.contact_force(phase);
-        let reach = pull * (1.0 - restitution);
-        // Cheap refusal of the ordinary impact; also of a pull <= 0 and of NaN.
+        if self.bounces_on(phase, speed, restitution) {
+            return None;
+        }
+        let reach = self.contact_force(phase) * (1.0 - restitution);
+        // Also refuses a pull <= 0 and NaN.
         let small = speed > 0.0 && speed <= 0.5 * LONGEST_COMPLETION * reach;
         if !small || self.falls_away_at(phase.angle()) {
             return self.at_rest(phase, speed);
         }
         self.accumulation_of_small(phase, speed, restitution, speed / reach)
+    }
+
+    /// Cheap refusal of the ordinary impact: whether a launch is too fast for [`Self::accumulation`] to exist.
+    #[inline(always)]
+    pub(crate) fn bounces_on(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
+        bounces_on(self.contact_force(phase), speed, restitution)
     }
 
     /// [`Self::accumulation`] for an expansion parameter `x` that is worth trying.
@@ -165,6 +173,12 @@ impl Vibration {
             Some(ChatterImpact { time, speed: impact_speed, pair })
         })
     }
+}
+
+/// [`Vibration::bounces_on`] against a pull.
+#[inline(always)]
+pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
+    (speed > 0.0) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
 }
 
 /// The proof of [`Vibration::chatters_to_rest`] for a launch at a phase with this pair and a positive speed.

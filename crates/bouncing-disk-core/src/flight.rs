@@ -63,6 +63,11 @@ impl Launch {
         }
     }
 
+    /// A launch with a speed that is known to be legal.
+    pub(crate) const fn known(phase: Phase, relative_speed: f64) -> Self {
+        Self { phase, relative_speed }
+    }
+
     /// Launch phase.
     #[must_use]
     pub const fn phase(&self) -> Phase {
@@ -99,6 +104,14 @@ impl Impact {
     pub fn duration(&self) -> f64 {
         self.periods as f64 * TAU + self.remainder
     }
+
+    /// The same, field by field: what a function has just written in parts is read whole only after a stall.
+    #[inline(always)]
+    const fn in_parts(self) -> Self {
+        let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
+        let phase = Phase::from_parts(phase.angle(), phase.sin(), phase.cos());
+        Self { periods, remainder, turns, phase, velocity, evaluations }
+    }
 }
 
 impl Vibration {
@@ -122,7 +135,7 @@ impl Vibration {
         if speed < self.long_launch_speed
             && let Some(done) = self.short_flight(from, speed)?
         {
-            return Ok(done);
+            return Ok(done.in_parts());
         }
         let disk_speed = speed + p * from.cos();
         let depth = p - p * from.sin();
@@ -144,7 +157,7 @@ impl Vibration {
                 self.bracket_before_crest_of_launch(&rising, &low, inflection, crest, &mut evaluations)
             {
                 let root = low.root(bracket, guess, evaluations)?;
-                return Ok(landed_within_a_turn(angle, root));
+                return Ok(landed_within_a_turn(angle, root).in_parts());
             }
         }
         self.impact_from_above(angle, disk_speed, depth, speed, evaluations)

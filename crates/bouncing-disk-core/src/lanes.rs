@@ -56,7 +56,7 @@ pub(crate) use wide;
 
 /// `value` where the mask is set, else +0.
 #[inline(always)]
-const fn kept(mask: u64, value: f64) -> f64 {
+pub(crate) const fn kept(mask: u64, value: f64) -> f64 {
     f64::from_bits(value.to_bits() & mask)
 }
 
@@ -183,9 +183,11 @@ enum Ground {
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     ground: Ground,
-    /// The impacts, and those that the launches follow; they change places with every flight.
+    /// The impacts, and those before, which the launches of the last flight followed; they change places with every flight.
     impacts: [Impacts; 2],
     last: usize,
+    /// Where the launches are: with the impacts that they follow, until they are flown.
+    from: usize,
     /// Relative speeds of the launches.
     speed: Row,
     arcs: Arcs,
@@ -214,6 +216,7 @@ impl Batch {
             ground: Ground::Shared(Platform::from(&vibration)),
             impacts: [Impacts::new(), Impacts::new()],
             last: 0,
+            from: 0,
             speed: ROW,
             arcs: Arcs::new(),
             vibrations: [vibration; LANES],
@@ -258,7 +261,7 @@ impl Batch {
     /// The launches of all lanes.
     #[inline(always)]
     pub(crate) const fn launches(&self) -> Launches<'_> {
-        Launches { from: &self.impacts[1 - self.last], speed: &self.speed }
+        Launches { from: &self.impacts[self.from], speed: &self.speed }
     }
 
     #[inline(always)]
@@ -266,7 +269,14 @@ impl Batch {
         &mut self.impacts[self.last]
     }
 
-    /// Platform, launches, arcs and impacts.
+    /// Makes room for the impacts of the next flight.
+    #[inline(always)]
+    const fn turn(&mut self) {
+        self.from = self.last;
+        self.last = 1 - self.last;
+    }
+
+    /// Platform, launches, arcs and impacts, after [`Self::turn`].
     #[inline(always)]
     const fn parts(&mut self) -> (&Ground, Launches<'_>, &mut Arcs, &mut Impacts) {
         let [first, second] = &mut self.impacts;
@@ -290,14 +300,14 @@ impl Batch {
 
     /// Lets every launch follow the impact of its lane with this coefficient of restitution.
     pub(crate) fn rebound(&mut self, restitution: &Row) {
-        self.last = 1 - self.last;
-        let velocities = &self.impacts[1 - self.last].velocity;
+        self.from = self.last;
+        let velocities = &self.impacts[self.last].velocity;
         for ((speed, restitution), velocity) in self.speed.iter_mut().zip(restitution).zip(velocities) {
             *speed = -restitution * velocity;
         }
     }
 
-    /// Sets the impact of a lane back to the one before [`Self::rebound`].
+    /// Sets the impact of a lane back to the one that its last flight followed.
     pub(crate) const fn stay(&mut self, lane: usize) {
         let velocity = self.launches().from.velocity[lane];
         self.set_impact(lane, self.launch_phase(lane), velocity);
@@ -307,6 +317,16 @@ impl Batch {
     pub(crate) const fn impact_state(&self, lane: usize) -> ImpactState {
         let impacts = self.impacts();
         ImpactState::of_impact(impacts.phase(lane), impacts.velocity[lane])
+    }
+
+    /// Sets the next launch of a lane, in the place of its impact.
+    pub(crate) const fn set_launch(&mut self, lane: usize, phase: Phase, speed: f64) {
+        self.from = self.last;
+        let from = &mut self.impacts[self.last];
+        from.angle[lane] = phase.angle();
+        from.sin[lane] = phase.sin();
+        from.cos[lane] = phase.cos();
+        self.speed[lane] = speed;
     }
 
     /// The phase of a lane's launch.

@@ -11,6 +11,7 @@ pub mod elementary;
 mod ensemble;
 mod error;
 mod flight;
+mod flights;
 mod follow;
 mod gap;
 mod lanes;
@@ -29,6 +30,7 @@ pub use chatter::{
 pub use ensemble::Ensemble;
 pub use error::Error;
 pub use flight::{Impact, Launch, MAX_FLIGHT_DURATION};
+pub use flights::{Flights, LaneImpacts, LaneLoop};
 pub use follow::{Followed, Following, follow};
 pub use lanes::InstructionSet;
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};

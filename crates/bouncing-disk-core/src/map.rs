@@ -230,7 +230,6 @@ impl Orbit {
     }
 
     /// What follows an impact at `phase` with relative `velocity` after a flight of `duration`.
-    #[inline]
     fn after(&mut self, phase: Phase, velocity: f64, duration: f64) -> Next {
         let speed = -self.map.restitution * velocity;
         match self.policy {
@@ -288,11 +287,26 @@ impl Orbit {
         self.next = self.after(state.phase, state.velocity, duration);
     }
 
+    /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the next flight waits
+    /// for it.
+    #[inline(never)]
+    fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, duration: f64) {
+        self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, duration);
+    }
+
     #[inline]
     fn report(&mut self, impact: Impact) -> OrbitEvent {
-        // Only flights far below one period count as short.
-        let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-        self.land(impact.into(), duration);
+        let (phase, speed) = (impact.phase, -self.map.restitution * impact.velocity);
+        // Stored in place: nearly every impact, and the next flight waits for it.
+        if self.policy == ChatterPolicy::Complete
+            && self.map.vibration.bounces_on(phase, speed, self.map.restitution)
+        {
+            self.next = Next::Launch(phase, speed);
+        } else {
+            // Only flights far below one period count as short.
+            let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
+            self.settle(phase.angle(), phase.sin(), phase.cos(), impact.velocity, duration);
+        }
         OrbitEvent::Impact(impact)
     }
 

@@ -70,6 +70,19 @@ impl Vibration {
         })
     }
 
+    /// A platform that does not vibrate.
+    pub(crate) const fn still() -> Self {
+        Self {
+            peak_acceleration: 0.0,
+            separation_angle: CREST,
+            retention_angle: PI - CREST,
+            separation_speed: 0.0,
+            separation_depth: 0.0,
+            doubtful_gap: 1.0e-14,
+            long_launch_speed: 0.5 * crate::flight::SHORT_FLIGHT,
+        }
+    }
+
     /// A vibration with the paper's axial forcing parameter Gamma = A omega^2 / (pi g).
     ///
     /// # Errors

@@ -8,13 +8,17 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::{DiskParameters, PlatformParameters, System, TransientSettings, ensemble, transient};
+use bouncing_disk::{
+    DiskParameters, PlatformParameters, System, TransientMember, TransientSettings, transient, transients,
+};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Motor seconds of one transient.
 const DURATION: u32 = 10;
 /// Transients of an ensemble.
-const MEMBERS: u32 = 64;
+const MEMBERS: u32 = 512;
+/// Motor seconds of each.
+const MEMBER_DURATION: u32 = 2;
 
 fn motor() -> System {
     let angular_frequency = TAU * 70e3;
@@ -50,15 +54,24 @@ fn w2(c: &mut Criterion) {
             black_box(transient(&system, phase, &TransientSettings { seed, ..settings }).expect("no failure"))
         });
     });
-    group.sample_size(10).throughput(Throughput::Elements(u64::from(DURATION * MEMBERS)));
+    group.sample_size(10).throughput(Throughput::Elements(u64::from(MEMBER_DURATION * MEMBERS)));
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         group.bench_function(format!("ensemble/threads_{threads}"), |bencher| {
             bencher.iter(|| {
-                seed += u64::from(MEMBERS);
-                let settings = TransientSettings { seed, ..settings };
-                let together = pool.install(|| ensemble(&system, &settings, MEMBERS as usize));
-                black_box(together.expect("no failure"))
+                let members: Vec<_> = (0..MEMBERS)
+                    .map(|index| {
+                        seed += 1;
+                        let duration = f64::from(MEMBER_DURATION);
+                        let angle = TAU * (f64::from(index) + 0.5) / f64::from(MEMBERS);
+                        TransientMember {
+                            system,
+                            phase: Phase::new(angle).expect("finite"),
+                            settings: TransientSettings { duration, seed, ..settings },
+                        }
+                    })
+                    .collect();
+                black_box(pool.install(|| transients(&members)))
             });
         });
     }

@@ -11,6 +11,7 @@
 //! is positive over one interval of the period, known in closed form. Every decision below is taken by where the
 //! phase lies relative to these intervals (the *windows*), never by the sign of a rounded force.
 
+use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use bouncing_disk_core::elementary::{acos, atan2, hypot, sin_cos, wrapped_angle};
@@ -24,6 +25,9 @@ use crate::state::SlipDirection;
 
 /// Relative accuracy to which the end of a slip is located.
 const ROOT_ACCURACY: f64 = 2.0 * f64::EPSILON;
+
+/// A slip speed this small, relative to what it is computed from, may have the wrong sign: far above its rounding.
+const DOUBTFUL_SPEED: f64 = 1.0e-12;
 
 /// Where in the period a slip speed grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -193,6 +197,18 @@ impl Slip {
         }
     }
 
+    /// The sign of a slip speed within a period of its value `start`, `Equal` where it may be rounding.
+    fn certain_sign(&self, start: f64, value: f64) -> Ordering {
+        let doubt = DOUBTFUL_SPEED * (start.abs() + self.decay.abs() + self.amplitude);
+        if value > doubt {
+            Ordering::Greater
+        } else if value < -doubt {
+            Ordering::Less
+        } else {
+            Ordering::Equal
+        }
+    }
+
     fn end(&self, phase: Phase, speed: f64, limit: Option<f64>) -> Result<Option<PhaseSpan>, Error> {
         let path = SlipPath::new(self, phase, speed);
         let (periods, root) = match self.growth {
@@ -220,7 +236,16 @@ impl Slip {
                 }
                 // Highest slip speed (in the past if negative) and lowest one of the first period.
                 let (highest, lowest) = (width - since, TAU - since);
-                let least = path.at(lowest).0;
+                let sign = match limit {
+                    Some(limit) if limit <= highest => Ordering::Greater,
+                    Some(limit) if limit < lowest => self.certain_sign(speed, path.at(limit).0),
+                    _ => Ordering::Equal,
+                };
+                if sign == Ordering::Greater {
+                    return Ok(None);
+                }
+                // The slip speed goes on falling until then.
+                let least = if sign == Ordering::Less { -speed.abs() } else { path.at(lowest).0 };
                 if least <= 0.0 {
                     (0, path.falling_root(highest.max(0.0), lowest))
                 } else if self.decay <= 0.0 {
@@ -319,7 +344,8 @@ impl SlipPath {
     /// The root in [`low`, `high`], over which the speed falls from positive to negative: Newton steps, replaced by
     /// bisection wherever they leave the bracket or fail to halve the previous step but one.
     fn falling_root(&self, mut low: f64, mut high: f64) -> f64 {
-        let (start, rate) = self.at(low);
+        // What `at` gives at zero.
+        let (start, rate) = if low.abs() <= 0.0 { (self.speed, self.rate) } else { self.at(low) };
         if start <= 0.0 || high <= low {
             return low;
         }
@@ -445,6 +471,33 @@ mod tests {
             assert!(end <= first + 1e-9 && end > first - 2e-3, "{end} {first}");
             assert!(slip(end).abs() < 1e-12 * speed.max(1.0));
         }
+    }
+
+    /// A limit only drops the slips that last longer: it decides early, and never otherwise.
+    #[test]
+    fn a_limit_changes_no_slip_within_it() {
+        let (mut ended, mut dropped) = (0, 0);
+        for k in 0..200_000_u32 {
+            let share = |factor: f64| (f64::from(k) * factor) % 1.0;
+            let friction = friction(DimensionlessParameters {
+                peak_acceleration: 4.0 * share(0.618_034),
+                twist_speed: 6.0 * share(0.754_878) * share(0.1377),
+                phase_lag: 2.0 * PI * share(0.569_84),
+                load: if k % 3 == 0 { 0.2 * share(0.324_718) } else { 0.0 },
+                ..GENTLE
+            });
+            let direction = if k % 2 == 0 { SlipDirection::Forward } else { SlipDirection::Backward };
+            let (start, speed) = (phase(TAU * share(0.414_214)), 3.0 * share(0.732_051) * share(0.236_068));
+            let Ok(Some(end)) = friction.slip_end(direction, start, speed, None) else { continue };
+            let free = end.radians();
+            for limit in [free, free * (1.0 + f64::EPSILON), free + 1e-13, 7.0 * share(0.887_298)] {
+                let limited = friction.slip_end(direction, start, speed, Some(limit)).unwrap();
+                assert_eq!(limited, (free < limit).then_some(end), "{start:?} {speed} {limit}");
+                ended += usize::from(limited.is_some());
+                dropped += usize::from(limited.is_none());
+            }
+        }
+        assert!(ended > 100_000 && dropped > 100_000, "{ended} {dropped}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The instant of an impact: restitution along the axis, friction about it. Per unit mass and moment of inertia.
 
 /// Axial impulse of an impact with relative `velocity` <= 0 (Eq. 5 with the rebound law put in, Eq. 7).
+#[inline(always)]
 pub(crate) fn axial_impulse(restitution: f64, velocity: f64) -> f64 {
     (1.0 + restitution) * -velocity
 }
@@ -11,11 +12,13 @@ pub(crate) fn rebound_velocity(restitution: f64, velocity: f64) -> f64 {
 }
 
 /// Angular impulse that friction would give if the disk slid throughout the impact (Eq. 8), as a size.
+#[inline(always)]
 pub(crate) fn available_impulse(friction: f64, axial_impulse: f64) -> f64 {
     friction * axial_impulse
 }
 
 /// Angular impulse that ends a slip at `slip` (disk minus platform), the largest one possible (Eq. 9).
+#[inline(always)]
 pub(crate) fn stopping_impulse(slip: f64) -> f64 {
     -slip
 }
@@ -30,6 +33,7 @@ pub(crate) struct FrictionImpact {
 }
 
 /// The angular impulse of an impact (Eq. 10): the available one, capped at the one that ends the slip.
+#[inline(always)]
 pub(crate) fn friction_impact(friction: f64, axial_impulse: f64, slip: f64) -> FrictionImpact {
     let available = available_impulse(friction, axial_impulse);
     let stopping = stopping_impulse(slip);

@@ -59,6 +59,8 @@ mod system;
 mod testing;
 mod toss;
 mod trajectory;
+mod transient;
+mod transients;
 mod transition;
 
 /// The math core: the vertical motion, its impact map and what is done with it.
@@ -73,7 +75,7 @@ pub use error::Error;
 pub use event::{Event, EventRecord};
 pub use fit::{ExponentialFit, RampFit};
 pub use ledger::EnergyLedger;
-pub use motor::{Ensemble, SpeedCurve, Spread, TransientSettings, ensemble, transient};
+pub use motor::{Ensemble, Spread, ensemble};
 pub use multi_toss::{
     Collision, CollisionEvent, CollisionState, Collisions, MultiTossSettings, OrbitClass, TossOrbit,
     multi_toss, period_one_rotary_speed,
@@ -87,6 +89,8 @@ pub use state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use system::System;
 pub use toss::{InitialState, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 pub use trajectory::Trajectory;
+pub use transient::{SpeedCurve, TransientSettings, transient};
+pub use transients::{TransientMember, transients};
 pub use transition::{EventKind, ModeKind, Transition};
 
 /// Compiles and runs the examples of the README.

@@ -3,7 +3,7 @@
 //! It takes the same decisions as the [`crate::Engine`] from the same functions. Only the sum over a chattering
 //! sequence is shorter where every impact of it slides the same way: then the summed impulse is known in closed form.
 
-use bouncing_disk_core::{ChatterPolicy, Orbit, OrbitEvent, Phase, Stick};
+use bouncing_disk_core::{ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase, Stick};
 
 use crate::chatter::Chatter;
 use crate::contact::{Friction, Spent};
@@ -26,6 +26,34 @@ pub(crate) enum RotorStep {
     Separation,
     /// Nothing more happens; the speed stays what it is.
     Ended,
+}
+
+/// A flight and the impact that ends it, as far as the rotary motion goes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bounce {
+    /// Duration of the flight (rad).
+    pub(crate) duration: f64,
+    /// Angular speed of the platform at the impact.
+    pub(crate) platform_speed: f64,
+    /// Relative axial velocity before it.
+    pub(crate) velocity: f64,
+    pub(crate) restitution: f64,
+    pub(crate) friction: f64,
+    pub(crate) load: f64,
+}
+
+impl Bounce {
+    /// Angular speed after the impact, and the angle turned in the flight, of a disk with angular `speed` at launch.
+    #[inline(always)]
+    pub(crate) fn after(self, speed: f64) -> (f64, f64) {
+        let Self { duration, platform_speed, velocity, restitution, friction, load } = self;
+        // As `flight_turn`, but the angle is needed to the accuracy of a mean speed only.
+        let arrival = speed - load * duration;
+        let turned = duration * (speed - 0.5 * load * duration);
+        let rotary =
+            friction_impact(friction, axial_impulse(restitution, velocity), arrival - platform_speed);
+        (if rotary.capped { platform_speed } else { arrival + rotary.impulse }, turned)
+    }
 }
 
 /// A disk that is followed for its angular speed only.
@@ -94,6 +122,46 @@ impl Rotor {
         self.turned
     }
 
+    pub(crate) const fn system(&self) -> &Dimensionless {
+        &self.system
+    }
+
+    /// The flight that starts now, if one does.
+    pub(crate) fn launch(&self) -> Option<(Phase, f64)> {
+        if self.contact.is_some() {
+            return None;
+        }
+        self.orbit.as_ref().and_then(Orbit::launch)
+    }
+
+    /// Goes on with what follows an impact that was computed elsewhere, after which the angular speed is `speed`.
+    pub(crate) fn go_on_after(
+        &mut self,
+        impact: ImpactState,
+        policy: ChatterPolicy,
+        periods: u64,
+        speed: f64,
+    ) {
+        self.orbit = Some(self.system.map().orbit(impact, policy));
+        self.now = PhaseTime { periods, phase: impact.phase() };
+        self.speed = speed;
+    }
+
+    /// Goes on with a launch that was computed elsewhere, at angular speed `speed`.
+    pub(crate) fn go_on_with(
+        &mut self,
+        launch: Launch,
+        policy: ChatterPolicy,
+        periods: u64,
+        speed: f64,
+    ) -> Result<(), Error> {
+        let (phase, relative_speed) = (launch.phase(), launch.relative_speed());
+        self.orbit = Some(self.system.map().orbit_from_launch(phase, relative_speed, policy)?);
+        self.now = PhaseTime { periods, phase };
+        self.speed = speed;
+        Ok(())
+    }
+
     /// Gives the flight that starts now another relative launch speed.
     pub(crate) fn perturb_launch(&mut self, relative_speed: f64) -> Result<(), Error> {
         if let Some(orbit) = &mut self.orbit {
@@ -113,19 +181,15 @@ impl Rotor {
         };
         match event {
             Some(OrbitEvent::Impact(impact)) => {
-                let load = self.system.load();
-                // As `flight_turn`, but the angle is needed to the accuracy of a mean speed only.
-                let duration = impact.duration();
-                let arrival = self.speed - load * duration;
-                self.turned = duration * (self.speed - 0.5 * load * duration);
-                let slip = arrival - self.system.platform_angular_speed(impact.phase);
-                let axial = axial_impulse(self.system.restitution(), impact.velocity);
-                let rotary = friction_impact(self.system.friction(), axial, slip);
-                self.speed = if rotary.capped {
-                    self.system.platform_angular_speed(impact.phase)
-                } else {
-                    arrival + rotary.impulse
+                let bounce = Bounce {
+                    duration: impact.duration(),
+                    platform_speed: self.system.platform_angular_speed(impact.phase),
+                    velocity: impact.velocity,
+                    restitution: self.system.restitution(),
+                    friction: self.system.friction(),
+                    load: self.system.load(),
                 };
+                (self.speed, self.turned) = bounce.after(self.speed);
                 self.now = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };
                 Ok(RotorStep::Impact)
             }

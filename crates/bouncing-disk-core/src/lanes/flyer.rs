@@ -119,6 +119,7 @@ impl Flyer {
         self.hard.clear();
         let shared = shared_platform(batches);
         for number in 0..lanes.div_ceil(LANES).min(batches.len()) {
+            batches[number].turn();
             self.fly_batch(batches, number, (lanes - number * LANES).min(LANES), shared);
         }
         self.fly_slow(batches, shared);

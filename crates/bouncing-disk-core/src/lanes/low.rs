@@ -70,7 +70,9 @@ impl Forms for Low {
             impacts.cos[k] = times.cos[k];
             impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
             impacts.turns[k] = turns;
-            impacts.duration[k] = time;
+            // As a whole period and a rest.
+            let period = kept(mask(time >= TAU), TAU);
+            impacts.duration[k] = period + (time - period);
         }
     }
 

@@ -1,0 +1,284 @@
+//! Flights in lockstep for those who add something to each: rows of impacts instead of one impact after the other.
+
+use core::f64::consts::TAU;
+
+use pulp::{Simd, WithSimd};
+
+use crate::chatter::bounces_on;
+use crate::error::Error;
+use crate::flight::Launch;
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, Row, kept, mask};
+use crate::map::ImpactState;
+use crate::vibration::Vibration;
+
+/// A loop over lanes that [`Flights::run`] compiles for the vector instructions of the processor.
+///
+/// Give the implementation of [`Self::run`], and what it calls, the attribute `#[inline(always)]`: a function that is called
+/// is compiled for the baseline.
+pub trait LaneLoop {
+    /// The loop.
+    fn run(self);
+}
+
+/// Independent flights, computed together: each lane has a platform and a launch of its own. The impacts are bit for bit
+/// those of [`Vibration::first_impact`].
+///
+/// ```
+/// use bouncing_disk_core::{Flights, InstructionSet, Launch, Phase, Vibration};
+///
+/// let mut flights = Flights::new(InstructionSet::best());
+/// for lane in 0..10 {
+///     flights.set_platform(lane, Vibration::new(2.0 + lane as f64)?);
+///     flights.set_launch(lane, Launch::new(Phase::new(0.7)?, 3.0)?);
+/// }
+/// flights.fly(10, |lane, error| unreachable!("{lane}: {error}"));
+/// let alone = Vibration::new(9.0)?.first_impact(Launch::new(Phase::new(0.7)?, 3.0)?)?;
+/// assert_eq!(flights.state(7), alone.into());
+/// assert_eq!(flights.impacts().duration[7], alone.duration());
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Flights {
+    flyer: Box<Flyer>,
+    batch: Box<Batch>,
+    durations: Box<Row>,
+}
+
+/// The impacts of all lanes of [`Flights`]; those of lanes that have not flown mean nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneImpacts<'a> {
+    /// Phases (rad), in [0, 2 pi).
+    pub angle: &'a [f64; LANES],
+    /// Sines of the phases.
+    pub sin: &'a [f64; LANES],
+    /// Cosines of the phases.
+    pub cos: &'a [f64; LANES],
+    /// Relative axial velocities w_A just before the impact, <= 0, in units of g/omega.
+    pub velocity: &'a [f64; LANES],
+    /// How often the phase passed 0 (mod 2 pi) during the flight; where this is negative it is rounding, and none.
+    pub turns: &'a [f64; LANES],
+    /// Durations of the flights (rad): [`Impact::duration`](crate::Impact::duration).
+    pub duration: &'a [f64; LANES],
+}
+
+impl Flights {
+    /// Number of lanes.
+    pub const LANES: usize = LANES;
+
+    /// Lanes on a platform at rest, to be computed with these instructions, or the next lower ones that the processor
+    /// has. The impacts do not depend on them.
+    #[must_use]
+    pub fn new(set: InstructionSet) -> Self {
+        Self {
+            flyer: Box::new(Flyer::new(set)),
+            batch: Box::new(Batch::new(Vibration::still())),
+            durations: Box::new([0.0; LANES]),
+        }
+    }
+
+    /// Puts a lane on another platform.
+    pub fn set_platform(&mut self, lane: usize, vibration: Vibration) {
+        self.batch.set_platform(lane, vibration);
+    }
+
+    /// Sets the next launch of a lane; its last impact is forgotten.
+    pub fn set_launch(&mut self, lane: usize, launch: Launch) {
+        self.batch.set_launch(lane, launch.phase(), launch.relative_speed());
+    }
+
+    /// The next launch of a lane below [`Self::LANES`].
+    #[must_use]
+    pub fn launch(&self, lane: usize) -> Launch {
+        Launch::known(self.batch.launch_phase(lane), self.batch.launches().speed[lane])
+    }
+
+    /// Sets the next launch of every lane to what follows its impact with a coefficient of restitution of its own in
+    /// [0, 1).
+    ///
+    /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
+    pub fn rebound(&mut self, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
+        self.batch.rebound(restitution);
+        self.flyer.dispatch().run(MayRest { batch: &self.batch, restitution, may_rest });
+    }
+
+    /// Computes the impacts of the first `lanes` launches. `failed` is told of each lane that has none (see
+    /// [`Vibration::first_impact`]), in order; its impact means nothing then.
+    pub fn fly(&mut self, lanes: usize, mut failed: impl FnMut(usize, Error)) {
+        let Self { flyer, batch, durations } = self;
+        let lanes = lanes.min(LANES);
+        flyer.fly(core::slice::from_mut(&mut **batch), lanes, &mut failed);
+        flyer.dispatch().run(Durations { batch, durations });
+    }
+
+    /// The impacts.
+    #[must_use]
+    pub fn impacts(&self) -> LaneImpacts<'_> {
+        let impacts = self.batch.impacts();
+        LaneImpacts {
+            angle: &impacts.angle,
+            sin: &impacts.sin,
+            cos: &impacts.cos,
+            velocity: &impacts.velocity,
+            turns: &impacts.turns,
+            duration: &self.durations,
+        }
+    }
+
+    /// The impact of a lane below [`Self::LANES`].
+    #[must_use]
+    pub fn state(&self, lane: usize) -> ImpactState {
+        self.batch.impact_state(lane)
+    }
+
+    /// Runs a loop with the instructions of the flights.
+    #[inline(always)]
+    pub fn run(&self, operation: impl LaneLoop) {
+        self.flyer.dispatch().run(Vectorised(operation));
+    }
+}
+
+struct Vectorised<Loop>(Loop);
+
+impl<Loop: LaneLoop> WithSimd for Vectorised<Loop> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.run();
+    }
+}
+
+/// Lanes whose launch may be the first of a chatter.
+struct MayRest<'a> {
+    batch: &'a Batch,
+    restitution: &'a Row,
+    may_rest: &'a mut Mask,
+}
+
+impl WithSimd for MayRest<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        may_rest(
+            &self.batch.peaks,
+            &self.batch.impacts().sin,
+            &self.batch.impacts().velocity,
+            self.restitution,
+            self.may_rest,
+        );
+    }
+}
+
+#[inline(always)]
+fn may_rest(peak: &Row, sin: &Row, velocity: &Row, restitution: &Row, may_rest: &mut Mask) {
+    for lane in 0..LANES {
+        let (pull, restitution) = (1.0 - peak[lane] * sin[lane], restitution[lane]);
+        may_rest[lane] = !mask(bounces_on(pull, -restitution * velocity[lane], restitution));
+    }
+}
+
+/// Durations of all flights. Those that were not followed from their launch are as `flight::landed` finds them.
+struct Durations<'a> {
+    batch: &'a Batch,
+    durations: &'a mut Row,
+}
+
+impl WithSimd for Durations<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        durations(&self.batch.launches().from.angle, self.batch.impacts(), self.durations);
+    }
+}
+
+#[inline(always)]
+fn durations(from: &Row, impacts: &Impacts, durations: &mut Row) {
+    for lane in 0..LANES {
+        let ahead = impacts.angle[lane] - from[lane];
+        let wrapped = ahead + TAU;
+        let behind = mask(ahead < 0.0);
+        // A sum that rounds to a whole turn is a whole number of periods, less than the rounding.
+        let short_of = behind & mask(wrapped < TAU);
+        let turns = kept(mask(impacts.turns[lane] > 0.0), impacts.turns[lane]);
+        let less = turns - kept(short_of, 1.0);
+        let periods = kept(mask(less > 0.0), less);
+        let remainder = kept(!behind, ahead) + kept(short_of, wrapped);
+        let known = impacts.duration[lane];
+        durations[lane] = if known >= 0.0 { known } else { periods * TAU + remainder };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::Phase;
+
+    /// Well spread numbers in [0, 1).
+    fn spread(k: u64) -> f64 {
+        (k as f64 * 0.618_033_988_749_894_9) % 1.0
+    }
+
+    fn launch(k: u64) -> (Vibration, Launch) {
+        let peak = match k % 5 {
+            0 => 1.2 * spread(k),
+            1 | 2 => 1.0 + 2.0 * spread(3 * k),
+            3 => 197.392_088,
+            _ => libm::exp10(6.0 * spread(k / 7)),
+        };
+        let speed = (1.0 + peak) * libm::exp10(1.5 - 7.0 * spread(k / 3) * spread(11 * k));
+        // Now and then phases next to the turn.
+        let angle = if k.is_multiple_of(97) {
+            TAU * (1.0 - 1e-16 * spread(5 * k))
+        } else {
+            TAU * spread(13 * k + k / 64)
+        };
+        let phase = Phase::new(angle).expect("finite");
+        (Vibration::new(peak).expect("legal"), Launch::new(phase, speed).expect("legal"))
+    }
+
+    #[test]
+    fn rows_hold_what_single_flights_say() {
+        for set in InstructionSet::available() {
+            let mut flights = Flights::new(set);
+            for block in 0..10_000 {
+                let launches: Vec<_> = (0..LANES as u64).map(|lane| launch(64 * block + lane)).collect();
+                for (lane, (vibration, launch)) in launches.iter().enumerate() {
+                    flights.set_platform(lane, *vibration);
+                    flights.set_launch(lane, *launch);
+                }
+                let mut failures = Vec::new();
+                flights.fly(LANES, |lane, error| failures.push((lane, error)));
+                let mut failures = failures.into_iter();
+                let impacts = flights.impacts();
+                for (lane, (vibration, launch)) in launches.into_iter().enumerate() {
+                    let alone = match vibration.first_impact(launch) {
+                        Ok(alone) => alone,
+                        Err(error) => {
+                            assert_eq!(failures.next(), Some((lane, error)));
+                            continue;
+                        }
+                    };
+                    let rows = [
+                        impacts.angle[lane],
+                        impacts.sin[lane],
+                        impacts.cos[lane],
+                        impacts.velocity[lane],
+                        impacts.duration[lane],
+                    ];
+                    let (phase, velocity) = (alone.phase, alone.velocity);
+                    let expected = [phase.angle(), phase.sin(), phase.cos(), velocity, alone.duration()];
+                    assert_eq!(
+                        rows.map(f64::to_bits),
+                        expected.map(f64::to_bits),
+                        "{set:?} {vibration:?} {launch:?}: {rows:?} {alone:?}"
+                    );
+                    assert_eq!(impacts.turns[lane] as u64, alone.turns);
+                    assert_eq!(flights.state(lane), alone.into());
+                }
+                assert_eq!(failures.next(), None);
+            }
+        }
+    }
+}

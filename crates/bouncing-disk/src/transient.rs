@@ -1,0 +1,271 @@
+//! The speed transient of one motor.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::{ChatterPolicy, Phase};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, not_negative, positive};
+use crate::fit::ExponentialFit;
+use crate::rotor::{Rotor, RotorStep};
+use crate::scales::Scales;
+use crate::system::System;
+
+/// How a transient is computed and sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct TransientSettings {
+    /// Duration (s), positive.
+    pub duration: f64,
+    /// Number of equal intervals over which the speed is averaged, in [3, 1000000].
+    pub intervals: usize,
+    /// Size of the relaunch perturbation in units of g/omega, not negative: each separation from rest gets a
+    /// relative velocity drawn evenly from [0, size). Zero gives the cycle of the rounding. Default 1e-3.
+    pub relaunch_perturbation: f64,
+    /// Seed of the perturbations and of the starting phases.
+    pub seed: u64,
+    /// What ends a chattering sequence.
+    pub policy: ChatterPolicy,
+}
+
+impl Default for TransientSettings {
+    fn default() -> Self {
+        Self {
+            duration: 3.0,
+            intervals: 600,
+            relaunch_perturbation: 1.0e-3,
+            seed: 1,
+            policy: ChatterPolicy::Complete,
+        }
+    }
+}
+
+impl TransientSettings {
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        positive("duration", self.duration)?;
+        not_negative("relaunch_perturbation", self.relaunch_perturbation)?;
+        if (3..=1_000_000).contains(&self.intervals) {
+            Ok(())
+        } else {
+            Err(Error::OutOfRange { field: "intervals", value: self.intervals as f64, legal: "[3, 1000000]" })
+        }
+    }
+}
+
+/// Angular speed against time, from rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SpeedCurve {
+    /// Middles of the intervals (s).
+    pub times: Vec<f64>,
+    /// Mean angular speed in each interval (rad/s).
+    pub speeds: Vec<f64>,
+    /// Impacts on the way, those of summed chattering sequences not counted.
+    pub impacts: u64,
+    /// Separations from rest on the way.
+    pub separations: u64,
+}
+
+impl SpeedCurve {
+    /// The fit of alpha_ss (1 - exp(-t/t_c)).
+    ///
+    /// # Errors
+    /// Those of [`ExponentialFit::new`].
+    pub fn fit(&self) -> Result<ExponentialFit, Error> {
+        ExponentialFit::new(&self.times, &self.speeds)
+    }
+
+    /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve.
+    #[must_use]
+    pub fn mean_over_last(&self, fraction: f64) -> f64 {
+        let count = ((self.speeds.len() as f64 * fraction) as usize).clamp(1, self.speeds.len());
+        let last = &self.speeds[self.speeds.len() - count..];
+        last.iter().sum::<f64>() / count as f64
+    }
+}
+
+/// The splitmix64 generator: a documented, reproducible stream for each seed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SplitMix(pub(crate) u64);
+
+impl SplitMix {
+    pub(crate) const fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Evenly in [0, 1).
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+    }
+}
+
+/// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for illegal settings; the errors of the flights.
+pub fn transient(system: &System, phase: Phase, settings: &TransientSettings) -> Result<SpeedCurve, Error> {
+    let mut run = Run::new(system, phase, settings)?;
+    while !run.is_done() {
+        run.step()?;
+    }
+    Ok(run.finished())
+}
+
+/// A transient under way.
+#[derive(Debug)]
+pub(crate) struct Run {
+    pub(crate) rotor: Rotor,
+    pub(crate) bins: Bins,
+    pub(crate) impacts: u64,
+    separations: u64,
+    generator: SplitMix,
+    relaunch_perturbation: f64,
+    /// Duration (s).
+    pub(crate) duration: f64,
+    /// Angle (rad) of the start.
+    pub(crate) start: f64,
+    pub(crate) unit: Scales,
+}
+
+impl Run {
+    pub(crate) fn new(system: &System, phase: Phase, settings: &TransientSettings) -> Result<Self, Error> {
+        settings.check()?;
+        Ok(Self {
+            rotor: Rotor::at_rest(system.dimensionless(), phase, 0.0, settings.policy)?,
+            bins: Bins::new(settings.duration, settings.intervals),
+            impacts: 0,
+            separations: 0,
+            generator: SplitMix(settings.seed),
+            relaunch_perturbation: settings.relaunch_perturbation,
+            duration: settings.duration,
+            start: phase.angle(),
+            unit: system.scales(),
+        })
+    }
+
+    /// Whether the motion has been added up to the end.
+    #[inline(always)]
+    pub(crate) fn is_done(&self) -> bool {
+        self.bins.reached >= self.duration
+    }
+
+    /// Adds the motion up to the next event.
+    #[inline(always)]
+    pub(crate) fn step(&mut self) -> Result<(), Error> {
+        match self.rotor.advance()? {
+            RotorStep::Ended => {
+                let rest = self.duration - self.bins.reached;
+                self.bins.add(self.duration, self.rotor.speed() * (rest / self.unit.time));
+                return Ok(());
+            }
+            RotorStep::Impact => self.impacts += 1,
+            RotorStep::Contact => {}
+            RotorStep::Separation => {
+                self.separations += 1;
+                if self.relaunch_perturbation > 0.0 {
+                    self.rotor.perturb_launch(self.relaunch_perturbation * self.generator.unit())?;
+                }
+            }
+        }
+        let now = self.rotor.time();
+        let to = seconds(now.periods as f64, now.phase.angle() - self.start, self.unit.time);
+        self.bins.add(to, self.rotor.turned());
+        Ok(())
+    }
+
+    /// The curve of a transient that is done.
+    pub(crate) fn finished(self) -> SpeedCurve {
+        let Bins { turned, width, .. } = self.bins;
+        let factor = self.unit.angular_speed * self.unit.time / width;
+        SpeedCurve {
+            times: (0..turned.len()).map(|i| (i as f64 + 0.5) * width).collect(),
+            speeds: turned.into_iter().map(|angle| angle * factor).collect(),
+            impacts: self.impacts,
+            separations: self.separations,
+        }
+    }
+}
+
+/// Time (s) from whole periods and the change of the phase's angle; none is accumulated.
+#[inline(always)]
+pub(crate) fn seconds(periods: f64, ahead: f64, unit: f64) -> f64 {
+    (periods * TAU + ahead) * unit
+}
+
+/// The angle turned in each of a number of equal intervals of time.
+#[derive(Debug)]
+pub(crate) struct Bins {
+    turned: Vec<f64>,
+    width: f64,
+    /// The interval that `reached` lies in, and its end.
+    index: usize,
+    end: f64,
+    /// Time up to which the motion has been added (s).
+    pub(crate) reached: f64,
+}
+
+impl Bins {
+    fn new(duration: f64, count: usize) -> Self {
+        let width = duration / count as f64;
+        Self { turned: vec![0.0; count], width, index: 0, end: width, reached: 0.0 }
+    }
+
+    /// End of the present interval (s), and the angle turned in it so far.
+    pub(crate) fn present(&self) -> (f64, f64) {
+        (self.end, self.turned[self.index])
+    }
+
+    /// Replaces the angle turned in the present interval, and the time reached (s).
+    pub(crate) fn set_present(&mut self, angle: f64, reached: f64) {
+        self.turned[self.index] = angle;
+        self.reached = reached;
+    }
+
+    /// Adds the `angle` turned from the time reached until `to`, evenly in time; what lies beyond the last interval
+    /// is dropped.
+    #[inline]
+    pub(crate) fn add(&mut self, to: f64, angle: f64) {
+        if to <= self.end {
+            self.turned[self.index] += angle;
+            self.reached = to;
+        } else {
+            self.add_across(to, angle);
+        }
+    }
+
+    fn add_across(&mut self, to: f64, angle: f64) {
+        let rate = angle / (to - self.reached);
+        while to > self.end {
+            self.turned[self.index] += rate * (self.end - self.reached);
+            self.reached = self.end;
+            if self.index + 1 == self.turned.len() {
+                self.reached = to;
+                return;
+            }
+            self.index += 1;
+            self.end = (self.index + 1) as f64 * self.width;
+        }
+        self.turned[self.index] += rate * (to - self.reached);
+        self.reached = to;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curve_keeps_the_angle_turned() {
+        let mut bins = Bins::new(1.0, 10);
+        bins.add(0.05, 0.0);
+        bins.add(0.77, 7.2);
+        assert!((bins.turned.iter().sum::<f64>() - 7.2).abs() < 1e-14);
+        assert!((bins.turned[0] - 0.5).abs() < 1e-14 && (bins.turned[3] - 1.0).abs() < 1e-14);
+        assert!(bins.turned[8].abs() <= 0.0);
+        bins.add(0.95, 0.0);
+        bins.add(1.4, 4.5);
+        assert!((bins.turned[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
+    }
+}

@@ -1,0 +1,272 @@
+//! Many speed transients at once: the flights and impacts of all in lockstep, their rests one by one.
+
+mod rotors;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use bouncing_disk_core::{ChatterPolicy, Flights, InstructionSet, Launch, Phase};
+
+use crate::error::Error;
+use crate::system::System;
+use crate::transient::{Run, SpeedCurve, TransientSettings, transient};
+use rotors::{Carry, Rotors};
+
+/// With fewer transients under way they are advanced one by one: a step of the lanes costs nearly the same however many of
+/// them are in use, for motors as much as about this many single flights (docs/numerics.md, section 9).
+const FEWEST: usize = 48;
+
+/// The arguments of one [`transient`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransientMember {
+    /// The motor.
+    pub system: System,
+    /// Phase of the stator at which it starts to vibrate.
+    pub phase: Phase,
+    /// Duration, sampling, perturbation and seed.
+    pub settings: TransientSettings,
+}
+
+impl TransientMember {
+    fn alone(&self) -> Result<SpeedCurve, Error> {
+        transient(&self.system, self.phase, &self.settings)
+    }
+}
+
+/// The transient of each member, or the error that [`transient`] returns for it, in the order of the members; bit for bit
+/// those of [`transient`], several times faster where there are many.
+///
+/// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
+/// instructions of the processor change a bit. Members under [`ChatterPolicy::Paper`] are computed one by one.
+///
+/// ```
+/// use bouncing_disk::core::Phase;
+/// use bouncing_disk::{
+///     DiskParameters, PlatformParameters, System, TransientMember, TransientSettings, transient, transients,
+/// };
+///
+/// // The motor of Table III at a hundred preloads (m/s^2), 5 ms each.
+/// let angular_frequency = std::f64::consts::TAU * 70e3;
+/// let platform = PlatformParameters {
+///     amplitude: 1e-8,
+///     twist_amplitude: 30.0 / angular_frequency,
+///     angular_frequency,
+///     phase_lag: 0.0,
+/// };
+/// let members = (0..100)
+///     .map(|k| {
+///         let rotor = DiskParameters {
+///             contact_radius: 1.25e-3,
+///             gyration_radius: 6.3e-3,
+///             friction: 0.1,
+///             restitution: 0.5,
+///             preload_acceleration: 5.0 + 0.1 * f64::from(k),
+///             load_acceleration: 0.0,
+///         };
+///         Ok(TransientMember {
+///             system: System::new(platform.build()?, rotor.build()?)?,
+///             phase: Phase::new(4.0)?,
+///             settings: TransientSettings { duration: 5e-3, intervals: 10, ..TransientSettings::default() },
+///         })
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk::Error>>()?;
+/// let curves = transients(&members);
+/// let alone = transient(&members[7].system, members[7].phase, &members[7].settings);
+/// assert_eq!(curves[7], alone);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[must_use]
+pub fn transients(members: &[TransientMember]) -> Vec<Result<SpeedCurve, Error>> {
+    with_instruction_set(members, InstructionSet::best())
+}
+
+/// What became of the member of an index.
+type Outcome = (usize, Result<SpeedCurve, Error>);
+
+fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec<Result<SpeedCurve, Error>> {
+    let next = AtomicUsize::new(0);
+    let mut outcomes = workers(members.len(), |lanes| Worker::new(members, &next, lanes, set).run());
+    outcomes.sort_unstable_by_key(|(index, _)| *index);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// The outcomes of as many workers as there are threads, each told how many lanes are its share; it does not matter which of
+/// them has a member.
+#[cfg(feature = "parallel")]
+fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
+    use rayon::prelude::*;
+    let threads = rayon::current_num_threads().min(members).max(1);
+    let lanes = members.div_ceil(threads).min(Flights::LANES);
+    (0..threads).into_par_iter().with_max_len(1).flat_map_iter(|_| work(lanes)).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome> {
+    work(members.min(Flights::LANES))
+}
+
+/// Advances members that nobody has begun until there are none left.
+struct Worker<'a> {
+    members: &'a [TransientMember],
+    next: &'a AtomicUsize,
+    /// Most lanes in use.
+    lanes: usize,
+    set: InstructionSet,
+    /// The transients of the first lanes, with the indices of their members.
+    runs: Vec<(usize, Run)>,
+    outcomes: Vec<Outcome>,
+}
+
+impl<'a> Worker<'a> {
+    const fn new(
+        members: &'a [TransientMember],
+        next: &'a AtomicUsize,
+        lanes: usize,
+        set: InstructionSet,
+    ) -> Self {
+        Self { members, next, lanes, set, runs: Vec::new(), outcomes: Vec::new() }
+    }
+
+    fn take(&self) -> Option<(usize, &'a TransientMember)> {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        self.members.get(index).map(|member| (index, member))
+    }
+
+    fn run(mut self) -> Vec<Outcome> {
+        if self.lanes >= FEWEST {
+            self.in_lanes();
+        }
+        while let Some((index, member)) = self.take() {
+            self.outcomes.push((index, member.alone()));
+        }
+        self.outcomes
+    }
+
+    /// The next member that waits and is not done before its first flight, about to fly.
+    fn begun(&mut self) -> Option<(usize, Run, Launch)> {
+        loop {
+            let (index, member) = self.take()?;
+            if member.settings.policy != ChatterPolicy::Complete {
+                self.outcomes.push((index, member.alone()));
+                continue;
+            }
+            match Run::new(&member.system, member.phase, &member.settings) {
+                Ok(mut run) => match fly_next(&mut run) {
+                    Ok(Some(launch)) => return Some((index, run, launch)),
+                    Ok(None) => self.outcomes.push((index, Ok(run.finished()))),
+                    Err(error) => self.outcomes.push((index, Err(error))),
+                },
+                Err(error) => self.outcomes.push((index, Err(error))),
+            }
+        }
+    }
+
+    /// Advances members together while there are enough of them.
+    fn in_lanes(&mut self) {
+        let mut flights = Flights::new(self.set);
+        let mut rotors = Box::new(Rotors::new());
+        let mut may_rest = [0; Flights::LANES];
+        let mut failures: Vec<(usize, Error)> = Vec::new();
+        loop {
+            while self.runs.len() < self.lanes
+                && let Some((index, run, launch)) = self.begun()
+            {
+                let lane = self.runs.len();
+                flights.set_platform(lane, *run.rotor.system().vibration());
+                flights.set_launch(lane, launch);
+                rotors.begin(lane, &run);
+                self.runs.push((index, run));
+            }
+            if self.runs.len() < FEWEST {
+                break;
+            }
+            flights.fly(self.runs.len(), |lane, error| failures.push((lane, Error::from(error))));
+            flights.run(Carry { impacts: flights.impacts(), rotors: &mut rotors });
+            flights.rebound(&rotors.restitution, &mut may_rest);
+            // From the last lane, so that a transient that is moved into a gap has been judged.
+            for lane in (0..self.runs.len()).rev() {
+                // The flights name the lanes in their order.
+                let failure = failures.pop_if(|(failed, _)| *failed == lane);
+                if (rotors.passed()[lane] | may_rest[lane]) == 0 && failure.is_none() {
+                    continue;
+                }
+                let done = match failure {
+                    Some((_, error)) => Err(error),
+                    None => {
+                        let run = &mut self.runs[lane].1;
+                        attend(lane, run, &mut flights, &mut rotors, may_rest[lane] != 0)
+                    }
+                };
+                if matches!(done, Ok(false)) {
+                    continue;
+                }
+                let (index, run) = self.runs.swap_remove(lane);
+                self.outcomes.push((index, done.map(|_| run.finished())));
+                let last = self.runs.len();
+                if let Some((_, moved)) = self.runs.get(lane) {
+                    flights.set_platform(lane, *moved.rotor.system().vibration());
+                    let launch = flights.launch(last);
+                    flights.set_launch(lane, launch);
+                    rotors.move_lane(last, lane);
+                }
+            }
+        }
+        for (lane, (index, mut run)) in std::mem::take(&mut self.runs).into_iter().enumerate() {
+            rotors.store_curve(lane, &mut run);
+            self.outcomes.push((index, finished_alone(run, flights.launch(lane), rotors.motion(lane))));
+        }
+    }
+}
+
+/// Takes a transient to its next flight; `None` if it is done before.
+fn fly_next(run: &mut Run) -> Result<Option<Launch>, Error> {
+    while !run.is_done() {
+        if let Some((phase, speed)) = run.rotor.launch() {
+            return Ok(Some(Launch::new(phase, speed)?));
+        }
+        run.step()?;
+    }
+    Ok(None)
+}
+
+/// What is not the same for every lane after an impact; true if the transient is done.
+fn attend(
+    lane: usize,
+    run: &mut Run,
+    flights: &mut Flights,
+    rotors: &mut Rotors,
+    may_rest: bool,
+) -> Result<bool, Error> {
+    rotors.pass_interval(lane, run);
+    if rotors.is_over(lane) {
+        rotors.store_curve(lane, run);
+        return Ok(true);
+    }
+    if !may_rest {
+        return Ok(false);
+    }
+    let (state, restitution) = (flights.state(lane), rotors.restitution[lane]);
+    let vibration = run.rotor.system().vibration();
+    // Nine times in ten the chatter is not yet short enough to be summed.
+    if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {
+        return Ok(false);
+    }
+    let (periods, speed) = rotors.motion(lane);
+    run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
+    rotors.store_curve(lane, run);
+    let Some(launch) = fly_next(run)? else { return Ok(true) };
+    flights.set_launch(lane, launch);
+    rotors.load_motion(lane, run);
+    Ok(false)
+}
+
+/// The curve of a transient that leaves its lane at a launch.
+fn finished_alone(mut run: Run, launch: Launch, (periods, speed): (u64, f64)) -> Result<SpeedCurve, Error> {
+    run.rotor.go_on_with(launch, ChatterPolicy::Complete, periods, speed)?;
+    while !run.is_done() {
+        run.step()?;
+    }
+    Ok(run.finished())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,196 @@
+//! The rotary motion of many rotors from impact to impact, in lockstep: as [`Run::step`](crate::transient::Run::step).
+
+use bouncing_disk_core::{Flights, LaneImpacts, LaneLoop};
+
+use crate::dimensionless::Dimensionless;
+use crate::rotor::Bounce;
+use crate::transient::{Run, seconds};
+
+const LANES: usize = Flights::LANES;
+
+/// One number of every lane.
+type Row = [f64; LANES];
+
+/// What is carried along with the flights of all lanes.
+#[derive(Debug)]
+#[repr(align(64))]
+pub(super) struct Rotors {
+    /// The systems.
+    pub(super) restitution: Row,
+    friction: Row,
+    load: Row,
+    twist_cosine: Row,
+    twist_sine: Row,
+    /// Unit of time (s), angle (rad) at the start, and duration (s).
+    unit: Row,
+    start: Row,
+    duration: Row,
+    /// Angular speed after the last impact.
+    speed: Row,
+    /// Whole periods since the start.
+    periods: Row,
+    /// Angle turned in the last flight.
+    turned: Row,
+    /// The present interval of the curve: its end (s), and the angle turned in it.
+    end: Row,
+    sum: Row,
+    /// Times (s) of the last impact and of the one before.
+    reached: Row,
+    before: Row,
+    impacts: [u64; LANES],
+    /// Bits are set in lanes whose last flight ends beyond the present interval, or beyond the duration.
+    passed: [u64; LANES],
+}
+
+impl Rotors {
+    pub(super) const fn new() -> Self {
+        const ROW: Row = [0.0; LANES];
+        Self {
+            restitution: ROW,
+            friction: ROW,
+            load: ROW,
+            twist_cosine: ROW,
+            twist_sine: ROW,
+            unit: ROW,
+            start: ROW,
+            duration: ROW,
+            speed: ROW,
+            periods: ROW,
+            turned: ROW,
+            end: ROW,
+            sum: ROW,
+            reached: ROW,
+            before: ROW,
+            impacts: [0; LANES],
+            passed: [0; LANES],
+        }
+    }
+
+    /// Begins to carry a transient.
+    pub(super) fn begin(&mut self, lane: usize, run: &Run) {
+        let system: &Dimensionless = run.rotor.system();
+        self.restitution[lane] = system.restitution();
+        self.friction[lane] = system.friction();
+        self.load[lane] = system.load();
+        (self.twist_cosine[lane], self.twist_sine[lane]) = system.twist_components();
+        self.unit[lane] = run.unit.time;
+        self.start[lane] = run.start;
+        self.duration[lane] = run.duration;
+        self.load_motion(lane, run);
+    }
+
+    /// Takes over the motion from a transient that is about to fly.
+    pub(super) fn load_motion(&mut self, lane: usize, run: &Run) {
+        self.speed[lane] = run.rotor.speed();
+        self.periods[lane] = run.rotor.time().periods as f64;
+        self.impacts[lane] = run.impacts;
+        self.reached[lane] = run.bins.reached;
+        self.load_interval(lane, run);
+    }
+
+    fn load_interval(&mut self, lane: usize, run: &Run) {
+        (self.end[lane], self.sum[lane]) = run.bins.present();
+    }
+
+    /// Whether the last impact comes at the end of the transient or after it.
+    pub(super) fn is_over(&self, lane: usize) -> bool {
+        self.reached[lane] >= self.duration[lane]
+    }
+
+    /// Moves a transient into another lane.
+    pub(super) fn move_lane(&mut self, from: usize, to: usize) {
+        for row in [
+            &mut self.restitution,
+            &mut self.friction,
+            &mut self.load,
+            &mut self.twist_cosine,
+            &mut self.twist_sine,
+            &mut self.unit,
+            &mut self.start,
+            &mut self.duration,
+            &mut self.speed,
+            &mut self.periods,
+            &mut self.turned,
+            &mut self.end,
+            &mut self.sum,
+            &mut self.reached,
+            &mut self.before,
+        ] {
+            row[to] = row[from];
+        }
+        self.impacts[to] = self.impacts[from];
+    }
+
+    /// Hands the curve back to the transient, up to the last impact.
+    pub(super) fn store_curve(&self, lane: usize, run: &mut Run) {
+        run.bins.set_present(self.sum[lane], self.reached[lane]);
+        run.impacts = self.impacts[lane];
+    }
+
+    /// Adds a flight that ends in another interval.
+    pub(super) fn pass_interval(&mut self, lane: usize, run: &mut Run) {
+        if self.reached[lane] <= self.end[lane] {
+            return;
+        }
+        run.bins.set_present(self.sum[lane], self.before[lane]);
+        run.bins.add(self.reached[lane], self.turned[lane]);
+        self.load_interval(lane, run);
+    }
+
+    /// Whole periods up to the last impact, and the angular speed after it.
+    pub(super) const fn motion(&self, lane: usize) -> (u64, f64) {
+        (self.periods[lane] as u64, self.speed[lane])
+    }
+
+    pub(super) const fn passed(&self) -> &[u64; LANES] {
+        &self.passed
+    }
+}
+
+/// Carries all rotors through a flight and the impact that ends it.
+pub(super) struct Carry<'a> {
+    pub(super) impacts: LaneImpacts<'a>,
+    pub(super) rotors: &'a mut Rotors,
+}
+
+impl LaneLoop for Carry<'_> {
+    #[inline(always)]
+    fn run(self) {
+        bounce(&self.impacts, self.rotors);
+        count(&self.impacts, self.rotors);
+    }
+}
+
+#[inline(always)]
+fn bounce(impacts: &LaneImpacts<'_>, rotors: &mut Rotors) {
+    for lane in 0..LANES {
+        let bounce = Bounce {
+            duration: impacts.duration[lane],
+            // As `Dimensionless::platform_angular_speed`.
+            platform_speed: rotors.twist_cosine[lane] * impacts.cos[lane]
+                - rotors.twist_sine[lane] * impacts.sin[lane],
+            velocity: impacts.velocity[lane],
+            restitution: rotors.restitution[lane],
+            friction: rotors.friction[lane],
+            load: rotors.load[lane],
+        };
+        (rotors.speed[lane], rotors.turned[lane]) = bounce.after(rotors.speed[lane]);
+    }
+}
+
+#[inline(always)]
+fn count(impacts: &LaneImpacts<'_>, rotors: &mut Rotors) {
+    for lane in 0..LANES {
+        let turns = impacts.turns[lane];
+        let periods = rotors.periods[lane] + if turns > 0.0 { turns } else { 0.0 };
+        let to = seconds(periods, impacts.angle[lane] - rotors.start[lane], rotors.unit[lane]);
+        let beyond = to > rotors.end[lane];
+        let sum = rotors.sum[lane];
+        rotors.periods[lane] = periods;
+        rotors.sum[lane] = if beyond { sum } else { sum + rotors.turned[lane] };
+        rotors.before[lane] = rotors.reached[lane];
+        rotors.reached[lane] = to;
+        rotors.impacts[lane] += 1;
+        rotors.passed[lane] = u64::from(beyond | (to >= rotors.duration[lane]));
+    }
+}
