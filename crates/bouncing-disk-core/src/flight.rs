@@ -34,6 +34,9 @@ use crate::vibration::Vibration;
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
+/// Share of 1 + P by which the gaps and speeds of [`clears_by_tangents`] exceed a tie: far more than their rounding.
+const CLEAR: f64 = 1.0e-9;
+
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
 
@@ -151,7 +154,15 @@ impl Vibration {
         let above = (rising.gap_over(self.separation_depth, inflection) > self.doubtful_gap)
             & (rising.gap_over(0.0, crest) > self.doubtful_gap);
         let no_dip = (disk_speed - inflection >= self.separation_speed) | (disk_speed <= crest);
-        if !(from_falling_away | (above & no_dip)) {
+        if !(from_falling_away | (above & no_dip))
+            && !clears_by_tangents(
+                p,
+                self.separation_speed,
+                (inflection, rising.gap_over(self.separation_depth, inflection)),
+                (crest, rising.gap_over(0.0, crest)),
+                disk_speed,
+            )
+        {
             let low = LaunchForm { angle, peak: p, speed, sine: p * from.sin(), cosine: p * from.cos() };
             if let Some((bracket, guess)) =
                 self.bracket_before_crest_of_launch(&rising, &low, inflection, crest, &mut evaluations)
@@ -341,6 +352,26 @@ impl Vibration {
             convex = !convex;
         }
     }
+}
+
+/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,
+/// though others may, too.
+///
+/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive even where the
+/// tangents at both ends meet, below which a convex function cannot lie.
+#[inline(always)]
+pub(crate) fn clears_by_tangents(
+    peak: f64,
+    separation_speed: f64,
+    (inflection, at_inflection): (f64, f64),
+    (crest, at_crest): (f64, f64),
+    disk_speed: f64,
+) -> bool {
+    let first = (disk_speed - inflection) - separation_speed;
+    let last = disk_speed - crest;
+    let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, crest - inflection);
+    let clear = CLEAR * (1.0 + peak);
+    (at_inflection > clear) & (at_crest > clear) & ((first >= clear) | (last <= -clear) | (lowest > clear))
 }
 
 /// The impact of a form whose reference is the start of the flight itself, at `angle`.

@@ -9,11 +9,8 @@ use super::platform::{Below, Platform};
 use super::search::{Forms, Times};
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
-use crate::flight::SHORT_FLIGHT;
+use crate::flight::{SHORT_FLIGHT, clears_by_tangents};
 use crate::gap::{CrestForm, LaunchForm};
-
-/// Share of 1 + P by which gaps, speeds and times of flights that clear the crest exceed a tie.
-const CLEAR: f64 = 1.0e-9;
 
 /// Launches that may land before the first crest.
 #[derive(Debug, Clone)]
@@ -131,16 +128,13 @@ impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
             times.time[k] = if concave != 0 { guess } else { from };
             times.peak[k] = peak;
             verdicts.open[k] = certain & (concave | convex);
-            // Above inflection and crest; no dip between them if the gap does not first fall and then rise, or is positive even at
-            // the crossing of the tangents, below which a convex gap cannot lie.
-            let disk_speed = speed + cosine;
-            let first = (disk_speed - inflection) - platform.separation_speed;
-            let last = disk_speed - crest;
-            let between = crest - inflection;
-            let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, between);
-            let clear = CLEAR * (1.0 + peak);
-            let no_dip = mask(first >= clear) | mask(last <= -clear) | mask(lowest > clear);
-            verdicts.clears[k] = mask(at_inflection > clear) & mask(at_crest > clear) & no_dip;
+            verdicts.clears[k] = mask(clears_by_tangents(
+                peak,
+                platform.separation_speed,
+                (inflection, at_inflection),
+                (crest, at_crest),
+                speed + cosine,
+            ));
         }
     }
 }
