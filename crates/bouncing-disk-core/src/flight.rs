@@ -34,6 +34,11 @@ use crate::vibration::Vibration;
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
+/// T^2/6 and T^3/24 for the half radian T of [`SHORT_FLIGHT`], rounded up: the shares of drift and curvature in the gap
+/// over its time.
+const DRIFT_SHARE: f64 = 0.0417;
+const BEND_SHARE: f64 = 0.0053;
+
 /// Share of 1 + P by which the gaps and speeds of [`clears_by_tangents`] exceed a tie: far more than their rounding.
 const CLEAR: f64 = 1.0e-9;
 
@@ -136,6 +141,7 @@ impl Vibration {
         let p = self.peak_acceleration();
         let angle = from.angle();
         if speed < self.long_launch_speed
+            && may_return_soon(p, p * from.sin(), p * from.cos(), speed)
             && let Some(done) = self.short_flight(from, speed)?
         {
             return Ok(done.in_parts());
@@ -352,6 +358,17 @@ impl Vibration {
             convex = !convex;
         }
     }
+}
+
+/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
+/// a radian the pull is at most its value at launch, plus its growth at first, plus the curvature of the platform
+/// (docs/numerics.md, section 9).
+#[inline(always)]
+pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
+    let pull = 1.0 - sine;
+    let drift = if cosine < 0.0 { -cosine } else { 0.0 };
+    let pulled = 0.5 * SHORT_FLIGHT * (if pull > 0.0 { pull } else { 0.0 });
+    speed < pulled + (DRIFT_SHARE * drift + BEND_SHARE * peak)
 }
 
 /// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,

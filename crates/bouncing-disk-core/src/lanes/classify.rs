@@ -8,12 +8,8 @@ use pulp::{Simd, WithSimd};
 use super::platform::Below;
 use super::{Arcs, LANES, Launches, Mask, mask};
 use crate::elementary::{CREST, nearest_periods};
-use crate::flight::MAX_FLIGHT_DURATION;
+use crate::flight::{MAX_FLIGHT_DURATION, may_return_soon};
 use crate::gap::CrestForm;
-
-/// Coefficients of the pull's bound over half a radian (docs/numerics.md, section 9), rounded up.
-const DRIFT_SHARE: f64 = 0.0417;
-const BEND_SHARE: f64 = 0.0053;
 
 /// Kinds of launches; one that is neither rises above the crests.
 #[derive(Debug, Clone)]
@@ -86,18 +82,13 @@ impl<P: Below> WithSimd for Classify<'_, P> {
     }
 }
 
-/// Marks the launches that may land within half a radian: the pull over that time is bounded by its value, its slope and
-/// the platform's peak.
+/// Marks the launches that may land within half a radian.
 #[inline(always)]
 fn slow<P: Below>(platforms: P, launches: Launches<'_>, kinds: &mut Kinds) {
     for lane in 0..LANES {
         let platform = platforms.lane(lane);
         let (peak, speed) = (platform.peak, launches.speed[lane]);
         let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
-        let pull = 1.0 - sine;
-        let drift = if cosine < 0.0 { -cosine } else { 0.0 };
-        let returns =
-            0.25 * (if pull > 0.0 { pull } else { 0.0 }) + (DRIFT_SHARE * drift + BEND_SHARE * peak);
-        kinds.slow[lane] &= mask(speed < returns);
+        kinds.slow[lane] &= mask(may_return_soon(peak, sine, cosine, speed));
     }
 }
