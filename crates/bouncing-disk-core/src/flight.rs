@@ -29,18 +29,11 @@ use crate::elementary::{
 use crate::error::Error;
 use crate::gap::{Bracket, CrestForm, GapForm, LaunchForm, Root, ShortForm};
 use crate::phase::Phase;
+use crate::shortcuts::{clears_by_tangents, may_return_soon};
 use crate::vibration::Vibration;
 
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
-
-/// T^2/6 and T^3/24 for the half radian T of [`SHORT_FLIGHT`], rounded up: the shares of drift and curvature in the gap
-/// over its time.
-const DRIFT_SHARE: f64 = 0.0417;
-const BEND_SHARE: f64 = 0.0053;
-
-/// Share of 1 + P by which the gaps and speeds of [`clears_by_tangents`] exceed a tie: far more than their rounding.
-const CLEAR: f64 = 1.0e-9;
 
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
@@ -358,37 +351,6 @@ impl Vibration {
             convex = !convex;
         }
     }
-}
-
-/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
-/// a radian the pull is at most its value at launch, plus its growth at first, plus the curvature of the platform
-/// (docs/numerics.md, section 9).
-#[inline(always)]
-pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
-    let pull = 1.0 - sine;
-    let drift = if cosine < 0.0 { -cosine } else { 0.0 };
-    let pulled = 0.5 * SHORT_FLIGHT * (if pull > 0.0 { pull } else { 0.0 });
-    speed < pulled + (DRIFT_SHARE * drift + BEND_SHARE * peak)
-}
-
-/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,
-/// though others may, too.
-///
-/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive even where the
-/// tangents at both ends meet, below which a convex function cannot lie.
-#[inline(always)]
-pub(crate) fn clears_by_tangents(
-    peak: f64,
-    separation_speed: f64,
-    (inflection, at_inflection): (f64, f64),
-    (crest, at_crest): (f64, f64),
-    disk_speed: f64,
-) -> bool {
-    let first = (disk_speed - inflection) - separation_speed;
-    let last = disk_speed - crest;
-    let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, crest - inflection);
-    let clear = CLEAR * (1.0 + peak);
-    (at_inflection > clear) & (at_crest > clear) & ((first >= clear) | (last <= -clear) | (lowest > clear))
 }
 
 /// The impact of a form whose reference is the start of the flight itself, at `angle`.

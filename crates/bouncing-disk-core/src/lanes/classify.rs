@@ -8,8 +8,9 @@ use pulp::{Simd, WithSimd};
 use super::platform::Below;
 use super::{Arcs, LANES, Launches, Mask, mask};
 use crate::elementary::{CREST, nearest_periods};
-use crate::flight::{MAX_FLIGHT_DURATION, may_return_soon};
+use crate::flight::MAX_FLIGHT_DURATION;
 use crate::gap::CrestForm;
+use crate::shortcuts::may_return_soon;
 
 /// Kinds of launches; one that is neither rises above the crests.
 #[derive(Debug, Clone)]

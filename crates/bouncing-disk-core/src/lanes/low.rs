@@ -9,8 +9,9 @@ use super::platform::{Below, Platform};
 use super::search::{Forms, Times};
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
-use crate::flight::{SHORT_FLIGHT, clears_by_tangents};
+use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, LaunchForm};
+use crate::shortcuts::clears_by_tangents;
 
 /// Launches that may land before the first crest.
 #[derive(Debug, Clone)]

@@ -1,0 +1,118 @@
+//! Cheap tests that spare a search: certain when they answer, silent otherwise.
+
+use crate::flight::SHORT_FLIGHT;
+use crate::gap::CrestForm;
+
+/// T^2/6 and T^3/24 for the half radian T of [`SHORT_FLIGHT`], rounded up: the shares of drift and curvature in the gap
+/// over its time.
+const DRIFT_SHARE: f64 = 0.0417;
+const BEND_SHARE: f64 = 0.0053;
+
+/// Share of 1 + P by which the gaps and speeds of [`clears_by_tangents`] exceed a tie: far more than their rounding.
+const CLEAR: f64 = 1.0e-9;
+
+/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
+/// a radian the pull is at most its value at launch, plus its growth at first, plus the curvature of the platform
+/// (docs/numerics.md, section 9).
+#[inline(always)]
+pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
+    let pull = 1.0 - sine;
+    let drift = if cosine < 0.0 { -cosine } else { 0.0 };
+    let pulled = 0.5 * SHORT_FLIGHT * (if pull > 0.0 { pull } else { 0.0 });
+    speed < pulled + (DRIFT_SHARE * drift + BEND_SHARE * peak)
+}
+
+/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,
+/// though others may, too.
+///
+/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive even where the
+/// tangents at both ends meet, below which a convex function cannot lie.
+#[inline(always)]
+pub(crate) fn clears_by_tangents(
+    peak: f64,
+    separation_speed: f64,
+    (inflection, at_inflection): (f64, f64),
+    (crest, at_crest): (f64, f64),
+    disk_speed: f64,
+) -> bool {
+    let first = (disk_speed - inflection) - separation_speed;
+    let last = disk_speed - crest;
+    let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, crest - inflection);
+    let clear = CLEAR * (1.0 + peak);
+    (at_inflection > clear) & (at_crest > clear) & ((first >= clear) | (last <= -clear) | (lowest > clear))
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::TAU;
+
+    use super::*;
+    use crate::elementary::{CREST, sin_cos};
+    use crate::flight::Launch;
+    use crate::phase::Phase;
+    use crate::vibration::Vibration;
+
+    /// Well spread numbers in [0, 1).
+    fn spread(k: u32, stride: f64) -> f64 {
+        (f64::from(k) * stride) % 1.0
+    }
+
+    fn vibration(k: u32) -> Vibration {
+        Vibration::new(libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0)).expect("legal")
+    }
+
+    #[test]
+    fn no_short_flight_is_missed() {
+        let (mut short, mut spared) = (0, 0);
+        for k in 0..200_000 {
+            let vibration = vibration(k);
+            let (p, phase) =
+                (vibration.peak_acceleration(), Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite"));
+            let speed = 0.5 * vibration.long_launch_speed * (1.0 + spread(k, 0.618_033_99));
+            let flight = vibration.first_impact(Launch::new(phase, speed).expect("legal")).expect("lands");
+            let may = may_return_soon(p, p * phase.sin(), p * phase.cos(), speed);
+            let lands_soon = flight.duration() <= SHORT_FLIGHT;
+            assert!(may || !lands_soon, "{vibration:?} {phase:?} {speed}");
+            short += u32::from(lands_soon);
+            spared += u32::from(!may);
+        }
+        assert!(short > 1_000 && spared > 20_000, "{short} {spared}");
+    }
+
+    #[test]
+    fn no_dip_is_missed() {
+        let (mut certain, mut hit) = (0, 0);
+        for k in 0..20_000 {
+            let vibration = vibration(k);
+            let p = vibration.peak_acceleration();
+            if p <= 1.0 {
+                continue;
+            }
+            // Disks that are about as fast as the platform at its fastest, launched before the separation.
+            let angle = vibration.separation_angle - 0.5 * TAU * spread(k, 0.569_840_29);
+            let (sin, cos) = sin_cos(angle);
+            let disk_speed = p * (0.8 + 0.6 * spread(k, 0.618_033_99));
+            if disk_speed <= p * cos {
+                continue;
+            }
+            let form = CrestForm { peak: p, angle, speed: disk_speed, depth: p - p * sin };
+            let inflection = vibration.separation_angle - angle;
+            let crest = CREST - angle;
+            let ends = (
+                (inflection, form.gap_over(vibration.separation_depth, inflection)),
+                (crest, form.gap_over(0.0, crest)),
+            );
+            if !clears_by_tangents(p, vibration.separation_speed, ends.0, ends.1, disk_speed) {
+                hit += 1;
+                continue;
+            }
+            certain += 1;
+            for step in 0..=200 {
+                let t = inflection + (crest - inflection) * f64::from(step) / 200.0;
+                let platform_depth = p - p * sin_cos(angle + t).0;
+                assert!(form.gap_over(platform_depth, t) > 0.0, "{vibration:?} {angle} {disk_speed}");
+            }
+        }
+        assert!(certain > 500 && hit > 500, "{certain} {hit}");
+    }
+}
