@@ -78,10 +78,12 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
 pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
     let (n, quadrant) = nearest_quarter_turns(x);
     let (sine, cosine) = pair_polynomials((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE);
+    // Quadrant q: the pair is swapped if q is odd; the signs are those of the bits 1, and 1 xor 0.
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let swapped = (sine ^ cosine) & 0_u64.wrapping_sub(quadrant & 1);
-    let s = (sine ^ swapped) ^ ((quadrant & 2) << 62);
-    let c = (cosine ^ swapped) ^ ((quadrant.wrapping_add(1) & 2) << 62);
+    let sign = (quadrant << 62) & (1 << 63);
+    let s = (sine ^ swapped) ^ sign;
+    let c = (cosine ^ swapped) ^ (sign ^ (quadrant << 63));
     (f64::from_bits(s), f64::from_bits(c))
 }
 

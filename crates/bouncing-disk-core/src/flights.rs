@@ -23,10 +23,13 @@ pub trait LaneLoop {
 /// Independent flights, computed together: each lane has a platform and a launch of its own. The impacts are bit for bit
 /// those of [`Vibration::first_impact`].
 ///
+/// Lanes come in batches of [`Self::LANES`] and are counted through all of them: lane 70 is lane 6 of batch 1. The more
+/// batches, the better flights of one kind fill the vectors of the processor.
+///
 /// ```
 /// use bouncing_disk_core::{Flights, InstructionSet, Launch, Phase, Vibration};
 ///
-/// let mut flights = Flights::new(InstructionSet::best());
+/// let mut flights = Flights::new(InstructionSet::best(), 1);
 /// for lane in 0..10 {
 ///     flights.set_platform(lane, Vibration::new(2.0 + lane as f64)?);
 ///     flights.set_launch(lane, Launch::new(Phase::new(0.7)?, 3.0)?);
@@ -34,17 +37,19 @@ pub trait LaneLoop {
 /// flights.fly(10, |lane, error| unreachable!("{lane}: {error}"));
 /// let alone = Vibration::new(9.0)?.first_impact(Launch::new(Phase::new(0.7)?, 3.0)?)?;
 /// assert_eq!(flights.state(7), alone.into());
-/// assert_eq!(flights.impacts().duration[7], alone.duration());
+/// assert_eq!(flights.impacts(0).duration[7], alone.duration());
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Flights {
     flyer: Box<Flyer>,
-    batch: Box<Batch>,
-    durations: Box<Row>,
+    batches: Vec<Batch>,
+    durations: Vec<Row>,
+    /// Whether a lane of the batch has been put on a platform.
+    placed: Vec<bool>,
 }
 
-/// The impacts of all lanes of [`Flights`]; those of lanes that have not flown mean nothing.
+/// The impacts of one batch of [`Flights`]; those of lanes that have not flown mean nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneImpacts<'a> {
     /// Phases (rad), in [0, 2 pi).
@@ -62,72 +67,89 @@ pub struct LaneImpacts<'a> {
 }
 
 impl Flights {
-    /// Number of lanes.
+    /// Number of lanes of a batch.
     pub const LANES: usize = LANES;
 
-    /// Lanes on a platform at rest, to be computed with these instructions, or the next lower ones that the processor
-    /// has. The impacts do not depend on them.
+    /// At least one batch of lanes on a platform at rest, to be computed with these instructions, or the next lower ones that
+    /// the processor has. The impacts do not depend on them.
     #[must_use]
-    pub fn new(set: InstructionSet) -> Self {
+    pub fn new(set: InstructionSet, batches: usize) -> Self {
+        let batches = batches.max(1);
         Self {
             flyer: Box::new(Flyer::new(set)),
-            batch: Box::new(Batch::new(Vibration::still())),
-            durations: Box::new([0.0; LANES]),
+            batches: vec![Batch::new(Vibration::still()); batches],
+            durations: vec![[0.0; LANES]; batches],
+            placed: vec![false; batches],
         }
     }
 
-    /// Puts a lane on another platform.
+    /// Number of batches.
+    #[must_use]
+    pub const fn batches(&self) -> usize {
+        self.batches.len()
+    }
+
+    /// Puts a lane on another platform. The first platform of a batch is that of all its lanes, until they get their own.
     pub fn set_platform(&mut self, lane: usize, vibration: Vibration) {
-        self.batch.set_platform(lane, vibration);
+        let (batch, lane) = (lane / LANES, lane % LANES);
+        if core::mem::replace(&mut self.placed[batch], true) {
+            self.batches[batch].set_platform(lane, vibration);
+        } else {
+            self.batches[batch].share_platform(vibration);
+        }
     }
 
     /// Sets the next launch of a lane; its last impact is forgotten.
     pub fn set_launch(&mut self, lane: usize, launch: Launch) {
-        self.batch.set_launch(lane, launch.phase(), launch.relative_speed());
+        self.batches[lane / LANES].set_launch(lane % LANES, launch.phase(), launch.relative_speed());
     }
 
-    /// The next launch of a lane below [`Self::LANES`].
+    /// The next launch of a lane.
     #[must_use]
     pub fn launch(&self, lane: usize) -> Launch {
-        Launch::known(self.batch.launch_phase(lane), self.batch.launches().speed[lane])
+        let (batch, lane) = (&self.batches[lane / LANES], lane % LANES);
+        Launch::known(batch.launch_phase(lane), batch.launches().speed[lane])
     }
 
-    /// Sets the next launch of every lane to what follows its impact with a coefficient of restitution of its own in
-    /// [0, 1).
+    /// Sets the next launch of every lane of a batch to what follows its impact with a coefficient of restitution of its own
+    /// in [0, 1).
     ///
     /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
-    pub fn rebound(&mut self, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
-        self.batch.rebound(restitution);
-        self.flyer.dispatch().run(MayRest { batch: &self.batch, restitution, may_rest });
+    pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
+        let batch = &mut self.batches[batch];
+        batch.rebound(restitution);
+        self.flyer.dispatch().run(MayRest { batch, restitution, may_rest });
     }
 
     /// Computes the impacts of the first `lanes` launches. `failed` is told of each lane that has none (see
     /// [`Vibration::first_impact`]), in order; its impact means nothing then.
     pub fn fly(&mut self, lanes: usize, mut failed: impl FnMut(usize, Error)) {
-        let Self { flyer, batch, durations } = self;
-        let lanes = lanes.min(LANES);
-        flyer.fly(core::slice::from_mut(&mut **batch), lanes, &mut failed);
-        flyer.dispatch().run(Durations { batch, durations });
+        let Self { flyer, batches, durations, .. } = self;
+        let lanes = lanes.min(LANES * batches.len());
+        flyer.fly(batches, lanes, &mut failed);
+        for (batch, durations) in batches.iter().zip(durations).take(lanes.div_ceil(LANES)) {
+            flyer.dispatch().run(Durations { batch, durations });
+        }
     }
 
-    /// The impacts.
+    /// The impacts of a batch.
     #[must_use]
-    pub fn impacts(&self) -> LaneImpacts<'_> {
-        let impacts = self.batch.impacts();
+    pub fn impacts(&self, batch: usize) -> LaneImpacts<'_> {
+        let (impacts, duration) = (self.batches[batch].impacts(), &self.durations[batch]);
         LaneImpacts {
             angle: &impacts.angle,
             sin: &impacts.sin,
             cos: &impacts.cos,
             velocity: &impacts.velocity,
             turns: &impacts.turns,
-            duration: &self.durations,
+            duration,
         }
     }
 
-    /// The impact of a lane below [`Self::LANES`].
+    /// The impact of a lane.
     #[must_use]
     pub fn state(&self, lane: usize) -> ImpactState {
-        self.batch.impact_state(lane)
+        self.batches[lane / LANES].impact_state(lane % LANES)
     }
 
     /// Runs a loop with the instructions of the flights.
@@ -241,7 +263,7 @@ mod tests {
     #[test]
     fn rows_hold_what_single_flights_say() {
         for set in InstructionSet::available() {
-            let mut flights = Flights::new(set);
+            let mut flights = Flights::new(set, 3);
             for block in 0..10_000 {
                 let launches: Vec<_> = (0..LANES as u64).map(|lane| launch(64 * block + lane)).collect();
                 for (lane, (vibration, launch)) in launches.iter().enumerate() {

@@ -224,6 +224,13 @@ impl Batch {
         }
     }
 
+    /// Puts all lanes on the same platform.
+    pub(crate) fn share_platform(&mut self, vibration: Vibration) {
+        self.ground = Ground::Shared(Platform::from(&vibration));
+        self.vibrations = [vibration; LANES];
+        self.peaks = [vibration.peak_acceleration(); LANES];
+    }
+
     /// Puts a lane on another platform.
     pub(crate) fn set_platform(&mut self, lane: usize, vibration: Vibration) {
         if self.vibrations[lane] == vibration {

@@ -15,6 +15,9 @@ use rotors::{Carry, Rotors};
 /// them are in use, for motors as much as about this many single flights (docs/numerics.md, section 9).
 const FEWEST: usize = 48;
 
+/// Batches of lanes of one thread.
+const BATCHES: usize = 8;
+
 /// The arguments of one [`transient`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransientMember {
@@ -95,13 +98,13 @@ fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec
 fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
     use rayon::prelude::*;
     let threads = rayon::current_num_threads().min(members).max(1);
-    let lanes = members.div_ceil(threads).min(Flights::LANES);
+    let lanes = members.div_ceil(threads).min(BATCHES * Flights::LANES);
     (0..threads).into_par_iter().with_max_len(1).flat_map_iter(|_| work(lanes)).collect()
 }
 
 #[cfg(not(feature = "parallel"))]
 fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome> {
-    work(members.min(Flights::LANES))
+    work(members.min(BATCHES * Flights::LANES))
 }
 
 /// Advances members that nobody has begun until there are none left.
@@ -162,9 +165,10 @@ impl<'a> Worker<'a> {
 
     /// Advances members together while there are enough of them.
     fn in_lanes(&mut self) {
-        let mut flights = Flights::new(self.set);
-        let mut rotors = Box::new(Rotors::new());
-        let mut may_rest = [0; Flights::LANES];
+        let batches = self.lanes.div_ceil(Flights::LANES);
+        let mut flights = Flights::new(self.set, batches);
+        let mut rotors = vec![Rotors::new(); batches];
+        let mut may_rest = vec![[0; Flights::LANES]; batches];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
             while self.runs.len() < self.lanes
@@ -173,28 +177,30 @@ impl<'a> Worker<'a> {
                 let lane = self.runs.len();
                 flights.set_platform(lane, *run.rotor.system().vibration());
                 flights.set_launch(lane, launch);
-                rotors.begin(lane, &run);
+                rotors[lane / Flights::LANES].begin(lane % Flights::LANES, &run);
                 self.runs.push((index, run));
             }
             if self.runs.len() < FEWEST {
                 break;
             }
             flights.fly(self.runs.len(), |lane, error| failures.push((lane, Error::from(error))));
-            flights.run(Carry { impacts: flights.impacts(), rotors: &mut rotors });
-            flights.rebound(&rotors.restitution, &mut may_rest);
+            let used = self.runs.len().div_ceil(Flights::LANES);
+            for (batch, (rotors, may_rest)) in rotors.iter_mut().zip(&mut may_rest).enumerate().take(used) {
+                flights.run(Carry { impacts: flights.impacts(batch), rotors });
+                flights.rebound(batch, &rotors.restitution, may_rest);
+            }
             // From the last lane, so that a transient that is moved into a gap has been judged.
             for lane in (0..self.runs.len()).rev() {
+                let (batch, own) = (lane / Flights::LANES, lane % Flights::LANES);
                 // The flights name the lanes in their order.
                 let failure = failures.pop_if(|(failed, _)| *failed == lane);
-                if (rotors.passed()[lane] | may_rest[lane]) == 0 && failure.is_none() {
+                let may_rest = may_rest[batch][own] != 0;
+                if rotors[batch].passed()[own] == 0 && !may_rest && failure.is_none() {
                     continue;
                 }
                 let done = match failure {
                     Some((_, error)) => Err(error),
-                    None => {
-                        let run = &mut self.runs[lane].1;
-                        attend(lane, run, &mut flights, &mut rotors, may_rest[lane] != 0)
-                    }
+                    None => attend(lane, &mut self.runs[lane].1, &mut flights, &mut rotors[batch], may_rest),
                 };
                 if matches!(done, Ok(false)) {
                     continue;
@@ -206,13 +212,14 @@ impl<'a> Worker<'a> {
                     flights.set_platform(lane, *moved.rotor.system().vibration());
                     let launch = flights.launch(last);
                     flights.set_launch(lane, launch);
-                    rotors.move_lane(last, lane);
+                    Rotors::move_lane(&mut rotors, last, lane);
                 }
             }
         }
         for (lane, (index, mut run)) in std::mem::take(&mut self.runs).into_iter().enumerate() {
-            rotors.store_curve(lane, &mut run);
-            self.outcomes.push((index, finished_alone(run, flights.launch(lane), rotors.motion(lane))));
+            let (rotors, own) = (&rotors[lane / Flights::LANES], lane % Flights::LANES);
+            rotors.store_curve(own, &mut run);
+            self.outcomes.push((index, finished_alone(run, flights.launch(lane), rotors.motion(own))));
         }
     }
 }
@@ -236,26 +243,27 @@ fn attend(
     rotors: &mut Rotors,
     may_rest: bool,
 ) -> Result<bool, Error> {
-    rotors.pass_interval(lane, run);
-    if rotors.is_over(lane) {
-        rotors.store_curve(lane, run);
+    let own = lane % Flights::LANES;
+    rotors.pass_interval(own, run);
+    if rotors.is_over(own) {
+        rotors.store_curve(own, run);
         return Ok(true);
     }
     if !may_rest {
         return Ok(false);
     }
-    let (state, restitution) = (flights.state(lane), rotors.restitution[lane]);
+    let (state, restitution) = (flights.state(lane), rotors.restitution[own]);
     let vibration = run.rotor.system().vibration();
     // Nine times in ten the chatter is not yet short enough to be summed.
     if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {
         return Ok(false);
     }
-    let (periods, speed) = rotors.motion(lane);
+    let (periods, speed) = rotors.motion(own);
     run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
-    rotors.store_curve(lane, run);
+    rotors.store_curve(own, run);
     let Some(launch) = fly_next(run)? else { return Ok(true) };
     flights.set_launch(lane, launch);
-    rotors.load_motion(lane, run);
+    rotors.load_motion(own, run);
     Ok(false)
 }
 

@@ -12,7 +12,7 @@ const LANES: usize = Flights::LANES;
 type Row = [f64; LANES];
 
 /// What is carried along with the flights of all lanes.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Rotors {
     /// The systems.
@@ -97,28 +97,31 @@ impl Rotors {
         self.reached[lane] >= self.duration[lane]
     }
 
-    /// Moves a transient into another lane.
-    pub(super) fn move_lane(&mut self, from: usize, to: usize) {
-        for row in [
-            &mut self.restitution,
-            &mut self.friction,
-            &mut self.load,
-            &mut self.twist_cosine,
-            &mut self.twist_sine,
-            &mut self.unit,
-            &mut self.start,
-            &mut self.duration,
-            &mut self.speed,
-            &mut self.periods,
-            &mut self.turned,
-            &mut self.end,
-            &mut self.sum,
-            &mut self.reached,
-            &mut self.before,
-        ] {
-            row[to] = row[from];
+    /// Moves a transient into another lane, counted through all batches.
+    pub(super) fn move_lane(batches: &mut [Self], from: usize, to: usize) {
+        let (source, own) = (batches[from / LANES].clone(), from % LANES);
+        let (target, to) = (&mut batches[to / LANES], to % LANES);
+        let rows: [(&mut Row, &Row); 15] = [
+            (&mut target.restitution, &source.restitution),
+            (&mut target.friction, &source.friction),
+            (&mut target.load, &source.load),
+            (&mut target.twist_cosine, &source.twist_cosine),
+            (&mut target.twist_sine, &source.twist_sine),
+            (&mut target.unit, &source.unit),
+            (&mut target.start, &source.start),
+            (&mut target.duration, &source.duration),
+            (&mut target.speed, &source.speed),
+            (&mut target.periods, &source.periods),
+            (&mut target.turned, &source.turned),
+            (&mut target.end, &source.end),
+            (&mut target.sum, &source.sum),
+            (&mut target.reached, &source.reached),
+            (&mut target.before, &source.before),
+        ];
+        for (row, source) in rows {
+            row[to] = source[own];
         }
-        self.impacts[to] = self.impacts[from];
+        target.impacts[to] = source.impacts[own];
     }
 
     /// Hands the curve back to the transient, up to the last impact.
