@@ -1,6 +1,7 @@
 //! Basins of attraction of the impact map on a grid of impact phases and speeds.
 
 mod lockstep;
+mod screen;
 
 use core::f64::consts::{PI, TAU};
 

@@ -11,12 +11,11 @@ mod above;
 mod classify;
 mod fallen;
 mod flyer;
+mod instructions;
 mod low;
 mod platform;
 mod search;
 mod short;
-
-use pulp::{Simd, WithSimd};
 
 use crate::flight::Impact;
 use crate::map::ImpactState;
@@ -25,6 +24,8 @@ use crate::vibration::Vibration;
 use platform::{Below, Platform, Platforms};
 
 pub(crate) use flyer::Flyer;
+pub(crate) use instructions::Dispatch;
+pub use instructions::InstructionSet;
 
 /// Flights in one batch.
 pub(crate) const LANES: usize = 64;
@@ -58,84 +59,6 @@ pub(crate) use wide;
 #[inline(always)]
 pub(crate) const fn kept(mask: u64, value: f64) -> f64 {
     f64::from_bits(value.to_bits() & mask)
-}
-
-/// The vector instructions that lanes are computed with. The results are the same bits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum InstructionSet {
-    /// What every processor of the compilation target has (SSE2 on x86-64).
-    Baseline,
-    /// AVX2: four lanes at once.
-    Avx2,
-    /// AVX-512: eight lanes at once.
-    Avx512,
-}
-
-impl InstructionSet {
-    /// All that this processor has, the best one last.
-    #[must_use]
-    pub fn available() -> Vec<Self> {
-        let mut sets = vec![Self::Baseline];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if pulp::x86::V3::try_new().is_some() {
-                sets.push(Self::Avx2);
-            }
-            if pulp::x86::V4::try_new().is_some() {
-                sets.push(Self::Avx512);
-            }
-        }
-        sets
-    }
-
-    /// The best one that this processor has.
-    #[must_use]
-    pub fn best() -> Self {
-        Self::available().last().copied().unwrap_or(Self::Baseline)
-    }
-}
-
-/// Runs an operation compiled for an instruction set that was found available.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Dispatch {
-    Baseline,
-    #[cfg(target_arch = "x86_64")]
-    Avx2(pulp::x86::V3),
-    #[cfg(target_arch = "x86_64")]
-    Avx512(pulp::x86::V4),
-}
-
-impl Dispatch {
-    /// For `set`, or the next lower one that this processor has.
-    fn new(set: InstructionSet) -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if set == InstructionSet::Avx512
-                && let Some(level) = pulp::x86::V4::try_new()
-            {
-                return Self::Avx512(level);
-            }
-            if set != InstructionSet::Baseline
-                && let Some(level) = pulp::x86::V3::try_new()
-            {
-                return Self::Avx2(level);
-            }
-        }
-        let _ = set;
-        Self::Baseline
-    }
-
-    #[inline(always)]
-    pub(crate) fn run(self, operation: impl WithSimd<Output = ()>) {
-        match self {
-            Self::Baseline => operation.with_simd(pulp::Scalar::new()),
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2(level) => Simd::vectorize(level, operation),
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512(level) => Simd::vectorize(level, operation),
-        }
-    }
 }
 
 /// Launches of all lanes: from the impacts before, with relative speeds >= 0.

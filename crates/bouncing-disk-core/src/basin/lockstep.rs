@@ -1,94 +1,15 @@
 //! Labels of many starts at once: as [`ImpactMap::basin_label`], with the flights in lockstep.
 
-use core::f64::consts::TAU;
-
-use pulp::{Simd, WithSimd};
-
-use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
-use crate::chatter::{ChatterPolicy, chatters_to_rest};
-use crate::elementary::nearest_whole;
+use super::screen::{Screen, Target, Verdicts};
+use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
+use crate::chatter::ChatterPolicy;
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, Row, mask};
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Row};
 use crate::map::{ImpactMap, ImpactState};
 use crate::phase::Phase;
 
-/// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
-const SLACK: f64 = 1.0e-9;
-
 /// Batches that are computed together: enough of each kind of flight to fill vectors.
 const BATCHES: usize = 16;
-
-/// An impact of a known orbit.
-#[derive(Debug, Clone, Copy)]
-struct Target {
-    label: Label,
-    angle: f64,
-    velocity: f64,
-    square_radius: f64,
-}
-
-/// The labels that the impacts of lanes decide, as [`ImpactMap::settles`] finds them.
-#[derive(Debug, Clone)]
-struct Verdicts {
-    labels: Mask,
-    /// Lanes left to [`ImpactMap::settles`].
-    doubtful: Mask,
-    /// One bit for each lane that is labelled or doubtful.
-    settled: u64,
-}
-
-struct Screen<'a> {
-    impacts: &'a Impacts,
-    targets: &'a [Target],
-    peak: f64,
-    restitution: f64,
-    verdicts: &'a mut Verdicts,
-}
-
-impl WithSimd for Screen<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { impacts, targets, peak, restitution, verdicts } = self;
-        find_rest(impacts, peak, restitution, verdicts);
-        // From the last one: the first known orbit that catches a state has it.
-        for target in targets.iter().rev() {
-            find_caught(impacts, *target, 1.0 / peak, verdicts);
-        }
-        let mut settled = 0;
-        for (lane, (label, doubtful)) in verdicts.labels.iter().zip(&verdicts.doubtful).enumerate() {
-            settled |= u64::from(label | doubtful != 0) << lane;
-        }
-        verdicts.settled = settled;
-    }
-}
-
-#[inline(always)]
-fn find_rest(impacts: &Impacts, peak: f64, restitution: f64, verdicts: &mut Verdicts) {
-    for lane in 0..LANES {
-        let speed = -restitution * impacts.velocity[lane];
-        let (sin, cos) = (impacts.sin[lane], impacts.cos[lane]);
-        let rests = mask(chatters_to_rest(peak, sin, cos, speed, restitution));
-        verdicts.labels[lane] = rests & u64::from(ATTACHED);
-        verdicts.doubtful[lane] = mask(speed <= 0.0);
-    }
-}
-
-#[inline(always)]
-fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut Verdicts) {
-    let label = u64::from(target.label);
-    let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
-    for lane in 0..LANES {
-        let turned = impacts.angle[lane] - target.angle;
-        let phase = turned - TAU * nearest_whole(turned * (1.0 / TAU));
-        let velocity = (impacts.velocity[lane] - target.velocity) * inverse_peak;
-        let square = phase * phase + velocity * velocity;
-        let inside = mask(square < least);
-        verdicts.labels[lane] = (verdicts.labels[lane] & !inside) | (label & inside);
-        verdicts.doubtful[lane] |= mask(square <= most) & !inside;
-    }
-}
 
 impl ImpactMap {
     /// Labels `cells`; the one of index i starts with the impact `start(i)`, a phase and a speed >= 0.
@@ -324,19 +245,15 @@ impl<'a> Lockstep<'a> {
     }
 }
 
-impl Verdicts {
-    const fn new() -> Self {
-        Self { labels: [0; LANES], doubtful: [0; LANES], settled: 0 }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Grid};
+    use core::f64::consts::TAU;
+
+    use super::super::{ATTACHED, Axis, Grid};
     use super::*;
     use crate::vibration::Vibration;
 
-    fn compared(axial_forcing: f64, restitution: f64, cells: usize) -> [usize; 4] {
+    fn compared(axial_forcing: f64, restitution: f64, cells: usize, max_impacts: u32) -> [usize; 4] {
         let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
             .expect("legal");
         let orbit = map
@@ -345,8 +262,10 @@ mod tests {
         let known: Vec<_> = orbit
             .and_then(|orbit| orbit.catching_radius(&map).map(|radius| KnownOrbit { orbit, radius }))
             .into_iter()
+            // The same orbit again, with more room: the first one that catches a start has it.
+            .flat_map(|known| [known.clone(), KnownOrbit { radius: 1.5 * known.radius, ..known }])
             .collect();
-        let settings = BasinSettings { max_impacts: 300, policy: ChatterPolicy::Complete };
+        let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
         let grid =
             Grid::new(Axis::new(0.0, 1.0, cells).expect("legal"), Axis::new(0.0, 3.0, cells).expect("legal"))
                 .expect("legal");
@@ -365,13 +284,28 @@ mod tests {
         counts
     }
 
+    /// What docs/performance.md says of the memory of a thread.
+    #[test]
+    fn lanes_take_less_than_half_a_megabyte() {
+        let lanes = (BATCHES + 1) * size_of::<Batch>() + size_of::<Flyer>();
+        assert!(lanes < 500_000, "{lanes}");
+    }
+
     #[test]
     fn lockstep_labels_are_those_of_single_orbits() {
         for (axial_forcing, restitution) in
             [(0.2, 0.5), (0.34, 0.5), (0.5, 0.5), (0.55, 0.5), (0.6, 0.5), (2.0, 0.8)]
         {
-            let counts = compared(axial_forcing, restitution, 150);
+            let counts = compared(axial_forcing, restitution, 150, 300);
             assert!(counts[usize::from(ATTACHED)] > 0, "Gamma {axial_forcing}: {counts:?}");
+        }
+    }
+
+    #[test]
+    fn starts_are_given_up_after_the_same_number_of_impacts() {
+        for max_impacts in [0, 1, 2, 7] {
+            let counts = compared(0.5, 0.5, 120, max_impacts);
+            assert!(counts[usize::from(UNDECIDED)] > 0, "{max_impacts}: {counts:?}");
         }
     }
 

@@ -1,0 +1,81 @@
+//! The vector instructions of the processor, chosen at run time.
+
+use pulp::{Simd, WithSimd};
+
+/// The vector instructions that lanes are computed with. The results are the same bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InstructionSet {
+    /// What every processor of the compilation target has (SSE2 on x86-64).
+    Baseline,
+    /// AVX2: four lanes at once.
+    Avx2,
+    /// AVX-512: eight lanes at once.
+    Avx512,
+}
+
+impl InstructionSet {
+    /// All that this processor has, the best one last.
+    #[must_use]
+    pub fn available() -> Vec<Self> {
+        let mut sets = vec![Self::Baseline];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if pulp::x86::V3::try_new().is_some() {
+                sets.push(Self::Avx2);
+            }
+            if pulp::x86::V4::try_new().is_some() {
+                sets.push(Self::Avx512);
+            }
+        }
+        sets
+    }
+
+    /// The best one that this processor has.
+    #[must_use]
+    pub fn best() -> Self {
+        Self::available().last().copied().unwrap_or(Self::Baseline)
+    }
+}
+
+/// Runs an operation compiled for an instruction set that was found available.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Dispatch {
+    Baseline,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(pulp::x86::V3),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(pulp::x86::V4),
+}
+
+impl Dispatch {
+    /// For `set`, or the next lower one that this processor has.
+    pub(super) fn new(set: InstructionSet) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if set == InstructionSet::Avx512
+                && let Some(level) = pulp::x86::V4::try_new()
+            {
+                return Self::Avx512(level);
+            }
+            if set != InstructionSet::Baseline
+                && let Some(level) = pulp::x86::V3::try_new()
+            {
+                return Self::Avx2(level);
+            }
+        }
+        let _ = set;
+        Self::Baseline
+    }
+
+    #[inline(always)]
+    pub(crate) fn run(self, operation: impl WithSimd<Output = ()>) {
+        match self {
+            Self::Baseline => operation.with_simd(pulp::Scalar::new()),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(level) => Simd::vectorize(level, operation),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(level) => Simd::vectorize(level, operation),
+        }
+    }
+}
