@@ -90,16 +90,23 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
         return Ok(record);
     }
     let machine = machine(&root)?;
-    let mut record = Record { machine, quick: options.quick, benches: Default::default(), figures: None };
+    let fresh = Record { machine, quick: options.quick, benches: Default::default(), figures: None };
+    // Single programs renew their part of the last run, if that was one of the same source and kind.
+    let last =
+        (!options.programs.is_empty()).then(|| Record::read(&stored, "cargo xtask bench").ok()).flatten();
+    let mut record =
+        last.filter(|last| last.machine == fresh.machine && last.quick == fresh.quick).unwrap_or(fresh);
     let selected = |name: &str| options.programs.is_empty() || options.programs.iter().any(|own| own == name);
     for program in PROGRAMS.into_iter().filter(|program| selected(program.name())) {
         program.run(&root, &results, options.quick)?;
         record.benches.extend(program.read(&results)?);
+        // Now, so that a run that is broken off loses no more than one program.
+        OutputFolder::create(results.clone())?.write("run.json", &record.to_json()?)?;
     }
     if options.figures {
         record.figures = Some(figure_times(&results)?);
+        OutputFolder::create(results)?.write("run.json", &record.to_json()?)?;
     }
-    OutputFolder::create(results)?.write("run.json", &record.to_json()?)?;
     Ok(record)
 }
 
