@@ -16,7 +16,7 @@ pub(crate) fn line(mut to: impl Write, text: Arguments<'_>) -> io::Result<()> {
     }
 }
 
-/// As `println!`, but without its panic: gives the result of [`line`].
+/// As `println!`, but without its panic: gives the result of [`line()`].
 macro_rules! say {
     ($($text:tt)*) => { $crate::output::line(std::io::stdout(), format_args!($($text)*)) };
 }
