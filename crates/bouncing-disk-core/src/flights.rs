@@ -23,8 +23,8 @@ pub trait LaneLoop {
 /// Independent flights, computed together: each lane has a platform and a launch of its own. The impacts are bit for bit
 /// those of [`Vibration::first_impact`].
 ///
-/// Lanes come in batches of [`Self::LANES`] and are counted through all of them: lane 70 is lane 6 of batch 1. The more
-/// batches, the better flights of one kind fill the vectors of the processor.
+/// Lanes come in batches of [`Self::LANES`] and are counted through all of them: lane 70 is lane 6 of batch 1. Setting a lane
+/// or batch that does not exist does nothing, and asking for it gives `None`. The more batches, the better flights of one kind fill the vectors of the processor.
 ///
 /// ```
 /// use bouncing_disk_core::{Flights, InstructionSet, Launch, Phase, Vibration};
@@ -36,8 +36,8 @@ pub trait LaneLoop {
 /// }
 /// flights.fly(10, |lane, error| unreachable!("{lane}: {error}"));
 /// let alone = Vibration::new(9.0)?.first_impact(Launch::new(Phase::new(0.7)?, 3.0)?)?;
-/// assert_eq!(flights.state(7), alone.into());
-/// assert_eq!(flights.impacts(0).duration[7], alone.duration());
+/// assert_eq!(flights.state(7), Some(alone.into()));
+/// assert_eq!(flights.impacts(0).map(|rows| rows.duration[7]), Some(alone.duration()));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -91,24 +91,29 @@ impl Flights {
 
     /// Puts a lane on another platform. The first platform of a batch is that of all its lanes, until they get their own.
     pub fn set_platform(&mut self, lane: usize, vibration: Vibration) {
-        let (batch, lane) = (lane / LANES, lane % LANES);
-        if core::mem::replace(&mut self.placed[batch], true) {
-            self.batches[batch].set_platform(lane, vibration);
+        let index = lane / LANES;
+        let (Some(batch), Some(placed)) = (self.batches.get_mut(index), self.placed.get_mut(index)) else {
+            return;
+        };
+        if core::mem::replace(placed, true) {
+            batch.set_platform(lane % LANES, vibration);
         } else {
-            self.batches[batch].share_platform(vibration);
+            batch.share_platform(vibration);
         }
     }
 
     /// Sets the next launch of a lane; its last impact is forgotten.
     pub fn set_launch(&mut self, lane: usize, launch: Launch) {
-        self.batches[lane / LANES].set_launch(lane % LANES, launch.phase(), launch.relative_speed());
+        if let Some(batch) = self.batches.get_mut(lane / LANES) {
+            batch.set_launch(lane % LANES, launch.phase(), launch.relative_speed());
+        }
     }
 
     /// The next launch of a lane.
     #[must_use]
-    pub fn launch(&self, lane: usize) -> Launch {
-        let (batch, lane) = (&self.batches[lane / LANES], lane % LANES);
-        Launch::known(batch.launch_phase(lane), batch.launches().speed[lane])
+    pub fn launch(&self, lane: usize) -> Option<Launch> {
+        let (batch, lane) = (self.batches.get(lane / LANES)?, lane % LANES);
+        Some(Launch::known(batch.launch_phase(lane), batch.launches().speed[lane]))
     }
 
     /// Sets the next launch of every lane of a batch to what follows its impact with a coefficient of restitution of its own
@@ -116,7 +121,7 @@ impl Flights {
     ///
     /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
-        let batch = &mut self.batches[batch];
+        let Some(batch) = self.batches.get_mut(batch) else { return };
         batch.rebound(restitution);
         self.flyer.dispatch().run(MayRest { batch, restitution, may_rest });
     }
@@ -134,22 +139,22 @@ impl Flights {
 
     /// The impacts of a batch.
     #[must_use]
-    pub fn impacts(&self, batch: usize) -> LaneImpacts<'_> {
-        let (impacts, duration) = (self.batches[batch].impacts(), &self.durations[batch]);
-        LaneImpacts {
+    pub fn impacts(&self, batch: usize) -> Option<LaneImpacts<'_>> {
+        let (impacts, duration) = (self.batches.get(batch)?.impacts(), self.durations.get(batch)?);
+        Some(LaneImpacts {
             angle: &impacts.angle,
             sin: &impacts.sin,
             cos: &impacts.cos,
             velocity: &impacts.velocity,
             turns: &impacts.turns,
             duration,
-        }
+        })
     }
 
     /// The impact of a lane.
     #[must_use]
-    pub fn state(&self, lane: usize) -> ImpactState {
-        self.batches[lane / LANES].impact_state(lane % LANES)
+    pub fn state(&self, lane: usize) -> Option<ImpactState> {
+        Some(self.batches.get(lane / LANES)?.impact_state(lane % LANES))
     }
 
     /// Runs a loop with the instructions of the flights.
@@ -282,7 +287,7 @@ mod tests {
                             continue;
                         }
                     };
-                    let (impacts, own) = (flights.impacts(lane / LANES), lane % LANES);
+                    let (impacts, own) = (flights.impacts(lane / LANES).expect("exists"), lane % LANES);
                     let rows = [
                         impacts.angle[own],
                         impacts.sin[own],
@@ -298,10 +303,22 @@ mod tests {
                         "{set:?} {vibration:?} {launch:?}: {rows:?} {alone:?}"
                     );
                     assert_eq!(impacts.turns[own] as u64, alone.turns);
-                    assert_eq!(flights.state(lane), alone.into());
+                    assert_eq!(flights.state(lane), Some(alone.into()));
                 }
                 assert_eq!(failures.next(), None);
             }
         }
+    }
+
+    #[test]
+    fn lanes_that_do_not_exist_are_refused() {
+        let mut flights = Flights::new(InstructionSet::best(), 0);
+        assert_eq!(flights.batches(), 1, "at least one");
+        let (vibration, launch) = launch(1);
+        flights.set_platform(LANES, vibration);
+        flights.set_launch(LANES, launch);
+        flights.rebound(1, &[0.5; LANES], &mut [0; LANES]);
+        assert!(flights.state(LANES).is_none() && flights.launch(LANES).is_none());
+        assert!(flights.impacts(0).is_some() && flights.impacts(1).is_none());
     }
 }

@@ -186,7 +186,9 @@ impl<'a> Worker<'a> {
             flights.fly(self.runs.len(), |lane, error| failures.push((lane, Error::from(error))));
             let used = self.runs.len().div_ceil(Flights::LANES);
             for (batch, (rotors, may_rest)) in rotors.iter_mut().zip(&mut may_rest).enumerate().take(used) {
-                flights.run(Carry { impacts: flights.impacts(batch), rotors });
+                if let Some(impacts) = flights.impacts(batch) {
+                    flights.run(Carry { impacts, rotors });
+                }
                 flights.rebound(batch, &rotors.restitution, may_rest);
             }
             // From the last lane, so that a transient that is moved into a gap has been judged.
@@ -208,9 +210,8 @@ impl<'a> Worker<'a> {
                 let (index, run) = self.runs.swap_remove(lane);
                 self.outcomes.push((index, done.map(|_| run.finished())));
                 let last = self.runs.len();
-                if let Some((_, moved)) = self.runs.get(lane) {
+                if let (Some((_, moved)), Some(launch)) = (self.runs.get(lane), flights.launch(last)) {
                     flights.set_platform(lane, *moved.rotor.system().vibration());
-                    let launch = flights.launch(last);
                     flights.set_launch(lane, launch);
                     Rotors::move_lane(&mut rotors, last, lane);
                 }
@@ -219,7 +220,10 @@ impl<'a> Worker<'a> {
         for (lane, (index, mut run)) in std::mem::take(&mut self.runs).into_iter().enumerate() {
             let (rotors, own) = (&rotors[lane / Flights::LANES], lane % Flights::LANES);
             rotors.store_curve(own, &mut run);
-            self.outcomes.push((index, finished_alone(run, flights.launch(lane), rotors.motion(own))));
+            // Every run has a lane.
+            if let Some(launch) = flights.launch(lane) {
+                self.outcomes.push((index, finished_alone(run, launch, rotors.motion(own))));
+            }
         }
     }
 }
@@ -252,7 +256,7 @@ fn attend(
     if !may_rest {
         return Ok(false);
     }
-    let (state, restitution) = (flights.state(lane), rotors.restitution[own]);
+    let (Some(state), restitution) = (flights.state(lane), rotors.restitution[own]) else { return Ok(false) };
     let vibration = run.rotor.system().vibration();
     // Nine times in ten the chatter is not yet short enough to be summed.
     if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {

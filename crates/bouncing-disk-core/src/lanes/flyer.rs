@@ -239,9 +239,7 @@ impl Flyer {
         for k in 0..count {
             let who = self.slow.who[k];
             match self.slow.rows.fate(k) {
-                Fate::Landed => {
-                    batches[who.batch as usize].impacts_mut().take(who.lane as usize, &self.slow_impacts, k)
-                }
+                Fate::Landed => land(batches, who, &self.slow_impacts, k),
                 Fate::GoesLow => self.go_low(batches, who, shared),
                 Fate::GoesAbove => self.go_above(batches, who, shared),
                 Fate::Doubtful => self.hard.push(who),
@@ -295,7 +293,7 @@ impl Flyer {
             if self.work.landed[k] == 0 {
                 self.keep_falling(batches, who);
             } else {
-                batches[who.batch as usize].impacts_mut().take(who.lane as usize, &self.above_impacts, k);
+                land(batches, who, &self.above_impacts, k);
             }
         }
     }
