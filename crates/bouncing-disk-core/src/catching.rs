@@ -13,6 +13,14 @@ use crate::phase::Phase;
 /// Below this radius an orbit is taken not to attract.
 const SMALLEST_RADIUS: f64 = 1.0e-5;
 
+/// The first radius that is tried, and the last.
+const FIRST_RADIUS: f64 = 0.1;
+const LARGEST_RADIUS: f64 = 1.0;
+
+/// Ratio of the radii of circles beyond the first, and the share of the widest one that counts.
+const WIDENING: f64 = 1.15;
+const SHARE_OF_WIDEST: f64 = 0.7;
+
 /// A start that ends nearer than this has been caught.
 const CAUGHT: f64 = 1.0e-6;
 
@@ -48,17 +56,46 @@ fn first_halving(largest: f64, passes: impl Fn(f64) -> bool) -> Option<f64> {
 
 impl PeriodicOrbit {
     /// A radius within which every orbit ends on this one: on the circles of that radius about its impacts `samples`
-    /// starts each stay within four radii and end nearer than they began. `None` if even 1e-5 rad fails (the orbit does
-    /// not attract, or only after long excursions: see [`Self::catching_radius`]).
+    /// starts each stay within four radii and end nearer than they began. Where that holds at 0.1 rad, wider circles are
+    /// tried, each 1.15 times the last and with four times as many starts, that must come within 0.1 rad; the radius is
+    /// then 0.7 times the widest that passes. `None` if even 1e-5 rad fails (the orbit does not attract, or only
+    /// after long excursions: see [`Self::catching_radius`]).
     #[must_use]
     pub fn trapping_radius(&self, map: &ImpactMap, samples: u32) -> Option<f64> {
         let scale = map.vibration().peak_acceleration();
-        first_halving(0.1, |radius| {
-            self.states.iter().all(|&centre| {
-                circle(centre, radius, scale, samples)
-                    .all(|start| start.is_some_and(|start| self.traps(map, start, radius, scale)))
-            })
-        })
+        let all_on_circle = |radius: f64, samples: u32, passes: &dyn Fn(ImpactState) -> bool| {
+            self.states
+                .iter()
+                .all(|&centre| circle(centre, radius, scale, samples).all(|start| start.is_some_and(passes)))
+        };
+        let inner = first_halving(FIRST_RADIUS, |radius| {
+            all_on_circle(radius, samples, &|start| self.traps(map, start, radius, scale))
+        })?;
+        let mut widest = inner;
+        while inner >= FIRST_RADIUS && widest < LARGEST_RADIUS {
+            let next = WIDENING * widest;
+            if !all_on_circle(next, 4 * samples, &|start| self.draws(map, start, inner, 4.0 * next, scale)) {
+                break;
+            }
+            widest = next;
+        }
+        Some(inner.max(SHARE_OF_WIDEST * widest))
+    }
+
+    /// Whether a start comes within `radius` of this orbit, and stays within `bound` on the way.
+    fn draws(&self, map: &ImpactMap, start: ImpactState, radius: f64, bound: f64, scale: f64) -> bool {
+        let mut state = start;
+        for _ in 0..200 * self.period() {
+            let distance = self.distance(state, scale);
+            if distance <= radius {
+                return true;
+            }
+            match map.step(state) {
+                Ok(impact) if distance <= bound => state = impact.into(),
+                _ => return false,
+            }
+        }
+        false
     }
 
     fn traps(&self, map: &ImpactMap, start: ImpactState, radius: f64, scale: f64) -> bool {

@@ -137,16 +137,6 @@ impl Vibration {
         )
     }
 
-    /// Whether a disk that leaves the platform at `phase` with relative `speed` >= 0 is certain to chatter to rest
-    /// before the platform falls away: proven long before [`Self::accumulation`] can say where.
-    #[must_use]
-    #[inline]
-    pub fn chatters_to_rest(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
-        let (sin, cos) = (phase.sin(), phase.cos());
-        (speed <= 0.0 && !self.falls_away_at(phase.angle()))
-            || chatters_to_rest(self.peak_acceleration(), sin, cos, speed, restitution)
-    }
-
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
     /// [`Self::accumulation`] accepts, until they carry less than 1e-17 of the first one's impulse.
     pub fn chatter_impacts(
@@ -179,14 +169,6 @@ impl Vibration {
 #[inline(always)]
 pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
     (speed > 0.0) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
-}
-
-/// The proof of [`Vibration::chatters_to_rest`] for a launch at a phase with this pair and a positive speed.
-#[inline(always)]
-pub(crate) fn chatters_to_rest(peak: f64, sin: f64, cos: f64, speed: f64, restitution: f64) -> bool {
-    let pull = 1.0 - peak * sin;
-    let leading = 2.0 * speed / (pull * (1.0 - restitution));
-    (pull > 0.0) & window_holds_all(peak, pull, peak * cos, speed, restitution, leading)
 }
 
 /// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.

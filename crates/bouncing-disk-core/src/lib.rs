@@ -20,6 +20,7 @@ mod margin;
 mod periodic;
 mod phase;
 pub mod reference;
+mod rest;
 mod shortcuts;
 mod sweep;
 mod vibration;

@@ -5,9 +5,9 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::{ATTACHED, Label};
-use crate::chatter::chatters_to_rest;
 use crate::elementary::nearest_whole;
 use crate::lanes::{Impacts, LANES, Mask, mask};
+use crate::rest::RestProof;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
@@ -34,6 +34,7 @@ pub(super) struct Verdicts {
 pub(super) struct Screen<'a> {
     pub(super) impacts: &'a Impacts,
     pub(super) targets: &'a [Target],
+    pub(super) proof: RestProof,
     pub(super) peak: f64,
     pub(super) restitution: f64,
     pub(super) verdicts: &'a mut Verdicts,
@@ -44,8 +45,8 @@ impl WithSimd for Screen<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { impacts, targets, peak, restitution, verdicts } = self;
-        find_rest(impacts, peak, restitution, verdicts);
+        let Self { impacts, targets, proof, peak, restitution, verdicts } = self;
+        find_rest(impacts, proof, restitution, verdicts);
         // From the last one: the first known orbit that catches a state has it.
         for target in targets.iter().rev() {
             find_caught(impacts, *target, 1.0 / peak, verdicts);
@@ -59,11 +60,11 @@ impl WithSimd for Screen<'_> {
 }
 
 #[inline(always)]
-fn find_rest(impacts: &Impacts, peak: f64, restitution: f64, verdicts: &mut Verdicts) {
+fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &mut Verdicts) {
     for lane in 0..LANES {
         let speed = -restitution * impacts.velocity[lane];
-        let (sin, cos) = (impacts.sin[lane], impacts.cos[lane]);
-        let rests = mask(chatters_to_rest(peak, sin, cos, speed, restitution));
+        let (angle, sin, cos) = (impacts.angle[lane], impacts.sin[lane], impacts.cos[lane]);
+        let rests = mask(proof.is_certain(angle, sin, cos, speed));
         verdicts.labels[lane] = rests & u64::from(ATTACHED);
         verdicts.doubtful[lane] = mask(speed <= 0.0);
     }

@@ -70,8 +70,10 @@ proptest! {
     fn a_faster_launch_is_not_hit_sooner(
         peak in peaks(), angle in 0.0..TAU, speed in speeds(), more in 1.001..2.0_f64,
     ) {
-        // The gap grows with the launch speed at every instant.
-        prop_assert!(impact(peak, angle, speed * more).duration() > impact(peak, angle, speed).duration());
+        // The gap grows with the launch speed at every instant; a slow launch from a platform that falls away fast may add
+        // less to the flight than its rounding.
+        let (faster, slower) = (impact(peak, angle, speed * more).duration(), impact(peak, angle, speed).duration());
+        prop_assert!(faster > slower - 1.0e-14 * (1.0 + slower), "{faster} {slower}");
     }
 }
 
