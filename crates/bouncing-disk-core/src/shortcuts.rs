@@ -3,23 +3,31 @@
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::CrestForm;
 
-/// T^2/6 and T^3/24 for the half radian T of [`SHORT_FLIGHT`], rounded up: the shares of drift and curvature in the gap
-/// over its time.
+/// T^2/6, rounded up and down, and T^3/24, rounded up, for the half radian T of [`SHORT_FLIGHT`]: the shares of drift and
+/// curvature in the gap over its time.
 const DRIFT_SHARE: f64 = 0.0417;
+const LEAST_DRIFT_SHARE: f64 = 0.0416;
 const BEND_SHARE: f64 = 0.0053;
+
+/// The largest value of a h/2 - b h^2/6, as a share of a^2/b, rounded up.
+const LARGEST_PULL_SHARE: f64 = 0.375_001;
 
 /// Share of 1 + P by which the gaps and speeds of [`clears_by_tangents`] exceed a tie: far more than their rounding.
 const CLEAR: f64 = 1.0e-9;
 
 /// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
-/// a radian the pull is at most its value at launch, plus its growth at first, plus the curvature of the platform
+/// a radian the pull is at most its value at launch, less its drift, plus the curvature of the platform
 /// (docs/numerics.md, section 9).
 #[inline(always)]
 pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
     let pull = 1.0 - sine;
-    let drift = if cosine < 0.0 { -cosine } else { 0.0 };
-    let pulled = 0.5 * SHORT_FLIGHT * (if pull > 0.0 { pull } else { 0.0 });
-    speed < pulled + (DRIFT_SHARE * drift + BEND_SHARE * peak)
+    let pull = if pull > 0.0 { pull } else { 0.0 };
+    let bend = BEND_SHARE * peak;
+    let share = if cosine < 0.0 { DRIFT_SHARE } else { LEAST_DRIFT_SHARE };
+    let late = speed < (0.5 * SHORT_FLIGHT * pull - share * cosine) + bend;
+    // The pull of a disk that is about to separate is strongest before half a radian.
+    let early = (speed - bend) * cosine < LARGEST_PULL_SHARE * (pull * pull);
+    if cosine * SHORT_FLIGHT > 1.5 * pull { early } else { late }
 }
 
 /// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,

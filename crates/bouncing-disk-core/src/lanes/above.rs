@@ -16,12 +16,15 @@ const CLEAR: f64 = 1.0e-9;
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Work {
+    /// Where the first step leads.
     time: Row,
     sin: Row,
     cos: Row,
     root: Row,
     step: Row,
     inverse: Row,
+    /// Lanes whose first step is that of the search.
+    stepped: Mask,
     /// Lanes landed.
     pub(super) landed: Mask,
     /// Whether all lanes have landed.
@@ -37,9 +40,18 @@ impl Work {
             root: ROW,
             step: ROW,
             inverse: ROW,
+            stepped: [0; LANES],
             landed: [0; LANES],
             all: false,
         }
+    }
+}
+
+impl Work {
+    /// Where the first step of a lane has led; zero if it was none of the search.
+    #[inline(always)]
+    pub(super) fn reached(&self, k: usize) -> f64 {
+        kept(self.stepped[k], self.time[k])
     }
 }
 
@@ -122,7 +134,9 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
             & mask(jet.third < CLEAR * platforms.lane(k).peak)
             & mask(arcs.fall[k] < platforms.lane(k).peak);
         work.time[k] = kept(!near, step);
-        work.landed[k] = arcs.regular[k] & (near | inside) & !two_windows;
+        let regular = arcs.regular[k] & !two_windows;
+        work.stepped[k] = regular & inside & !near;
+        work.landed[k] = regular & (near | inside);
     }
 }
 

@@ -17,6 +17,8 @@ pub(super) struct Fallen {
     start: Row,
     fall: Row,
     free_periods: Row,
+    /// Where a first step has led, or zero.
+    reached: Row,
 }
 
 impl Forms for Fallen {
@@ -107,7 +109,7 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
             let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
             times.peak[k] = peak;
             times.lo[k] = kept(behind & !passed, end);
-            times.time[k] = times.lo[k];
+            times.time[k] = if fallen.reached[k] > 0.0 { fallen.reached[k] } else { times.lo[k] };
             times.hi[k] = if behind & passed != 0 { end } else { crest };
             platforms.open[k] = !behind | passed | !dips;
         }
@@ -116,12 +118,13 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
 
 impl Fallen {
     pub(super) const fn new() -> Self {
-        Self { start: ROW, fall: ROW, free_periods: ROW }
+        Self { start: ROW, fall: ROW, free_periods: ROW, reached: ROW }
     }
 
-    /// Sets number `k` to one of some arcs.
+    /// Sets number `k` to one of some arcs, with the time that a first step has led to, or zero.
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, arcs: &Arcs, from: usize) {
+    pub(super) fn set(&mut self, k: usize, arcs: &Arcs, from: usize, reached: f64) {
+        self.reached[k] = reached;
         self.start[k] = arcs.start[from];
         self.fall[k] = arcs.fall[from];
         self.free_periods[k] = arcs.free_periods[from];

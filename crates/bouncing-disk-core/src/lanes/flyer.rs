@@ -5,10 +5,13 @@ use super::classify::{Classify, Kinds};
 use super::fallen::{self, Behind, Fallen};
 use super::low::{self, Low, Verdicts};
 use super::platform::{Platform, Platforms};
-use super::search::{Search, Times};
+use super::search::{Advance, Finish, Search, Times};
 use super::short::{self, Fate, Short};
 use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Who, wide};
 use crate::error::Error;
+
+/// Evaluations of low and fallen flights before those that need more are left to the search.
+const AT_ONCE: u8 = 2;
 
 /// Flights under search are taken further once there are [`LANES`] of them, until so many are left.
 const LEFT: usize = LANES / 2;
@@ -34,7 +37,9 @@ pub(crate) struct Flyer {
     low_platforms: Platforms,
     above_platforms: Platforms,
     slow_impacts: Impacts,
+    low_impacts: Impacts,
     above_impacts: Impacts,
+    fallen_impacts: Impacts,
     hard: Vec<Who>,
 }
 
@@ -103,7 +108,9 @@ impl Flyer {
             low_platforms: Platforms::new(),
             above_platforms: Platforms::new(),
             slow_impacts: Impacts::new(),
+            low_impacts: Impacts::new(),
             above_impacts: Impacts::new(),
+            fallen_impacts: Impacts::new(),
             hard: Vec::new(),
         }
     }
@@ -164,7 +171,7 @@ impl Flyer {
                 for lane in 0..lanes {
                     if self.work.landed[lane] == 0 {
                         let who = Who { batch: number as u32, lane: lane as u32 };
-                        self.keep_falling(batches, who);
+                        self.keep_falling(batches, who, self.work.reached(lane));
                     }
                 }
             }
@@ -259,11 +266,19 @@ impl Flyer {
             let platforms = &self.low_platforms;
             wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
         }
+        for _ in 0..AT_ONCE {
+            wide!(count, N => dispatch.run(Advance::<_, N> { forms: &mut *low, times }));
+        }
         self.low.len = 0;
+        let mut near = List::new();
         for k in 0..count {
             let who = self.low.who[k];
             if self.verdicts.open[k] != 0 {
-                self.low_search.add(who, &self.low.rows, &self.low_windows, k);
+                if self.low_windows.near[k] != 0 {
+                    near.push_where(u64::MAX, k);
+                    continue;
+                }
+                self.low_search.add(who, &self.low.rows, &self.low_windows, k, AT_ONCE);
                 if self.low_search.is_full() {
                     self.search_low(batches, LEFT);
                 }
@@ -272,6 +287,13 @@ impl Flyer {
             } else {
                 self.hard.push(who);
             }
+        }
+        let Self {
+            dispatch, low: Queue { rows: forms, .. }, low_windows: times, low_impacts: impacts, ..
+        } = self;
+        wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
+        for k in near.iter() {
+            land(batches, self.low.who[k], &self.low_impacts, k);
         }
     }
 
@@ -291,15 +313,15 @@ impl Flyer {
         for k in 0..count {
             let who = self.above.who[k];
             if self.work.landed[k] == 0 {
-                self.keep_falling(batches, who);
+                self.keep_falling(batches, who, self.work.reached(k));
             } else {
                 land(batches, who, &self.above_impacts, k);
             }
         }
     }
 
-    /// Goes on with a lane at the height of the crests.
-    fn keep_falling(&mut self, batches: &mut [Batch], who: Who) {
+    /// Goes on with a lane at the height of the crests, from the time that a first step has led to, or from zero.
+    fn keep_falling(&mut self, batches: &mut [Batch], who: Who, reached: f64) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         if batch.arcs.regular[lane] == 0 {
             self.hard.push(who);
@@ -307,7 +329,7 @@ impl Flyer {
         }
         let platform = batch.platform(lane);
         let place = self.fallen.place(who);
-        self.fallen.rows.set(place, &batch.arcs, lane);
+        self.fallen.rows.set(place, &batch.arcs, lane, reached);
         self.behind.set(place, &platform);
         if self.fallen.len == LANES {
             self.fly_fallen(batches);
@@ -321,17 +343,34 @@ impl Flyer {
         }
         let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, fallen_windows: times, .. } = self;
         wide!(count, N => dispatch.run(fallen::Windows::<N> { fallen, behind, times }));
+        for _ in 0..AT_ONCE {
+            wide!(count, N => dispatch.run(Advance::<_, N> { forms: &mut *fallen, times }));
+        }
         self.fallen.len = 0;
+        let mut near = List::new();
         for k in 0..count {
             let who = self.fallen.who[k];
             if self.behind.open[k] == 0 {
                 self.hard.push(who);
-                continue;
+            } else if self.fallen_windows.near[k] != 0 {
+                near.push_where(u64::MAX, k);
+            } else {
+                self.fallen_search.add(who, &self.fallen.rows, &self.fallen_windows, k, AT_ONCE);
+                if self.fallen_search.is_full() {
+                    self.search_fallen(batches, LEFT);
+                }
             }
-            self.fallen_search.add(who, &self.fallen.rows, &self.fallen_windows, k);
-            if self.fallen_search.is_full() {
-                self.search_fallen(batches, LEFT);
-            }
+        }
+        let Self {
+            dispatch,
+            fallen: Queue { rows: forms, .. },
+            fallen_windows: times,
+            fallen_impacts: impacts,
+            ..
+        } = self;
+        wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
+        for k in near.iter() {
+            land(batches, self.fallen.who[k], &self.fallen_impacts, k);
         }
     }
 

@@ -38,7 +38,7 @@ pub(super) struct Times {
     pub(super) cos: Row,
     root: Row,
     step: Row,
-    near: Mask,
+    pub(super) near: Mask,
 }
 
 impl Times {
@@ -76,16 +76,16 @@ impl Times {
 }
 
 /// One evaluation, and a step where the root is not near.
-struct Advance<'a, F, const N: usize> {
-    forms: &'a mut F,
-    times: &'a mut Times,
+pub(super) struct Advance<'a, F, const N: usize> {
+    pub(super) forms: &'a mut F,
+    pub(super) times: &'a mut Times,
 }
 
 /// The last step, and the impacts.
-struct Finish<'a, F, const N: usize> {
-    forms: &'a mut F,
-    times: &'a mut Times,
-    impacts: &'a mut Impacts,
+pub(super) struct Finish<'a, F, const N: usize> {
+    pub(super) forms: &'a mut F,
+    pub(super) times: &'a mut Times,
+    pub(super) impacts: &'a mut Impacts,
 }
 
 impl<F: Forms, const N: usize> WithSimd for Advance<'_, F, N> {
@@ -176,9 +176,9 @@ impl<F: Forms> Search<F> {
         Self { forms, times: Times::new(), who: [Who::NONE; LANES], evaluations: [0; LANES], active: 0, near }
     }
 
-    /// Takes in number `k` of some flights with their windows; there must be room for it.
+    /// Takes in number `k` of some flights with their windows after so many evaluations; there must be room for it.
     #[inline(always)]
-    pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize) {
+    pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize, evaluations: u8) {
         let slot = self.active % LANES;
         self.forms.copy(slot, forms, k);
         self.times.peak[slot] = times.peak[k];
@@ -186,7 +186,7 @@ impl<F: Forms> Search<F> {
         self.times.hi[slot] = times.hi[k];
         self.times.time[slot] = times.time[k];
         self.who[slot] = who;
-        self.evaluations[slot] = 0;
+        self.evaluations[slot] = evaluations;
         self.active += 1;
     }
 
