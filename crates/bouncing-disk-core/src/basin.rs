@@ -2,8 +2,7 @@
 
 mod lockstep;
 mod screen;
-
-use core::f64::consts::{PI, TAU};
+mod starts;
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +10,7 @@ use crate::chatter::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::periodic::PeriodicOrbit;
-use crate::phase::Phase;
-
-/// Cells that one thread labels at a time: enough for lanes to be refilled many times over, and enough shares for the
-/// threads to finish together.
-const CHUNK_CELLS: core::ops::RangeInclusive<usize> = 4_096..=32_768;
-const SHARES: usize = 16;
+use starts::Cells;
 
 /// What became of a start: one byte a cell.
 pub type Label = u8;
@@ -214,28 +208,19 @@ impl ImpactMap {
         within("number of known orbits", known.len() as f64, 0.0, 250.0, "[0, 250]")?;
         let columns = grid.phase.cells();
         let mut labels = vec![UNDECIDED; columns * grid.speed.cells()];
-        let phases: Vec<Phase> = (0..columns)
-            .map(|column| Phase::new(grid.phase.centre(column) * TAU))
-            .collect::<Result<_, _>>()?;
-        let chunk = (labels.len() / SHARES).clamp(*CHUNK_CELLS.start(), *CHUNK_CELLS.end());
-        let rows = (chunk / columns).max(1);
-        let fill = |(chunk, cells): (usize, &mut [Label])| -> Result<(), Error> {
-            let first = chunk * rows * columns;
-            let start = |index: usize| {
-                let (row, column) = ((first + index) / columns, (first + index) % columns);
-                (phases[column], grid.speed.centre(row) * PI)
-            };
-            self.label_cells(start, cells, known, settings)?;
-            (0..cells.len() / columns).for_each(|_| row_done());
-            Ok(())
+        let cells = Cells::new(grid, &mut labels, row_done)?;
+        let work = |threads: usize| {
+            let lanes = cells.count().div_ceil(threads);
+            self.label_cells(&cells, known, settings, lanes).inspect_err(|_| cells.give_up())
         };
         #[cfg(feature = "parallel")]
         {
             use rayon::prelude::*;
-            labels.par_chunks_mut(rows * columns).enumerate().try_for_each(fill)?;
+            let threads = rayon::current_num_threads();
+            (0..threads).into_par_iter().with_max_len(1).try_for_each(|_| work(threads))?;
         }
         #[cfg(not(feature = "parallel"))]
-        labels.chunks_mut(rows * columns).enumerate().try_for_each(fill)?;
+        work(1)?;
         Ok(Basins { labels, columns })
     }
 }

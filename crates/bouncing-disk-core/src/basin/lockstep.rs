@@ -1,102 +1,68 @@
 //! Labels of many starts at once: as [`ImpactMap::basin_label`], with the flights in lockstep.
 
 use super::screen::{Screen, Target, Verdicts};
+use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
 use crate::chatter::ChatterPolicy;
 use crate::error::Error;
 use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Row};
 use crate::map::{ImpactMap, ImpactState};
-use crate::phase::Phase;
 use crate::rest::RestProof;
 
 /// Batches that are computed together: enough of each kind of flight to fill vectors.
 const BATCHES: usize = 16;
 
 impl ImpactMap {
-    /// Labels `cells`; the one of index i starts with the impact `start(i)`, a phase and a speed >= 0.
-    pub(super) fn label_cells(
+    /// Labels cells until there are none left to take, at most `lanes` of them at a time.
+    pub(super) fn label_cells<Done: Fn()>(
         &self,
-        start: impl Fn(usize) -> (Phase, f64),
-        cells: &mut [Label],
+        cells: &Cells<'_, Done>,
         known: &[KnownOrbit],
         settings: BasinSettings,
+        lanes: usize,
     ) -> Result<(), Error> {
         if settings.policy != ChatterPolicy::Complete || settings.max_impacts == 0 {
-            for (index, label) in cells.iter_mut().enumerate() {
-                let (phase, speed) = start(index);
-                *label = self.basin_label(ImpactState::new(phase, -speed)?, known, settings)?;
-            }
-            return Ok(());
+            return self.label_one_by_one(cells, known, settings);
         }
-        let mut lockstep = Lockstep::new(self, known, settings);
-        let mut starts = Starts::new(self, start);
-        while lockstep.lanes < BATCHES * LANES && lockstep.load(lockstep.lanes, &mut starts, cells) {
+        let capacity = lanes.clamp(1, BATCHES * LANES);
+        let mut lockstep = Lockstep::new(self, known, settings, capacity);
+        let mut starts = Starts::new(cells, Batch::new(*self.vibration()));
+        while lockstep.lanes < capacity && lockstep.load(lockstep.lanes, &mut starts) {
             lockstep.lanes += 1;
         }
+        let mut verdicts = Verdicts::new();
         while lockstep.lanes > 0 {
             lockstep.fly()?;
             // From the last lane, so that a lane moved into a gap has been judged.
             for number in (0..lockstep.lanes.div_ceil(LANES)).rev() {
-                lockstep.judge(number, &mut starts, cells);
+                lockstep.judge(number, &mut starts, &mut verdicts);
             }
-            lockstep.give_up(&mut starts, cells);
+            lockstep.give_up(&mut starts);
+        }
+        Ok(())
+    }
+
+    fn label_one_by_one<Done: Fn()>(
+        &self,
+        cells: &Cells<'_, Done>,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+    ) -> Result<(), Error> {
+        while let Some(share) = cells.take() {
+            let rows = cells.speeds[share.first_row..].iter();
+            for (row, speed) in share.labels.chunks_mut(cells.phases.len()).zip(rows) {
+                for (label, phase) in row.iter_mut().zip(&cells.phases) {
+                    *label = self.basin_label(ImpactState::new(*phase, -speed)?, known, settings)?;
+                }
+            }
+            cells.rows_done(&share);
         }
         Ok(())
     }
 }
 
-/// Starts that have been screened and are not decided yet, a batch at a time.
-struct Starts<F> {
-    start: F,
-    batch: Batch,
-    verdicts: Verdicts,
-    /// The first cell of the batch, and one bit for each lane not taken yet.
-    first: usize,
-    open: u64,
-    /// The first cell of the next batch.
-    next: usize,
-}
-
-impl<F: Fn(usize) -> (Phase, f64)> Starts<F> {
-    fn new(map: &ImpactMap, start: F) -> Self {
-        let batch = Batch::new(*map.vibration());
-        Self { start, batch, verdicts: Verdicts::new(), first: 0, open: 0, next: 0 }
-    }
-
-    /// The next start that is not decided at once: its cell, and its lane of the batch. The cells of the others get their
-    /// labels.
-    fn next(&mut self, lockstep: &Lockstep<'_>, cells: &mut [Label]) -> Option<(usize, usize)> {
-        while self.open == 0 {
-            let count = (cells.len() - self.next).min(LANES);
-            if count == 0 {
-                return None;
-            }
-            self.first = self.next;
-            self.next += count;
-            for lane in 0..count {
-                let (phase, speed) = (self.start)(self.first + lane);
-                self.batch.set_impact(lane, phase, -speed);
-            }
-            lockstep.screen(self.batch.impacts(), &mut self.verdicts);
-            self.open = u64::MAX >> (LANES - count);
-            let mut settled = self.verdicts.settled & self.open;
-            while settled != 0 {
-                let lane = settled.trailing_zeros() as usize;
-                settled &= settled - 1;
-                if let Some(label) = lockstep.label(&self.verdicts, &self.batch, lane) {
-                    cells[self.first + lane] = label;
-                    self.open &= !(1 << lane);
-                }
-            }
-        }
-        let lane = self.open.trailing_zeros() as usize;
-        self.open &= self.open - 1;
-        Some((self.first + lane, lane))
-    }
-}
-
 /// The starts under way.
-struct Lockstep<'a> {
+pub(super) struct Lockstep<'a> {
     map: &'a ImpactMap,
     known: &'a [KnownOrbit],
     settings: BasinSettings,
@@ -105,9 +71,8 @@ struct Lockstep<'a> {
     flyer: Box<Flyer>,
     batches: Vec<Batch>,
     restitution: Row,
-    verdicts: Verdicts,
     /// The cell of each lane, and the round before its first flight.
-    cell: Vec<usize>,
+    cell: Vec<Cell>,
     begun: Vec<u64>,
     /// Lanes in use: the first ones.
     lanes: usize,
@@ -117,7 +82,7 @@ struct Lockstep<'a> {
 }
 
 impl<'a> Lockstep<'a> {
-    fn new(map: &'a ImpactMap, known: &'a [KnownOrbit], settings: BasinSettings) -> Self {
+    fn new(map: &'a ImpactMap, known: &'a [KnownOrbit], settings: BasinSettings, capacity: usize) -> Self {
         let targets = known.iter().zip(FIRST_ORBIT..).flat_map(|(known, label)| {
             known.orbit.states.iter().map(move |state| Target {
                 label,
@@ -133,11 +98,10 @@ impl<'a> Lockstep<'a> {
             targets: targets.collect(),
             proof: RestProof::new(map.vibration(), map.restitution()),
             flyer: Box::new(Flyer::new(InstructionSet::best())),
-            batches: vec![Batch::new(*map.vibration()); BATCHES],
+            batches: vec![Batch::new(*map.vibration()); capacity.div_ceil(LANES)],
             restitution: [map.restitution(); LANES],
-            verdicts: Verdicts::new(),
-            cell: vec![0; BATCHES * LANES],
-            begun: vec![0; BATCHES * LANES],
+            cell: vec![Cell::NONE; capacity],
+            begun: vec![0; capacity],
             lanes: 0,
             round: 0,
             deadline: u64::from(settings.max_impacts),
@@ -156,7 +120,7 @@ impl<'a> Lockstep<'a> {
         failure.map_or(Ok(()), Err)
     }
 
-    fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
+    pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
         self.flyer.dispatch().run(Screen {
             impacts,
             targets: &self.targets,
@@ -168,7 +132,8 @@ impl<'a> Lockstep<'a> {
     }
 
     /// The label of a lane that was found settled, if the doubt is resolved so.
-    fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
+    #[inline(always)]
+    pub(super) fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
         if verdicts.doubtful[lane] == 0 {
             return Some(verdicts.labels[lane] as Label);
         }
@@ -176,50 +141,42 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
-    fn judge<F: Fn(usize) -> (Phase, f64)>(
+    fn judge<Done: Fn()>(
         &mut self,
         number: usize,
-        starts: &mut Starts<F>,
-        cells: &mut [Label],
+        starts: &mut Starts<'_, '_, Done>,
+        verdicts: &mut Verdicts,
     ) {
-        let mut verdicts = core::mem::replace(&mut self.verdicts, Verdicts::new());
-        self.screen(self.batches[number].impacts(), &mut verdicts);
+        self.screen(self.batches[number].impacts(), verdicts);
         let first = number * LANES;
         let mut settled = verdicts.settled & (u64::MAX >> (LANES - (self.lanes - first).min(LANES)));
         while settled != 0 {
             let lane = LANES - 1 - settled.leading_zeros() as usize;
             settled &= !(1 << lane);
-            if let Some(label) = self.label(&verdicts, &self.batches[number], lane) {
-                self.finish(first + lane, label, starts, cells);
+            if let Some(label) = self.label(verdicts, &self.batches[number], lane) {
+                self.finish(first + lane, label, starts);
             }
         }
-        self.verdicts = verdicts;
     }
 
     /// Labels the lanes that have spent their impacts.
-    fn give_up<F: Fn(usize) -> (Phase, f64)>(&mut self, starts: &mut Starts<F>, cells: &mut [Label]) {
+    fn give_up<Done: Fn()>(&mut self, starts: &mut Starts<'_, '_, Done>) {
         if self.round < self.deadline {
             return;
         }
         let allowed = u64::from(self.settings.max_impacts);
         for lane in (0..self.lanes).rev() {
             if self.round - self.begun[lane] >= allowed {
-                self.finish(lane, UNDECIDED, starts, cells);
+                self.finish(lane, UNDECIDED, starts);
             }
         }
         let first = self.begun[..self.lanes].iter().min();
         self.deadline = first.map_or(u64::MAX, |begun| begun + allowed);
     }
 
-    fn finish<F: Fn(usize) -> (Phase, f64)>(
-        &mut self,
-        lane: usize,
-        label: Label,
-        starts: &mut Starts<F>,
-        cells: &mut [Label],
-    ) {
-        cells[self.cell[lane]] = label;
-        if !self.load(lane, starts, cells) {
+    fn finish<Done: Fn()>(&mut self, lane: usize, label: Label, starts: &mut Starts<'_, '_, Done>) {
+        starts.settle(self.cell[lane], label);
+        if !self.load(lane, starts) {
             // The last lane in use fills the gap.
             self.lanes -= 1;
             let last = self.lanes;
@@ -230,14 +187,9 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Begins the next start in `lane`; false if there is none.
-    fn load<F: Fn(usize) -> (Phase, f64)>(
-        &mut self,
-        lane: usize,
-        starts: &mut Starts<F>,
-        cells: &mut [Label],
-    ) -> bool {
-        let Some((cell, from)) = starts.next(self, cells) else { return false };
-        self.batches[lane / LANES].take_impact(lane % LANES, &starts.batch, from);
+    fn load<Done: Fn()>(&mut self, lane: usize, starts: &mut Starts<'_, '_, Done>) -> bool {
+        let Some((cell, from)) = starts.next(self) else { return false };
+        self.batches[lane / LANES].take_impact(lane % LANES, starts.batch(), from);
         self.cell[lane] = cell;
         self.begun[lane] = self.round;
         true

@@ -266,9 +266,8 @@ impl Flyer {
             let platforms = &self.low_platforms;
             wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
         }
-        for _ in 0..AT_ONCE {
-            wide!(count, N => dispatch.run(Advance::<_, N> { forms: &mut *low, times }));
-        }
+        let (evaluations, steps_on) = (AT_ONCE, false);
+        wide!(count, N => dispatch.run(Advance::<_, N> { forms: low, times, evaluations, steps_on }));
         self.low.len = 0;
         let mut near = List::new();
         for k in 0..count {
@@ -278,7 +277,7 @@ impl Flyer {
                     near.push_where(u64::MAX, k);
                     continue;
                 }
-                self.low_search.add(who, &self.low.rows, &self.low_windows, k, AT_ONCE);
+                self.low_search.add(who, &self.low.rows, &self.low_windows, k, AT_ONCE - 1);
                 if self.low_search.is_full() {
                     self.search_low(batches, LEFT);
                 }
@@ -343,9 +342,8 @@ impl Flyer {
         }
         let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, fallen_windows: times, .. } = self;
         wide!(count, N => dispatch.run(fallen::Windows::<N> { fallen, behind, times }));
-        for _ in 0..AT_ONCE {
-            wide!(count, N => dispatch.run(Advance::<_, N> { forms: &mut *fallen, times }));
-        }
+        let (evaluations, steps_on) = (AT_ONCE, false);
+        wide!(count, N => dispatch.run(Advance::<_, N> { forms: fallen, times, evaluations, steps_on }));
         self.fallen.len = 0;
         let mut near = List::new();
         for k in 0..count {
@@ -355,7 +353,7 @@ impl Flyer {
             } else if self.fallen_windows.near[k] != 0 {
                 near.push_where(u64::MAX, k);
             } else {
-                self.fallen_search.add(who, &self.fallen.rows, &self.fallen_windows, k, AT_ONCE);
+                self.fallen_search.add(who, &self.fallen.rows, &self.fallen_windows, k, AT_ONCE - 1);
                 if self.fallen_search.is_full() {
                     self.search_fallen(batches, LEFT);
                 }

@@ -75,10 +75,12 @@ impl Times {
     }
 }
 
-/// One evaluation, and a step where the root is not near.
+/// Evaluations, each but the first after a step where the root is not near, and another such step if `steps_on`.
 pub(super) struct Advance<'a, F, const N: usize> {
     pub(super) forms: &'a mut F,
     pub(super) times: &'a mut Times,
+    pub(super) evaluations: u8,
+    pub(super) steps_on: bool,
 }
 
 /// The last step, and the impacts.
@@ -93,36 +95,45 @@ impl<F: Forms, const N: usize> WithSimd for Advance<'_, F, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { forms, times } = self;
-        forms.evaluate::<N>(times);
-        for k in 0..N {
-            times.root[k] = times.jet(k).radicand().sqrt();
+        let Self { forms, times, evaluations, steps_on } = self;
+        for evaluation in 1..=evaluations {
+            forms.evaluate::<N>(times);
+            for k in 0..N {
+                times.near[k] = mask(times.jet(k).is_near_root());
+            }
+            if steps_on || evaluation < evaluations {
+                step::<N>(times);
+            }
         }
-        for k in 0..N {
-            times.step[k] = times.jet(k).quadratic_step(times.root[k]);
-        }
-        for k in 0..N {
-            let jet = times.jet(k);
-            let root = times.root[k];
-            let model = jet.corrected_step(times.step[k], root);
-            let newton = -(jet.gap * (1.0 / jet.slope));
-            times.step[k] = if root > 0.0 { model } else { newton };
-        }
-        for k in 0..N {
-            let jet = times.jet(k);
-            let t = times.time[k];
-            let near = mask(jet.is_near_root());
-            let above = jet.gap > 0.0;
-            let lo = if above { t } else { times.lo[k] };
-            let hi = if above { times.hi[k] } else { t };
-            let next = t + times.step[k];
-            let fine = mask(jet.slope < 0.0) & mask(next > lo) & mask(next < hi);
-            let next = if fine != 0 { next } else { 0.5 * (lo + hi) };
-            times.time[k] = if near != 0 { t } else { next };
-            times.lo[k] = lo;
-            times.hi[k] = hi;
-            times.near[k] = near;
-        }
+    }
+}
+
+#[inline(always)]
+fn step<const N: usize>(times: &mut Times) {
+    for k in 0..N {
+        times.root[k] = times.jet(k).radicand().sqrt();
+    }
+    for k in 0..N {
+        times.step[k] = times.jet(k).quadratic_step(times.root[k]);
+    }
+    for k in 0..N {
+        let jet = times.jet(k);
+        let root = times.root[k];
+        let model = jet.corrected_step(times.step[k], root);
+        let newton = -(jet.gap * (1.0 / jet.slope));
+        times.step[k] = if root > 0.0 { model } else { newton };
+    }
+    for k in 0..N {
+        let (gap, slope, t) = (times.gap[k], times.slope[k], times.time[k]);
+        let above = gap > 0.0;
+        let lo = if above { t } else { times.lo[k] };
+        let hi = if above { times.hi[k] } else { t };
+        let next = t + times.step[k];
+        let fine = mask(slope < 0.0) & mask(next > lo) & mask(next < hi);
+        let next = if fine != 0 { next } else { 0.5 * (lo + hi) };
+        times.time[k] = if times.near[k] != 0 { t } else { next };
+        times.lo[k] = lo;
+        times.hi[k] = hi;
     }
 }
 
@@ -204,7 +215,7 @@ impl<F: Forms> Search<F> {
     ) {
         while self.active > left {
             let (forms, times) = (&mut self.forms, &mut self.times);
-            wide!(self.active, N => dispatch.run(Advance::<F, N> { forms, times }));
+            wide!(self.active, N => dispatch.run(Advance::<F, N> { forms, times, evaluations: 1, steps_on: true }));
             for k in (0..self.active).rev() {
                 if self.times.near[k] != 0 {
                     self.near.take(&self.forms, &self.times, self.who[k], k);
