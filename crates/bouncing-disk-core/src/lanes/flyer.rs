@@ -171,7 +171,7 @@ impl Flyer {
                 for lane in 0..lanes {
                     if self.work.landed[lane] == 0 {
                         let who = Who { batch: number as u32, lane: lane as u32 };
-                        self.keep_falling(batches, who, self.work.reached(lane));
+                        self.keep_falling(batches, who, self.work.reached[lane]);
                     }
                 }
             }
@@ -312,7 +312,7 @@ impl Flyer {
         for k in 0..count {
             let who = self.above.who[k];
             if self.work.landed[k] == 0 {
-                self.keep_falling(batches, who, self.work.reached(k));
+                self.keep_falling(batches, who, self.work.reached[k]);
             } else {
                 land(batches, who, &self.above_impacts, k);
             }
