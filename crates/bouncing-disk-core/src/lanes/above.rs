@@ -20,17 +20,17 @@ const MANY: usize = 4;
 #[repr(align(64))]
 pub(super) struct Work {
     time: Row,
-    /// Where the first step of the search leads; zero where it is another one.
-    pub(super) reached: Row,
+    /// The time of the second evaluation.
+    second: Row,
     sin: Row,
     cos: Row,
     root: Row,
     step: Row,
     inverse: Row,
-    /// Lanes whose first step is not that of the model.
-    astray: Mask,
-    /// Lanes landed.
-    pub(super) landed: Mask,
+    /// Lanes whose steps are those of the search.
+    followed: Mask,
+    /// Lanes near their root at the last evaluation.
+    near: Mask,
     /// Whether all lanes have landed.
     pub(super) all: bool,
 }
@@ -39,16 +39,28 @@ impl Work {
     pub(super) const fn new() -> Self {
         Self {
             time: ROW,
-            reached: ROW,
+            second: ROW,
             sin: ROW,
             cos: ROW,
             root: ROW,
             step: ROW,
             inverse: ROW,
-            astray: [0; LANES],
-            landed: [0; LANES],
+            followed: [0; LANES],
+            near: [0; LANES],
             all: false,
         }
+    }
+
+    /// Whether a lane has landed.
+    #[inline(always)]
+    pub(super) const fn has_landed(&self, k: usize) -> bool {
+        self.followed[k] & self.near[k] != 0
+    }
+
+    /// Where the first step of the search has led a lane that has not landed; zero where it is not known.
+    #[inline(always)]
+    pub(super) const fn reached(&self, k: usize) -> f64 {
+        kept(self.followed[k], self.second[k])
     }
 }
 
@@ -71,21 +83,22 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
             (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k]);
         }
         first_step::<P, N>(platforms, arcs, work);
-        if work.astray.iter().take(N).fold(0, |any, astray| any | astray) != 0 {
+        let astray = (0..N).fold(0, |any, k| any | (arcs.regular[k] & !work.followed[k]));
+        if astray != 0 {
             other_first_step::<P, N>(platforms, arcs, work);
         }
-        for k in 0..N {
-            (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k] + work.time[k]);
+        evaluate::<P, N>(platforms, arcs, work);
+        let landed = (0..N).fold(u64::MAX, |all, k| all & work.followed[k] & work.near[k]);
+        work.all = landed == u64::MAX;
+        if !work.all {
+            work.second = work.time;
+            let missing: u64 = (0..N).map(|k| work.followed[k] & !work.near[k] & 1).sum();
+            if missing >= (N / MANY) as u64 {
+                second_step::<P, N>(platforms, arcs, work);
+                evaluate::<P, N>(platforms, arcs, work);
+            }
         }
         last_step::<P, N>(platforms, arcs, work);
-        let missing: u64 = (0..N).map(|k| mask(work.reached[k] > 0.0) & !work.landed[k] & 1).sum();
-        if missing >= (N / MANY) as u64 {
-            second_step::<P, N>(platforms, arcs, work);
-            for k in 0..N {
-                (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k] + work.time[k]);
-            }
-            last_step::<P, N>(platforms, arcs, work);
-        }
         impact::<P, N>(platforms, arcs, work, impacts);
     }
 }
@@ -143,16 +156,16 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
         let near = mask(jet.is_near_root());
         let within = meets_no_crest(start, step);
         let inside = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(work.root[k] > 0.0) & within;
-        // Behind a crest, the platform falling away faster than the disk may fall: two windows.
-        let two_windows = mask(jet.curvature > -CLEAR)
-            & mask(jet.third < CLEAR * platforms.lane(k).peak)
-            & mask(arcs.fall[k] < platforms.lane(k).peak);
         work.time[k] = kept(!near, step);
-        let regular = arcs.regular[k] & !two_windows;
-        work.reached[k] = kept(regular & inside & !near, step);
-        work.astray[k] = regular & !inside & !near & mask(jet.gap > 0.0);
-        work.landed[k] = regular & (near | inside);
+        work.followed[k] = arcs.regular[k] & (near | inside) & !two_windows(platforms, arcs, &jet, k);
     }
+}
+
+/// Lanes behind a crest, the platform falling away faster than the disk may fall: two windows.
+#[inline(always)]
+fn two_windows<P: Below>(platforms: P, arcs: &Arcs, jet: &Jet, k: usize) -> u64 {
+    let peak = platforms.lane(k).peak;
+    mask(jet.curvature > -CLEAR) & mask(jet.third < CLEAR * peak) & mask(arcs.fall[k] < peak)
 }
 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.
@@ -167,10 +180,10 @@ fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &
         let step = if model != 0 { work.step[k] } else { newton };
         let fine = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(step < crest);
         let next = if fine != 0 { step } else { 0.5 * crest };
-        let astray = work.astray[k];
+        let one_window = !two_windows(platforms, arcs, &jet, k);
+        let astray = arcs.regular[k] & !work.followed[k] & one_window & mask(jet.gap > 0.0);
         work.time[k] = if astray != 0 { next } else { work.time[k] };
-        work.reached[k] = if astray != 0 { next } else { work.reached[k] };
-        work.landed[k] |= astray;
+        work.followed[k] |= astray;
     }
 }
 
@@ -188,28 +201,36 @@ fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut W
     }
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
-        let (time, reached) = (work.time[k], work.reached[k]);
+        let time = work.time[k];
         let next = time + work.step[k];
         // The window ends where the last evaluation was, or at the crest.
         let later = mask(jet.gap > 0.0);
         let within = (later & mask(next > time) & meets_no_crest(arcs.start[k], next))
             | (!later & mask(next > 0.0) & mask(next < time));
         let inside = mask(jet.slope < 0.0) & mask(work.root[k] > 0.0) & within;
-        let moves = !work.landed[k] & mask(reached > 0.0) & inside;
+        let moves = !work.near[k] & inside;
         work.time[k] = if moves != 0 { next } else { time };
-        work.landed[k] |= moves;
     }
 }
 
+/// Another evaluation, and the Newton step from there.
 #[inline(always)]
-fn last_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+fn evaluate<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+    for k in 0..N {
+        (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k] + work.time[k]);
+    }
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
         let inverse = 1.0 / jet.slope;
         work.inverse[k] = inverse;
         work.step[k] = -(jet.gap * inverse);
-        work.landed[k] &= mask(jet.is_near_root());
+        work.near[k] = mask(jet.is_near_root());
     }
+}
+
+/// The last step.
+#[inline(always)]
+fn last_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
         work.step[k] = jet.reverted(work.step[k], work.inverse[k]);
@@ -217,8 +238,7 @@ fn last_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wor
 }
 
 #[inline(always)]
-fn impact<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work, impacts: &mut Impacts) {
-    let mut all = u64::MAX;
+fn impact<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &Work, impacts: &mut Impacts) {
     for k in 0..N {
         let delta = work.step[k];
         let time = work.time[k] + delta;
@@ -231,7 +251,5 @@ fn impact<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work, 
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
         impacts.turns[k] = arcs.free_periods[k] + turns;
         impacts.duration[k] = Impacts::BETWEEN_PHASES;
-        all &= work.landed[k];
     }
-    work.all = all == u64::MAX;
 }

@@ -169,9 +169,9 @@ impl Flyer {
             }
             if !self.work.all {
                 for lane in 0..lanes {
-                    if self.work.landed[lane] == 0 {
+                    if !self.work.has_landed(lane) {
                         let who = Who { batch: number as u32, lane: lane as u32 };
-                        self.keep_falling(batches, who, self.work.reached[lane]);
+                        self.keep_falling(batches, who, self.work.reached(lane));
                     }
                 }
             }
@@ -311,8 +311,8 @@ impl Flyer {
         self.above.len = 0;
         for k in 0..count {
             let who = self.above.who[k];
-            if self.work.landed[k] == 0 {
-                self.keep_falling(batches, who, self.work.reached[k]);
+            if !self.work.has_landed(k) {
+                self.keep_falling(batches, who, self.work.reached(k));
             } else {
                 land(batches, who, &self.above_impacts, k);
             }
