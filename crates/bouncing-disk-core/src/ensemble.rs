@@ -40,8 +40,12 @@ impl Ensemble {
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
     ) -> Self {
-        let mut ensemble =
-            Self { flyer: Box::new(Flyer::new(set)), batches: Vec::new(), restitutions: Vec::new(), len: 0 };
+        let mut ensemble = Self {
+            flyer: Box::new(Flyer::new(set, false)),
+            batches: Vec::new(),
+            restitutions: Vec::new(),
+            len: 0,
+        };
         for (map, state) in starts {
             let lane = ensemble.len % LANES;
             if lane == 0 {

@@ -76,7 +76,7 @@ impl Flights {
     pub fn new(set: InstructionSet, batches: usize) -> Self {
         let batches = batches.max(1);
         Self {
-            flyer: Box::new(Flyer::new(set)),
+            flyer: Box::new(Flyer::new(set, true)),
             batches: vec![Batch::new(Vibration::still()); batches],
             durations: vec![[0.0; LANES]; batches],
             placed: vec![false; batches],

@@ -292,13 +292,18 @@ impl Impacts {
         Phase::from_parts(self.angle[lane], self.sin[lane], self.cos[lane])
     }
 
-    /// Takes over number `k` of others as the impact of a lane.
+    /// Takes over the state of number `k` of others as that of a lane.
     #[inline(always)]
     const fn take(&mut self, lane: usize, others: &Self, k: usize) {
         self.angle[lane] = others.angle[k];
         self.sin[lane] = others.sin[k];
         self.cos[lane] = others.cos[k];
         self.velocity[lane] = others.velocity[k];
+    }
+
+    /// Takes over how long the flight was, too.
+    #[inline(always)]
+    const fn take_time(&mut self, lane: usize, others: &Self, k: usize) {
         self.turns[lane] = others.turns[k];
         self.duration[lane] = others.duration[k];
     }

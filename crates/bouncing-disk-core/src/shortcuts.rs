@@ -46,8 +46,14 @@ pub(crate) fn clears_by_tangents(
     let first = (disk_speed - inflection) - separation_speed;
     let last = disk_speed - crest;
     let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, crest - inflection);
-    let clear = CLEAR * (1.0 + peak);
-    (at_inflection > clear) & (at_crest > clear) & ((first >= clear) | (last <= -clear) | (lowest > clear))
+    let falls_or_rises = clears(first, peak) | clears(-last, peak);
+    clears(at_inflection, peak) & clears(at_crest, peak) & (falls_or_rises | clears(lowest, peak))
+}
+
+/// Whether a gap or a relative speed is positive beyond any rounding.
+#[inline(always)]
+pub(crate) fn clears(gap: f64, peak: f64) -> bool {
+    gap > CLEAR * (1.0 + peak)
 }
 
 #[cfg(test)]

@@ -97,7 +97,7 @@ impl<'a> Lockstep<'a> {
             settings,
             targets: targets.collect(),
             proof: RestProof::new(map.vibration(), map.restitution()),
-            flyer: Box::new(Flyer::new(InstructionSet::best())),
+            flyer: Box::new(Flyer::new(InstructionSet::best(), false)),
             batches: vec![Batch::new(*map.vibration()); capacity.div_ceil(LANES)],
             restitution: [map.restitution(); LANES],
             cell: vec![Cell::NONE; capacity],

@@ -5,12 +5,22 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::{ATTACHED, Label};
-use crate::elementary::nearest_whole;
 use crate::lanes::{Impacts, LANES, Mask, mask};
 use crate::rest::RestProof;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
+
+/// The bit of each lane.
+const BIT: Mask = {
+    let mut bits = [0; LANES];
+    let mut lane = 0;
+    while lane < LANES {
+        bits[lane] = 1 << lane;
+        lane += 1;
+    }
+    bits
+};
 
 /// An impact of a known orbit.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +62,8 @@ impl WithSimd for Screen<'_> {
             find_caught(impacts, *target, 1.0 / peak, verdicts);
         }
         let mut settled = 0;
-        for (lane, (label, doubtful)) in verdicts.labels.iter().zip(&verdicts.doubtful).enumerate() {
-            settled |= u64::from(label | doubtful != 0) << lane;
+        for lane in 0..LANES {
+            settled |= mask(verdicts.labels[lane] | verdicts.doubtful[lane] != 0) & BIT[lane];
         }
         verdicts.settled = settled;
     }
@@ -75,8 +85,9 @@ fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &
     let label = u64::from(target.label);
     let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
     for lane in 0..LANES {
-        let turned = impacts.angle[lane] - target.angle;
-        let phase = turned - TAU * nearest_whole(turned * (1.0 / TAU));
+        let turned = (impacts.angle[lane] - target.angle).abs();
+        let back = TAU - turned;
+        let phase = if turned < back { turned } else { back };
         let velocity = (impacts.velocity[lane] - target.velocity) * inverse_peak;
         let square = phase * phase + velocity * velocity;
         let inside = mask(square < least);

@@ -71,6 +71,8 @@ pub(super) struct Fly<'a, P, const N: usize> {
     pub(super) arcs: &'a Arcs,
     pub(super) work: &'a mut Work,
     pub(super) impacts: &'a mut Impacts,
+    /// Whether the impacts get their turns.
+    pub(super) timed: bool,
 }
 
 impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
@@ -78,7 +80,7 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, arcs, work, impacts } = self;
+        let Self { platforms, arcs, work, impacts, timed } = self;
         for k in 0..N {
             (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k]);
         }
@@ -99,7 +101,11 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
             }
         }
         last_step::<P, N>(platforms, arcs, work);
-        impact::<P, N>(platforms, arcs, work, impacts);
+        if timed {
+            impact::<P, N, true>(platforms, arcs, work, impacts);
+        } else {
+            impact::<P, N, false>(platforms, arcs, work, impacts);
+        }
     }
 }
 
@@ -238,7 +244,12 @@ fn last_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wor
 }
 
 #[inline(always)]
-fn impact<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &Work, impacts: &mut Impacts) {
+fn impact<P: Below, const N: usize, const TIMED: bool>(
+    platforms: P,
+    arcs: &Arcs,
+    work: &Work,
+    impacts: &mut Impacts,
+) {
     for k in 0..N {
         let delta = work.step[k];
         let time = work.time[k] + delta;
@@ -249,7 +260,9 @@ fn impact<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &Work, impa
         impacts.sin[k] = sin;
         impacts.cos[k] = cos;
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
-        impacts.turns[k] = arcs.free_periods[k] + turns;
-        impacts.duration[k] = Impacts::BETWEEN_PHASES;
+        if TIMED {
+            impacts.turns[k] = arcs.free_periods[k] + turns;
+            impacts.duration[k] = Impacts::BETWEEN_PHASES;
+        }
     }
 }

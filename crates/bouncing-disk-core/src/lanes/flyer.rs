@@ -3,9 +3,9 @@
 use super::above::{Fly, Work};
 use super::classify::{Classify, Kinds};
 use super::fallen::{self, Behind, Fallen};
-use super::low::{self, Low, Verdicts};
+use super::low::{self, Dips, Low, Verdicts};
 use super::platform::{Platform, Platforms};
-use super::search::{Advance, Finish, Search, Times};
+use super::search::{Advance, Finish, Forms, Search, Times};
 use super::short::{self, Fate, Short};
 use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Who, wide};
 use crate::error::Error;
@@ -20,18 +20,23 @@ const LEFT: usize = LANES / 2;
 #[derive(Debug, Clone)]
 pub(crate) struct Flyer {
     dispatch: Dispatch,
+    /// Whether impacts get their turns and durations.
+    timed: bool,
     kinds: Kinds,
     work: Work,
     slow: Queue<Short>,
     low: Queue<Low>,
+    dips: Queue<Low>,
     above: Queue<Arcs>,
     fallen: Queue<Fallen>,
     low_search: Search<Low>,
     fallen_search: Search<Fallen>,
     verdicts: Verdicts,
+    dip_verdicts: Verdicts,
     behind: Behind,
     /// Windows: flights of one kind are added to another while their own are read.
     low_windows: Times,
+    dip_windows: Times,
     fallen_windows: Times,
     /// The platforms of `low` and of `above`, unless all lanes share one.
     low_platforms: Platforms,
@@ -90,20 +95,25 @@ impl<Rows> Queue<Rows> {
 }
 
 impl Flyer {
-    pub(crate) fn new(set: InstructionSet) -> Self {
+    /// Flights computed with these instructions; `timed` if the durations of flights and their turns are asked for.
+    pub(crate) fn new(set: InstructionSet, timed: bool) -> Self {
         Self {
             dispatch: Dispatch::new(set),
+            timed,
             kinds: Kinds::new(),
             work: Work::new(),
             slow: Queue::new(Short::new()),
             low: Queue::new(Low::new()),
+            dips: Queue::new(Low::new()),
             above: Queue::new(Arcs::new()),
             fallen: Queue::new(Fallen::new()),
             low_search: Search::new(Low::new()),
             fallen_search: Search::new(Fallen::new()),
             verdicts: Verdicts::new(),
+            dip_verdicts: Verdicts::new(),
             behind: Behind::new(),
             low_windows: Times::new(),
+            dip_windows: Times::new(),
             fallen_windows: Times::new(),
             low_platforms: Platforms::new(),
             above_platforms: Platforms::new(),
@@ -131,6 +141,7 @@ impl Flyer {
         }
         self.fly_slow(batches, shared);
         self.fly_low(batches, shared);
+        self.settle_dips(batches, shared);
         self.search_low(batches, 0);
         self.fly_above(batches, shared);
         self.fly_fallen(batches);
@@ -148,7 +159,8 @@ impl Flyer {
 
     /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the queues.
     fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
-        let Self { dispatch, kinds, work, .. } = self;
+        let Self { dispatch, timed, kinds, work, .. } = self;
+        let timed = *timed;
         let (ground, launches, arcs, impacts) = batches[number].parts();
         match ground {
             Ground::Shared(platforms) => {
@@ -161,10 +173,16 @@ impl Flyer {
         if !self.kinds.special {
             match ground {
                 Ground::Shared(platforms) => {
-                    dispatch.run(Fly::<_, LANES> { platforms: *platforms, arcs, work, impacts });
+                    dispatch.run(Fly::<_, LANES> { platforms: *platforms, arcs, work, impacts, timed });
                 }
                 Ground::Own(platforms) => {
-                    dispatch.run(Fly::<_, LANES> { platforms: platforms.as_ref(), arcs, work, impacts });
+                    dispatch.run(Fly::<_, LANES> {
+                        platforms: platforms.as_ref(),
+                        arcs,
+                        work,
+                        impacts,
+                        timed,
+                    });
                 }
             }
             if !self.work.all {
@@ -246,7 +264,7 @@ impl Flyer {
         for k in 0..count {
             let who = self.slow.who[k];
             match self.slow.rows.fate(k) {
-                Fate::Landed => land(batches, who, &self.slow_impacts, k),
+                Fate::Landed => land(batches, who, &self.slow_impacts, k, self.timed),
                 Fate::GoesLow => self.go_low(batches, who, shared),
                 Fate::GoesAbove => self.go_above(batches, who, shared),
                 Fate::Doubtful => self.hard.push(who),
@@ -266,6 +284,20 @@ impl Flyer {
             let platforms = &self.low_platforms;
             wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
         }
+        // Before their windows shrink.
+        let mut doubtful = List::new();
+        for k in 0..count {
+            doubtful.push_where(self.verdicts.dips[k], k);
+        }
+        for k in doubtful.iter() {
+            let slot = self.dips.place(self.low.who[k]);
+            self.dips.rows.copy(slot, &self.low.rows, k);
+            self.dip_windows.take(slot, &self.low_windows, k);
+            if self.dips.len == LANES {
+                self.settle_dips(batches, shared);
+            }
+        }
+        let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, .. } = self;
         let (evaluations, steps_on) = (AT_ONCE, false);
         wide!(count, N => dispatch.run(Advance::<_, N> { forms: low, times, evaluations, steps_on }));
         self.low.len = 0;
@@ -283,7 +315,7 @@ impl Flyer {
                 }
             } else if self.verdicts.clears[k] != 0 {
                 self.go_above(batches, who, shared);
-            } else {
+            } else if self.verdicts.dips[k] == 0 {
                 self.hard.push(who);
             }
         }
@@ -292,7 +324,33 @@ impl Flyer {
         } = self;
         wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
         for k in near.iter() {
-            land(batches, self.low.who[k], &self.low_impacts, k);
+            land(batches, self.low.who[k], &self.low_impacts, k, self.timed);
+        }
+    }
+
+    /// Decides whether launches dip below the platform between inflection and crest.
+    fn settle_dips(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.dips.len;
+        if count == 0 {
+            return;
+        }
+        let Self {
+            dispatch, dips: Queue { rows: low, .. }, dip_windows: times, dip_verdicts: verdicts, ..
+        } = self;
+        wide!(count, N => dispatch.run(Dips::<N> { low, times, verdicts }));
+        self.dips.len = 0;
+        for k in 0..count {
+            let who = self.dips.who[k];
+            if self.dip_verdicts.open[k] != 0 {
+                self.low_search.add(who, &self.dips.rows, &self.dip_windows, k, 0);
+                if self.low_search.is_full() {
+                    self.search_low(batches, LEFT);
+                }
+            } else if self.dip_verdicts.clears[k] != 0 {
+                self.go_above(batches, who, shared);
+            } else {
+                self.hard.push(who);
+            }
         }
     }
 
@@ -301,12 +359,14 @@ impl Flyer {
         if count == 0 {
             return;
         }
-        let Self { dispatch, above: Queue { rows: arcs, .. }, work, above_impacts: impacts, .. } = self;
+        let Self { dispatch, timed, above: Queue { rows: arcs, .. }, work, above_impacts: impacts, .. } =
+            self;
+        let timed = *timed;
         if let Some(platforms) = shared {
-            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts }));
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
         } else {
             let platforms = &self.above_platforms;
-            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts }));
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
         }
         self.above.len = 0;
         for k in 0..count {
@@ -314,7 +374,7 @@ impl Flyer {
             if !self.work.has_landed(k) {
                 self.keep_falling(batches, who, self.work.reached(k));
             } else {
-                land(batches, who, &self.above_impacts, k);
+                land(batches, who, &self.above_impacts, k, self.timed);
             }
         }
     }
@@ -368,29 +428,40 @@ impl Flyer {
         } = self;
         wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
         for k in near.iter() {
-            land(batches, self.fallen.who[k], &self.fallen_impacts, k);
+            land(batches, self.fallen.who[k], &self.fallen_impacts, k, self.timed);
         }
     }
 
     fn search_low(&mut self, batches: &mut [Batch], left: usize) {
-        let Self { dispatch, low_search, hard, .. } = self;
-        low_search.go_on(*dispatch, left, |who, from, k| land(batches, who, from, k), |who| hard.push(who));
+        let Self { dispatch, low_search, hard, timed, .. } = self;
+        let timed = *timed;
+        low_search.go_on(
+            *dispatch,
+            left,
+            |who, from, k| land(batches, who, from, k, timed),
+            |who| hard.push(who),
+        );
     }
 
     fn search_fallen(&mut self, batches: &mut [Batch], left: usize) {
-        let Self { dispatch, fallen_search, hard, .. } = self;
+        let Self { dispatch, fallen_search, hard, timed, .. } = self;
+        let timed = *timed;
         fallen_search.go_on(
             *dispatch,
             left,
-            |who, from, k| land(batches, who, from, k),
+            |who, from, k| land(batches, who, from, k, timed),
             |who| hard.push(who),
         );
     }
 }
 
 #[inline(always)]
-fn land(batches: &mut [Batch], who: Who, from: &Impacts, k: usize) {
-    batches[who.batch as usize].impacts_mut().take(who.lane as usize, from, k);
+fn land(batches: &mut [Batch], who: Who, from: &Impacts, k: usize, timed: bool) {
+    let (impacts, lane) = (batches[who.batch as usize].impacts_mut(), who.lane as usize);
+    impacts.take(lane, from, k);
+    if timed {
+        impacts.take_time(lane, from, k);
+    }
 }
 
 /// The platform that all lanes share, if they do.

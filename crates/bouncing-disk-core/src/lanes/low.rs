@@ -33,11 +33,13 @@ pub(super) struct Low {
 pub(super) struct Verdicts {
     pub(super) open: Mask,
     pub(super) clears: Mask,
+    /// Launches that clear inflection and crest, but may dip between the two.
+    pub(super) dips: Mask,
 }
 
 impl Verdicts {
     pub(super) const fn new() -> Self {
-        Self { open: [0; LANES], clears: [0; LANES] }
+        Self { open: [0; LANES], clears: [0; LANES], dips: [0; LANES] }
     }
 }
 
@@ -129,13 +131,45 @@ impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
             times.time[k] = if concave != 0 { guess } else { from };
             times.peak[k] = peak;
             verdicts.open[k] = certain & (concave | convex);
-            verdicts.clears[k] = mask(clears_by_tangents(
+            let clears = mask(clears_by_tangents(
                 peak,
                 platform.separation_speed,
                 (inflection, at_inflection),
                 (crest, at_crest),
                 speed + cosine,
             ));
+            verdicts.clears[k] = clears;
+            verdicts.dips[k] = certain & !concave & mask(at_crest > doubt) & !clears;
+        }
+    }
+}
+
+/// The first step of `GapForm::dip` for launches whose windows are those of a dip: whether the middle of the window is below
+/// the platform (open, the window then ends there), or the tangent there shows that there is no dip.
+pub(super) struct Dips<'a, const N: usize> {
+    pub(super) low: &'a mut Low,
+    pub(super) times: &'a mut Times,
+    pub(super) verdicts: &'a mut Verdicts,
+}
+
+impl<const N: usize> WithSimd for Dips<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { low, times, verdicts } = self;
+        for k in 0..N {
+            times.time[k] = 0.5 * (times.lo[k] + times.hi[k]);
+        }
+        low.evaluate::<N>(times);
+        for k in 0..N {
+            let (lo, hi, t) = (times.lo[k], times.hi[k], times.time[k]);
+            let (gap, slope) = (times.gap[k], times.slope[k]);
+            let far = if slope < 0.0 { hi } else { lo };
+            verdicts.open[k] = mask(gap <= 0.0);
+            verdicts.clears[k] = mask(gap > 0.0) & mask(gap + slope * (far - t) > 0.0);
+            times.hi[k] = t;
+            times.time[k] = lo;
         }
     }
 }

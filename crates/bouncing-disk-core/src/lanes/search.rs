@@ -58,6 +58,15 @@ impl Times {
         }
     }
 
+    /// Takes over number `from` of others: its window and the time reached.
+    #[inline(always)]
+    pub(super) const fn take(&mut self, to: usize, others: &Self, from: usize) {
+        self.peak[to] = others.peak[from];
+        self.lo[to] = others.lo[from];
+        self.hi[to] = others.hi[from];
+        self.time[to] = others.time[from];
+    }
+
     /// Gap and derivatives at the time evaluated last.
     #[inline(always)]
     fn jet(&self, k: usize) -> Jet {
@@ -192,10 +201,7 @@ impl<F: Forms> Search<F> {
     pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize, evaluations: u8) {
         let slot = self.active % LANES;
         self.forms.copy(slot, forms, k);
-        self.times.peak[slot] = times.peak[k];
-        self.times.lo[slot] = times.lo[k];
-        self.times.hi[slot] = times.hi[k];
-        self.times.time[slot] = times.time[k];
+        self.times.take(slot, times, k);
         self.who[slot] = who;
         self.evaluations[slot] = evaluations;
         self.active += 1;

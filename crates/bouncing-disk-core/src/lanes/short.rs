@@ -10,7 +10,8 @@ use super::platform::Platform;
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
 use crate::elementary::{sine_deficit_ratio, versine_ratio};
 use crate::flight::SHORT_FLIGHT;
-use crate::gap::ShortForm;
+use crate::gap::{CrestForm, ShortForm};
+use crate::shortcuts::clears;
 
 /// Steps of Newton's iteration, as in `root_in_first_piece`.
 const STEPS: usize = 4;
@@ -26,6 +27,8 @@ pub(super) struct Short {
     sin: Row,
     cos: Row,
     angle: Row,
+    /// P.
+    peak: Row,
     /// Where the piece of constant curvature that the launch lies in ends.
     end: Row,
     time: Row,
@@ -151,6 +154,7 @@ impl Short {
             sin: ROW,
             cos: ROW,
             angle: ROW,
+            peak: ROW,
             end: ROW,
             time: ROW,
             ratio: ROW,
@@ -188,6 +192,7 @@ impl Short {
         self.sine[k] = peak * launches.from.sin[lane];
         self.cosine[k] = peak * launches.from.cos[lane];
         self.angle[k] = angle;
+        self.peak[k] = peak;
         self.end[k] = if away { retention - angle } else { to_separation };
         let next = if away { 2.0 * separation } else { -2.0 * separation };
         self.next_end[k] = self.end[k] + (PI + next);
@@ -206,8 +211,17 @@ impl Short {
         let (end_ratio, end_velocity) = form.at(within_short(self.end[k]));
         // A launch from rest is legal only where the platform falls away, and then it moves off.
         let away = self.pulled[k] == 0;
-        // As `short_bracket`: no root in the pieces up to half a radian, and no dip that needs a search.
-        let dips = !away && last_velocity > 0.0 && end_velocity < 0.0;
+        // As `short_bracket`: no root in the pieces up to half a radian, and no dip, or none below the tangents.
+        let end = within_short(self.end[k]);
+        let lowest = CrestForm::lowest_of_tangents(
+            end_ratio * end,
+            last_ratio * SHORT_FLIGHT,
+            end_velocity,
+            last_velocity,
+            SHORT_FLIGHT - end,
+        );
+        let may_dip = !away && last_velocity > 0.0 && end_velocity < 0.0;
+        let dips = may_dip && !clears(lowest, self.peak[k]);
         let second_piece = end_ratio > 0.0 && self.next_end[k] >= SHORT_FLIGHT + 1.0e-9 && !dips;
         let flies_on = last_ratio > 0.0
             && (self.end[k] >= SHORT_FLIGHT || second_piece)

@@ -134,7 +134,7 @@ where
         // impact that leads to it.
         const WITHOUT_LOSS: Row = [1.0; LANES];
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return };
-        let mut flyer = Box::new(Flyer::new(set));
+        let mut flyer = Box::new(Flyer::new(set, true));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
