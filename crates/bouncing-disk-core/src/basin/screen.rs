@@ -5,22 +5,11 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::{ATTACHED, Label};
-use crate::lanes::{Impacts, LANES, Mask, mask};
+use crate::lanes::{Impacts, LANES, Mask, lanes_of, mask};
 use crate::rest::RestProof;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
-
-/// The bit of each lane.
-const BIT: Mask = {
-    let mut bits = [0; LANES];
-    let mut lane = 0;
-    while lane < LANES {
-        bits[lane] = 1 << lane;
-        lane += 1;
-    }
-    bits
-};
 
 /// An impact of a known orbit.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +26,7 @@ pub(super) struct Verdicts {
     pub(super) labels: Mask,
     /// Lanes left to `ImpactMap::settles`.
     pub(super) doubtful: Mask,
+    either: Mask,
     /// One bit for each lane that is labelled or doubtful.
     pub(super) settled: u64,
 }
@@ -61,11 +51,10 @@ impl WithSimd for Screen<'_> {
         for target in targets.iter().rev() {
             find_caught(impacts, *target, 1.0 / peak, verdicts);
         }
-        let mut settled = 0;
         for lane in 0..LANES {
-            settled |= mask(verdicts.labels[lane] | verdicts.doubtful[lane] != 0) & BIT[lane];
+            verdicts.either[lane] = mask(verdicts.labels[lane] | verdicts.doubtful[lane] != 0);
         }
-        verdicts.settled = settled;
+        verdicts.settled = lanes_of(&verdicts.either).0;
     }
 }
 
@@ -98,6 +87,6 @@ fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &
 
 impl Verdicts {
     pub(super) const fn new() -> Self {
-        Self { labels: [0; LANES], doubtful: [0; LANES], settled: 0 }
+        Self { labels: [0; LANES], doubtful: [0; LANES], either: [0; LANES], settled: 0 }
     }
 }

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask};
+use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated, sin_cos_of_lane};
 use crate::gap::{CrestForm, Jet};
 
@@ -51,10 +51,10 @@ impl Work {
         }
     }
 
-    /// Whether a lane has landed.
+    /// The lanes that have landed.
     #[inline(always)]
-    pub(super) const fn has_landed(&self, k: usize) -> bool {
-        self.followed[k] & self.near[k] != 0
+    pub(super) fn landed(&self) -> Lanes {
+        lanes_of(&self.followed) & lanes_of(&self.near)
     }
 
     /// Where the first step of the search has led a lane that has not landed; zero where it is not known.

@@ -7,7 +7,7 @@ use super::low::{self, Dips, Low, Verdicts};
 use super::platform::{Platform, Platforms};
 use super::search::{Advance, Finish, Forms, Search, Times};
 use super::short::{self, Fate, Short};
-use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Who, wide};
+use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Who, lanes_of, wide};
 use crate::error::Error;
 
 /// Evaluations of low and fallen flights before those that need more are left to the search.
@@ -54,29 +54,6 @@ struct Queue<Rows> {
     rows: Rows,
     who: [Who; LANES],
     len: usize,
-}
-
-/// Some lanes of one batch.
-struct List {
-    lanes: [u8; LANES],
-    len: usize,
-}
-
-impl List {
-    const fn new() -> Self {
-        Self { lanes: [0; LANES], len: 0 }
-    }
-
-    /// Adds a lane where all bits of the mask are set.
-    #[inline(always)]
-    const fn push_where(&mut self, mask: u64, lane: usize) {
-        self.lanes[self.len % LANES] = lane as u8;
-        self.len += (mask & 1) as usize;
-    }
-
-    fn iter(&self) -> impl Iterator<Item = usize> + '_ {
-        self.lanes.iter().take(self.len).map(|&lane| usize::from(lane))
-    }
 }
 
 impl<Rows> Queue<Rows> {
@@ -170,6 +147,8 @@ impl Flyer {
                 dispatch.run(Classify { platforms: platforms.as_ref(), launches, kinds, arcs });
             }
         }
+        let all = Lanes::first(lanes);
+        let who = |lane| Who { batch: number as u32, lane: lane as u32 };
         if !self.kinds.special {
             match ground {
                 Ground::Shared(platforms) => {
@@ -186,41 +165,30 @@ impl Flyer {
                 }
             }
             if !self.work.all {
-                for lane in 0..lanes {
-                    if !self.work.has_landed(lane) {
-                        let who = Who { batch: number as u32, lane: lane as u32 };
-                        self.keep_falling(batches, who, self.work.reached(lane));
-                    }
+                for lane in all.without(self.work.landed()) {
+                    self.keep_falling(batches, who(lane), self.work.reached(lane));
                 }
             }
             return;
         }
-        // Without a branch: the kind of a flight cannot be predicted.
-        let (mut slow, mut low, mut above) = (List::new(), List::new(), List::new());
-        for lane in 0..lanes {
-            let (is_slow, is_low) = (self.kinds.slow[lane], self.kinds.low[lane]);
-            slow.push_where(is_slow, lane);
-            low.push_where(is_low & !is_slow, lane);
-            above.push_where(!(is_low | is_slow), lane);
+        let (slow, low) = (lanes_of(&self.kinds.slow) & all, lanes_of(&self.kinds.low) & all);
+        for lane in slow {
+            self.go_slow(batches, who(lane), shared, low.has(lane));
         }
-        let who = |lane| Who { batch: number as u32, lane: lane as u32 };
-        for lane in slow.iter() {
-            self.go_slow(batches, who(lane), shared);
-        }
-        for lane in low.iter() {
+        for lane in low.without(slow) {
             self.go_low(batches, who(lane), shared);
         }
-        for lane in above.iter() {
+        for lane in all.without(slow | low) {
             self.go_above(batches, who(lane), shared);
         }
     }
 
     #[inline(always)]
-    fn go_slow(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
+    fn go_slow(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>, low: bool) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         let k = self.slow.place(who);
         let platform = shared.unwrap_or_else(|| batch.platform(lane));
-        self.slow.rows.set(k, &platform, batch.launches(), lane, self.kinds.low[lane]);
+        self.slow.rows.set(k, &platform, batch.launches(), lane, low);
         if self.slow.len == LANES {
             self.fly_slow(batches, shared);
         }
@@ -284,12 +252,12 @@ impl Flyer {
             let platforms = &self.low_platforms;
             wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
         }
+        let all = Lanes::first(count);
+        let open = lanes_of(&verdicts.open) & all;
+        let clear = lanes_of(&verdicts.clears) & all.without(open);
+        let doubtful = lanes_of(&verdicts.dips) & all.without(open | clear);
         // Before their windows shrink.
-        let mut doubtful = List::new();
-        for k in 0..count {
-            doubtful.push_where(self.verdicts.dips[k], k);
-        }
-        for k in doubtful.iter() {
+        for k in doubtful {
             let slot = self.dips.place(self.low.who[k]);
             self.dips.rows.copy(slot, &self.low.rows, k);
             self.dip_windows.take(slot, &self.low_windows, k);
@@ -301,29 +269,24 @@ impl Flyer {
         let (evaluations, steps_on) = (AT_ONCE, false);
         wide!(count, N => dispatch.run(Advance::<_, N> { forms: low, times, evaluations, steps_on }));
         self.low.len = 0;
-        let mut near = List::new();
-        for k in 0..count {
-            let who = self.low.who[k];
-            if self.verdicts.open[k] != 0 {
-                if self.low_windows.near[k] != 0 {
-                    near.push_where(u64::MAX, k);
-                    continue;
-                }
-                self.low_search.add(who, &self.low.rows, &self.low_windows, k, AT_ONCE - 1);
-                if self.low_search.is_full() {
-                    self.search_low(batches, LEFT);
-                }
-            } else if self.verdicts.clears[k] != 0 {
-                self.go_above(batches, who, shared);
-            } else if self.verdicts.dips[k] == 0 {
-                self.hard.push(who);
+        let near = lanes_of(&times.near) & open;
+        for k in open.without(near) {
+            self.low_search.add(self.low.who[k], &self.low.rows, &self.low_windows, k, AT_ONCE - 1);
+            if self.low_search.is_full() {
+                self.search_low(batches, LEFT);
             }
+        }
+        for k in clear {
+            self.go_above(batches, self.low.who[k], shared);
+        }
+        for k in all.without(open | clear | doubtful) {
+            self.hard.push(self.low.who[k]);
         }
         let Self {
             dispatch, low: Queue { rows: forms, .. }, low_windows: times, low_impacts: impacts, ..
         } = self;
         wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
-        for k in near.iter() {
+        for k in near {
             land(batches, self.low.who[k], &self.low_impacts, k, self.timed);
         }
     }
@@ -369,13 +332,12 @@ impl Flyer {
             wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
         }
         self.above.len = 0;
-        for k in 0..count {
-            let who = self.above.who[k];
-            if !self.work.has_landed(k) {
-                self.keep_falling(batches, who, self.work.reached(k));
-            } else {
-                land(batches, who, &self.above_impacts, k, self.timed);
-            }
+        let landed = work.landed() & Lanes::first(count);
+        for k in landed {
+            land(batches, self.above.who[k], &self.above_impacts, k, timed);
+        }
+        for k in Lanes::first(count).without(landed) {
+            self.keep_falling(batches, self.above.who[k], self.work.reached(k));
         }
     }
 
@@ -405,18 +367,17 @@ impl Flyer {
         let (evaluations, steps_on) = (AT_ONCE, false);
         wide!(count, N => dispatch.run(Advance::<_, N> { forms: fallen, times, evaluations, steps_on }));
         self.fallen.len = 0;
-        let mut near = List::new();
-        for k in 0..count {
-            let who = self.fallen.who[k];
-            if self.behind.open[k] == 0 {
-                self.hard.push(who);
-            } else if self.fallen_windows.near[k] != 0 {
-                near.push_where(u64::MAX, k);
-            } else {
-                self.fallen_search.add(who, &self.fallen.rows, &self.fallen_windows, k, AT_ONCE - 1);
-                if self.fallen_search.is_full() {
-                    self.search_fallen(batches, LEFT);
-                }
+        let all = Lanes::first(count);
+        let open = lanes_of(&behind.open) & all;
+        let near = lanes_of(&times.near) & open;
+        for k in all.without(open) {
+            self.hard.push(self.fallen.who[k]);
+        }
+        for k in open.without(near) {
+            let (who, forms, windows) = (self.fallen.who[k], &self.fallen.rows, &self.fallen_windows);
+            self.fallen_search.add(who, forms, windows, k, AT_ONCE - 1);
+            if self.fallen_search.is_full() {
+                self.search_fallen(batches, LEFT);
             }
         }
         let Self {
@@ -427,7 +388,7 @@ impl Flyer {
             ..
         } = self;
         wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
-        for k in near.iter() {
+        for k in near {
             land(batches, self.fallen.who[k], &self.fallen_impacts, k, self.timed);
         }
     }

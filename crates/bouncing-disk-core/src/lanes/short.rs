@@ -46,7 +46,7 @@ pub(super) struct Short {
     inside: Mask,
     landed: Mask,
     /// Launches that may be hit before the first crest if they do not land soon.
-    low: Mask,
+    low: [bool; LANES],
 }
 
 /// Newton's iteration on gap/h of the first `count` flights, and their impacts.
@@ -166,7 +166,7 @@ impl Short {
             pulled: MASK,
             inside: MASK,
             landed: MASK,
-            low: MASK,
+            low: [false; LANES],
         }
     }
 
@@ -178,7 +178,7 @@ impl Short {
         platform: &Platform,
         launches: Launches<'_>,
         lane: usize,
-        low: u64,
+        low: bool,
     ) {
         let (angle, peak, separation) = (launches.from.angle[lane], platform.peak, platform.separation_angle);
         let retention = PI - separation;
@@ -226,7 +226,7 @@ impl Short {
         let flies_on = last_ratio > 0.0
             && (self.end[k] >= SHORT_FLIGHT || second_piece)
             && (!away || self.sine[k] >= 1.0 || self.speed[k] > 0.0);
-        match (flies_on, self.low[k] != 0) {
+        match (flies_on, self.low[k]) {
             (true, true) => Fate::GoesLow,
             (true, false) => Fate::GoesAbove,
             _ => Fate::Doubtful,
