@@ -76,8 +76,21 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
 /// for many lanes at once.
 #[inline(always)]
 pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
+    let (r, quadrant) = reduced_of_lane(x);
+    sin_cos_of_reduced(r, quadrant)
+}
+
+/// The angle less the nearest number of quarter turns, and that number.
+#[inline(always)]
+pub(crate) fn reduced_of_lane(x: f64) -> (f64, u64) {
     let (n, quadrant) = nearest_quarter_turns(x);
-    let (sine, cosine) = pair_polynomials((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE);
+    ((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE, quadrant)
+}
+
+/// The second part of [`sin_cos_of_lane`].
+#[inline(always)]
+pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64) -> (f64, f64) {
+    let (sine, cosine) = pair_polynomials(r);
     // Quadrant q: the pair is swapped if q is odd; the signs are those of the bits 1, and 1 xor 0.
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let swapped = (sine ^ cosine) & 0_u64.wrapping_sub(quadrant & 1);

@@ -6,7 +6,9 @@ use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
 use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask};
-use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated, sin_cos_of_lane};
+use crate::elementary::{
+    CREST, nearby_wrapped_of_lane, nearest_whole, reduced_of_lane, rotated, sin_cos_of_reduced,
+};
 use crate::gap::{CrestForm, Jet};
 
 /// Comparisons that decide which path a lane takes keep this far from a tie (radians; relative to the pull).
@@ -81,9 +83,7 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, arcs, work, impacts, timed } = self;
-        for k in 0..N {
-            (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k]);
-        }
+        pairs::<N>(work, |_, k| arcs.start[k]);
         first_step::<P, N>(platforms, arcs, work);
         let astray = (0..N).fold(0, |any, k| any | (arcs.regular[k] & !work.followed[k]));
         if astray != 0 {
@@ -106,6 +106,18 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
         } else {
             impact::<P, N, false>(platforms, arcs, work, impacts);
         }
+    }
+}
+
+/// The pairs of some angles, in two loops: the processor overlaps more of shorter ones.
+#[inline(always)]
+fn pairs<const N: usize>(work: &mut Work, angle: impl Fn(&Row, usize) -> f64) {
+    for k in 0..N {
+        let (reduced, quadrant) = reduced_of_lane(angle(&work.time, k));
+        (work.sin[k], work.cos[k]) = (reduced, f64::from_bits(quadrant));
+    }
+    for k in 0..N {
+        (work.sin[k], work.cos[k]) = sin_cos_of_reduced(work.sin[k], work.cos[k].to_bits());
     }
 }
 
@@ -222,9 +234,7 @@ fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut W
 /// Another evaluation, and the Newton step from there.
 #[inline(always)]
 fn evaluate<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
-    for k in 0..N {
-        (work.sin[k], work.cos[k]) = sin_cos_of_lane(arcs.start[k] + work.time[k]);
-    }
+    pairs::<N>(work, |time, k| arcs.start[k] + time[k]);
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
         let inverse = 1.0 / jet.slope;
