@@ -2,8 +2,7 @@
 //! of a root that is known to be the only one in its window.
 
 use crate::elementary::{
-    rotated, sin_cos_bounded, sin_cos_of_lane, sine_deficit, sine_deficit_ratio, versine_ratio,
-    versine_shortfall,
+    rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
 };
 use crate::error::Error;
 
@@ -294,17 +293,12 @@ impl LaunchForm {
     /// 1 - cos t and sin t, each in relative accuracy.
     #[inline(always)]
     fn versine_and_sine(t: f64) -> (f64, f64) {
-        Self::doubled(sin_cos_bounded(0.5 * t))
+        Self::versine_and_sine_of_half(sin_cos_bounded(0.5 * t))
     }
 
-    /// As [`Self::versine_and_sine`], bit for bit.
+    /// 1 - cos t and sin t from the pair of t/2.
     #[inline(always)]
-    pub(crate) fn versine_and_sine_of_lane(t: f64) -> (f64, f64) {
-        Self::doubled(sin_cos_of_lane(0.5 * t))
-    }
-
-    #[inline(always)]
-    fn doubled((half_sin, half_cos): (f64, f64)) -> (f64, f64) {
+    pub(crate) fn versine_and_sine_of_half((half_sin, half_cos): (f64, f64)) -> (f64, f64) {
         (2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos)
     }
 

@@ -17,6 +17,7 @@ mod platform;
 mod search;
 mod short;
 
+use crate::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::flight::Impact;
 use crate::map::ImpactState;
 use crate::phase::Phase;
@@ -110,6 +111,18 @@ impl Iterator for Lanes {
 #[inline(always)]
 pub(crate) const fn mask(condition: bool) -> u64 {
     (condition as u64).wrapping_neg()
+}
+
+/// Sines and cosines of some angles, in two loops: the processor overlaps more iterations of shorter ones.
+#[inline(always)]
+fn pairs<const N: usize>(sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
+    for k in 0..N {
+        let (reduced, quadrant) = reduced_of_lane(angle(k));
+        (sin[k], cos[k]) = (reduced, f64::from_bits(quadrant));
+    }
+    for k in 0..N {
+        (sin[k], cos[k]) = sin_cos_of_reduced(sin[k], cos[k].to_bits());
+    }
 }
 
 /// Runs a stage for some number of flights: all lanes, or fewer if they suffice. Loops of fixed length become vectors

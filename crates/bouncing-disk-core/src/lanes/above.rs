@@ -5,10 +5,8 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask};
-use crate::elementary::{
-    CREST, nearby_wrapped_of_lane, nearest_whole, reduced_of_lane, rotated, sin_cos_of_reduced,
-};
+use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask, pairs};
+use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated};
 use crate::gap::{CrestForm, Jet};
 
 /// Comparisons that decide which path a lane takes keep this far from a tie (radians; relative to the pull).
@@ -83,7 +81,7 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, arcs, work, impacts, timed } = self;
-        pairs::<N>(work, |_, k| arcs.start[k]);
+        pairs::<N>(&mut work.sin, &mut work.cos, |k| arcs.start[k]);
         first_step::<P, N>(platforms, arcs, work);
         let astray = (0..N).fold(0, |any, k| any | (arcs.regular[k] & !work.followed[k]));
         if astray != 0 {
@@ -106,18 +104,6 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
         } else {
             impact::<P, N, false>(platforms, arcs, work, impacts);
         }
-    }
-}
-
-/// The pairs of some angles, in two loops: the processor overlaps more of shorter ones.
-#[inline(always)]
-fn pairs<const N: usize>(work: &mut Work, angle: impl Fn(&Row, usize) -> f64) {
-    for k in 0..N {
-        let (reduced, quadrant) = reduced_of_lane(angle(&work.time, k));
-        (work.sin[k], work.cos[k]) = (reduced, f64::from_bits(quadrant));
-    }
-    for k in 0..N {
-        (work.sin[k], work.cos[k]) = sin_cos_of_reduced(work.sin[k], work.cos[k].to_bits());
     }
 }
 
@@ -234,7 +220,8 @@ fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut W
 /// Another evaluation, and the Newton step from there.
 #[inline(always)]
 fn evaluate<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
-    pairs::<N>(work, |time, k| arcs.start[k] + time[k]);
+    let Work { time, sin, cos, .. } = &mut *work;
+    pairs::<N>(sin, cos, |k| arcs.start[k] + time[k]);
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
         let inverse = 1.0 / jet.slope;

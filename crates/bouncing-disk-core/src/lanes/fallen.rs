@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 
 use super::platform::Platform;
 use super::search::{Forms, Times};
-use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask};
+use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask, pairs};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::gap::CrestForm;
 
@@ -24,9 +24,8 @@ pub(super) struct Fallen {
 impl Forms for Fallen {
     #[inline(always)]
     fn evaluate<const N: usize>(&mut self, times: &mut Times) {
-        for k in 0..N {
-            (times.sin[k], times.cos[k]) = sin_cos_of_lane(self.start[k] + times.time[k]);
-        }
+        let Times { time, sin, cos, .. } = &mut *times;
+        pairs::<N>(sin, cos, |k| self.start[k] + time[k]);
         for k in 0..N {
             let form =
                 CrestForm { peak: times.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 };

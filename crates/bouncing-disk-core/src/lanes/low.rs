@@ -7,8 +7,8 @@ use pulp::{Simd, WithSimd};
 
 use super::platform::{Below, Platform};
 use super::search::{Forms, Times};
-use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
-use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
+use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask, pairs};
+use crate::elementary::{CREST, nearby_wrapped_of_lane};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, LaunchForm};
 use crate::shortcuts::clears_by_tangents;
@@ -46,9 +46,8 @@ impl Verdicts {
 impl Forms for Low {
     #[inline(always)]
     fn evaluate<const N: usize>(&mut self, times: &mut Times) {
-        for k in 0..N {
-            (times.sin[k], times.cos[k]) = sin_cos_of_lane(self.angle[k] + times.time[k]);
-        }
+        let Times { time, sin, cos, .. } = &mut *times;
+        pairs::<N>(sin, cos, |k| self.angle[k] + time[k]);
         self.turn::<N>(times);
         for k in 0..N {
             let (form, of_time) = (self.form(times, k), (self.versine[k], self.sine_of_time[k]));
@@ -192,8 +191,10 @@ impl Low {
 
     #[inline(always)]
     fn turn<const N: usize>(&mut self, times: &Times) {
+        pairs::<N>(&mut self.versine, &mut self.sine_of_time, |k| 0.5 * times.time[k]);
         for k in 0..N {
-            (self.versine[k], self.sine_of_time[k]) = LaunchForm::versine_and_sine_of_lane(times.time[k]);
+            let half = (self.versine[k], self.sine_of_time[k]);
+            (self.versine[k], self.sine_of_time[k]) = LaunchForm::versine_and_sine_of_half(half);
         }
     }
 
