@@ -73,6 +73,8 @@ fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &m
 fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut Verdicts) {
     let label = u64::from(target.label);
     let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
+    // Chosen from copies: masked stores are slow.
+    let (labels, doubtful) = (verdicts.labels, verdicts.doubtful);
     for lane in 0..LANES {
         let turned = (impacts.angle[lane] - target.angle).abs();
         let back = TAU - turned;
@@ -80,8 +82,8 @@ fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &
         let velocity = (impacts.velocity[lane] - target.velocity) * inverse_peak;
         let square = phase * phase + velocity * velocity;
         let inside = mask(square < least);
-        verdicts.labels[lane] = (verdicts.labels[lane] & !inside) | (label & inside);
-        verdicts.doubtful[lane] |= mask(square <= most) & !inside;
+        verdicts.labels[lane] = (labels[lane] & !inside) | (label & inside);
+        verdicts.doubtful[lane] = doubtful[lane] | (mask(square <= most) & !inside);
     }
 }
 

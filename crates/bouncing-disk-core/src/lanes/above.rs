@@ -25,6 +25,8 @@ pub(super) struct Work {
     sin: Row,
     cos: Row,
     root: Row,
+    /// The quadratic step, and the one improved; the Newton step before the last one.
+    quadratic: Row,
     step: Row,
     inverse: Row,
     /// Lanes whose steps are those of the search.
@@ -43,6 +45,7 @@ impl Work {
             sin: ROW,
             cos: ROW,
             root: ROW,
+            quadratic: ROW,
             step: ROW,
             inverse: ROW,
             followed: [0; LANES],
@@ -149,10 +152,10 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
         work.root[k] = first_jet(platforms, arcs, work, k).radicand().sqrt();
     }
     for k in 0..N {
-        work.step[k] = first_jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
+        work.quadratic[k] = first_jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
     }
     for k in 0..N {
-        work.step[k] = first_jet(platforms, arcs, work, k).corrected_step(work.step[k], work.root[k]);
+        work.step[k] = first_jet(platforms, arcs, work, k).corrected_step(work.quadratic[k], work.root[k]);
     }
     for k in 0..N {
         let jet = first_jet(platforms, arcs, work, k);
@@ -175,6 +178,7 @@ fn two_windows<P: Below>(platforms: P, arcs: &Arcs, jet: &Jet, k: usize) -> u64 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.
 #[inline(always)]
 fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+    let (time, followed) = (work.time, work.followed);
     for k in 0..N {
         let jet = first_jet(platforms, arcs, work, k);
         let (turned, _) = nearby_wrapped_of_lane(arcs.start[k]);
@@ -185,9 +189,9 @@ fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &
         let fine = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(step < crest);
         let next = if fine != 0 { step } else { 0.5 * crest };
         let one_window = !two_windows(platforms, arcs, &jet, k);
-        let astray = arcs.regular[k] & !work.followed[k] & one_window & mask(jet.gap > 0.0);
-        work.time[k] = if astray != 0 { next } else { work.time[k] };
-        work.followed[k] |= astray;
+        let astray = arcs.regular[k] & !followed[k] & one_window & mask(jet.gap > 0.0);
+        work.time[k] = if astray != 0 { next } else { time[k] };
+        work.followed[k] = followed[k] | astray;
     }
 }
 
@@ -198,14 +202,14 @@ fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut W
         work.root[k] = jet(platforms, arcs, work, k).radicand().sqrt();
     }
     for k in 0..N {
-        work.step[k] = jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
+        work.quadratic[k] = jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
     }
     for k in 0..N {
-        work.step[k] = jet(platforms, arcs, work, k).corrected_step(work.step[k], work.root[k]);
+        work.step[k] = jet(platforms, arcs, work, k).corrected_step(work.quadratic[k], work.root[k]);
     }
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
-        let time = work.time[k];
+        let time = work.second[k];
         let next = time + work.step[k];
         // The window ends where the last evaluation was, or at the crest.
         let later = mask(jet.gap > 0.0);
