@@ -14,7 +14,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 /// Impacts of one orbit per timed call.
 const IMPACTS: u64 = 1_000;
 /// Orbits in lockstep.
-const ORBITS: usize = 64;
+const ORBITS: usize = 1_024;
 /// Launches of one regime: enough that the processor does not learn their branches by heart.
 const LAUNCHES: usize = 1_000;
 /// Launches next to a graze, on either side of it.

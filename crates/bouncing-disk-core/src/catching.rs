@@ -136,6 +136,7 @@ impl PeriodicOrbit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::basin::{Axis, BasinSettings, Grid, KnownOrbit};
     use crate::vibration::Vibration;
 
     fn map(axial_forcing: f64) -> ImpactMap {
@@ -163,5 +164,23 @@ mod tests {
         assert_eq!(orbit.period(), 4);
         assert_eq!(orbit.trapping_radius(&map, 64), None);
         assert!(orbit.catching_radius(&map).is_some());
+    }
+
+    #[test]
+    fn a_wide_trap_labels_as_a_narrow_one() {
+        let axis = |high| Axis::new(0.0, high, 250).expect("legal");
+        let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
+        for axial_forcing in [0.45, 0.5] {
+            let map = map(axial_forcing);
+            let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
+            let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
+            let radius = orbit.trapping_radius(&map, 64).expect("attracts");
+            assert!(radius > 0.3, "{radius}");
+            let labels = |radius| {
+                let known = [KnownOrbit { orbit: orbit.clone(), radius }];
+                map.basins(grid, &known, BasinSettings::default(), || ()).expect("no failure")
+            };
+            assert_eq!(labels(radius), labels(0.003), "Gamma {axial_forcing}");
+        }
     }
 }
