@@ -310,6 +310,35 @@ mod tests {
         }
     }
 
+    /// Launches about as fast as the platform at its fastest, that may dip below it between separation and crest.
+    #[test]
+    fn launches_that_dip_are_those_of_single_flights() {
+        let vibration = Vibration::new(2.0).expect("legal");
+        let mut flights = Flights::new(InstructionSet::best(), 4);
+        let all = 4 * LANES;
+        (0..all).for_each(|lane| flights.set_platform(lane, vibration));
+        let mut dips = 0;
+        for block in 0..1_500 {
+            let launches: Vec<_> = (0..all as u64)
+                .filter_map(|lane| {
+                    let k = 256 * block + lane;
+                    let angle = vibration.separation_angle - 2.0 * spread(k);
+                    let phase = Phase::new(angle).expect("finite");
+                    let disk_speed = 1.9 + 0.8 * spread(7 * k);
+                    Launch::new(phase, disk_speed - vibration.velocity(phase)).ok()
+                })
+                .collect();
+            launches.iter().enumerate().for_each(|(lane, launch)| flights.set_launch(lane, *launch));
+            flights.fly(launches.len(), |lane, error| unreachable!("{lane}: {error}"));
+            for (lane, launch) in launches.into_iter().enumerate() {
+                let alone = vibration.first_impact(launch).expect("lands");
+                assert_eq!(flights.state(lane), Some(alone.into()), "{launch:?}");
+                dips += u32::from(alone.velocity > -0.1 && alone.duration() > 0.6);
+            }
+        }
+        assert!(dips > 1_000, "{dips}");
+    }
+
     #[test]
     fn lanes_that_do_not_exist_are_refused() {
         let mut flights = Flights::new(InstructionSet::best(), 0);

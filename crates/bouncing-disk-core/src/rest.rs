@@ -160,6 +160,30 @@ mod tests {
         assert!(4 * certain > 3 * rests, "{certain} of {rests}");
     }
 
+    /// Where the pull grows and the impulse proves nothing, rest comes while it still grows.
+    #[test]
+    fn rest_comes_before_the_strongest_pull_where_only_that_is_proven() {
+        let mut certain = 0;
+        for k in 0..40_000 {
+            let restitution = 0.5 + 0.45 * spread(k, 0.754_877_666);
+            let peak = 1.0 + 3.0 * spread(k, 0.569_840_29);
+            let vibration = Vibration::new(peak).expect("legal");
+            let phase = Phase::new(0.5 * PI + PI * spread(k, 0.618_034)).expect("finite");
+            let pull = vibration.contact_force(phase);
+            let speed = 0.5 * (1.0 - restitution) * pull * 0.5 * PI * spread(k, 0.137_777);
+            let by_impulse = (2.0 - restitution) * pull > restitution * (1.0 + peak);
+            if by_impulse || speed <= 0.0 || !vibration.chatters_to_rest(phase, speed, restitution) {
+                continue;
+            }
+            let map = ImpactMap::new(vibration, restitution).expect("legal");
+            let state = ImpactState::new(phase, -speed / restitution).expect("legal");
+            let duration = duration_of_chatter(&map, state).expect("comes to rest");
+            assert!(duration <= 1.5 * PI - phase.angle(), "P {peak}, r {restitution}: {phase:?} {speed}");
+            certain += 1;
+        }
+        assert!(certain > 1_000, "{certain}");
+    }
+
     /// Where a launch just comes to rest before the separation, against the fastest one that the proof accepts.
     #[test]
     fn the_proof_is_nearly_sharp_where_the_pull_shrinks() {
