@@ -90,7 +90,7 @@ impl Ensemble {
     /// go on.
     pub fn step(&mut self) -> Result<(), Error> {
         for (batch, restitution) in self.batches.iter_mut().zip(&self.restitutions) {
-            batch.rebound(restitution);
+            batch.rebound(self.flyer.dispatch(), restitution);
         }
         let (mut first, mut failed) = (None, Vec::new());
         self.flyer.fly(&mut self.batches, self.len, |index, error| {

@@ -122,7 +122,7 @@ impl Flights {
     /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
-        batch.rebound(restitution);
+        batch.rebound(self.flyer.dispatch(), restitution);
         self.flyer.dispatch().run(MayRest { batch, restitution, may_rest });
     }
 

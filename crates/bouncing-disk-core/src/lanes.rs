@@ -17,6 +17,8 @@ mod platform;
 mod search;
 mod short;
 
+use pulp::{Simd, WithSimd};
+
 use crate::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::flight::Impact;
 use crate::map::ImpactState;
@@ -314,12 +316,10 @@ impl Batch {
     }
 
     /// Lets every launch follow the impact of its lane with this coefficient of restitution.
-    pub(crate) fn rebound(&mut self, restitution: &Row) {
+    pub(crate) fn rebound(&mut self, dispatch: Dispatch, restitution: &Row) {
         self.from = self.last;
-        let velocities = &self.impacts[self.last].velocity;
-        for ((speed, restitution), velocity) in self.speed.iter_mut().zip(restitution).zip(velocities) {
-            *speed = -restitution * velocity;
-        }
+        let velocity = &self.impacts[self.last].velocity;
+        dispatch.run(Rebound { speed: &mut self.speed, restitution, velocity });
     }
 
     /// Sets the impact of a lane back to the one that its last flight followed.
@@ -347,6 +347,25 @@ impl Batch {
     /// The phase of a lane's launch.
     pub(crate) const fn launch_phase(&self, lane: usize) -> Phase {
         self.launches().from.phase(lane)
+    }
+}
+
+/// Speeds after impacts.
+struct Rebound<'a> {
+    speed: &'a mut Row,
+    restitution: &'a Row,
+    velocity: &'a Row,
+}
+
+impl WithSimd for Rebound<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { speed, restitution, velocity } = self;
+        for lane in 0..LANES {
+            speed[lane] = -restitution[lane] * velocity[lane];
+        }
     }
 }
 

@@ -113,7 +113,7 @@ impl<'a> Lockstep<'a> {
         self.round += 1;
         let batches = &mut self.batches[..self.lanes.div_ceil(LANES)];
         for batch in &mut *batches {
-            batch.rebound(&self.restitution);
+            batch.rebound(self.flyer.dispatch(), &self.restitution);
         }
         let mut failure = None;
         self.flyer.fly(batches, self.lanes, |_, error| failure = Some(error));

@@ -149,7 +149,7 @@ where
             }
             let used = &mut batches[..self.runs.len().div_ceil(LANES)];
             for batch in &mut *used {
-                batch.rebound(&WITHOUT_LOSS);
+                batch.rebound(flyer.dispatch(), &WITHOUT_LOSS);
             }
             flyer.fly(used, self.runs.len(), |lane, error| failures.push((lane, error)));
             // From the last lane, so that an orbit that is moved into a gap has been advanced.
