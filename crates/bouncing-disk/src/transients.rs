@@ -13,7 +13,7 @@ use rotors::{Carry, Rotors};
 
 /// With fewer transients under way they are advanced one by one: a step of the lanes costs nearly the same however many of
 /// them are in use, for motors as much as about this many single flights (docs/numerics.md, section 9).
-const FEWEST: usize = 48;
+const FEWEST: usize = 40;
 
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
