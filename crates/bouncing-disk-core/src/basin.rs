@@ -208,19 +208,20 @@ impl ImpactMap {
         within("number of known orbits", known.len() as f64, 0.0, 250.0, "[0, 250]")?;
         let columns = grid.phase.cells();
         let mut labels = vec![UNDECIDED; columns * grid.speed.cells()];
-        let cells = Cells::new(grid, &mut labels, row_done)?;
-        let work = |threads: usize| {
-            let lanes = cells.count().div_ceil(threads);
-            self.label_cells(&cells, known, settings, lanes).inspect_err(|_| cells.give_up())
-        };
+        #[cfg(feature = "parallel")]
+        let threads = rayon::current_num_threads();
+        #[cfg(not(feature = "parallel"))]
+        let threads = 1;
+        let cells = Cells::new(grid, &mut labels, threads, row_done)?;
+        let lanes = cells.count().div_ceil(threads);
+        let work = || self.label_cells(&cells, known, settings, lanes).inspect_err(|_| cells.give_up());
         #[cfg(feature = "parallel")]
         {
             use rayon::prelude::*;
-            let threads = rayon::current_num_threads();
-            (0..threads).into_par_iter().with_max_len(1).try_for_each(|_| work(threads))?;
+            (0..threads).into_par_iter().with_max_len(1).try_for_each(|_| work())?;
         }
         #[cfg(not(feature = "parallel"))]
-        work(1)?;
+        work()?;
         Ok(Basins { labels, columns })
     }
 }

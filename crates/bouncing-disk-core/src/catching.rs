@@ -55,14 +55,14 @@ fn first_halving(largest: f64, passes: impl Fn(f64) -> bool) -> Option<f64> {
 }
 
 impl PeriodicOrbit {
-    /// A radius within which every orbit ends on this one: on the circles of that radius about its impacts `samples`
+    /// A radius within which every orbit is taken to end on this one: on the circles of that radius about its impacts `samples`
     /// starts each stay within four radii and end nearer than they began. Where that holds at 0.1 rad, wider circles are
     /// tried, each 1.15 times the last and with four times as many starts, that must come within 0.1 rad; the radius is
     /// then 0.7 times the widest that passes. `None` if even 1e-5 rad fails (the orbit does not attract, or only
     /// after long excursions: see [`Self::catching_radius`]).
     #[must_use]
     pub fn trapping_radius(&self, map: &ImpactMap, samples: u32) -> Option<f64> {
-        let scale = map.vibration().peak_acceleration();
+        let (scale, samples) = (map.vibration().peak_acceleration(), samples.max(1));
         let all_on_circle = |radius: f64, samples: u32, passes: &dyn Fn(ImpactState) -> bool| {
             self.states
                 .iter()
@@ -73,8 +73,10 @@ impl PeriodicOrbit {
         })?;
         let mut widest = inner;
         while inner >= FIRST_RADIUS && widest < LARGEST_RADIUS {
-            let next = WIDENING * widest;
-            if !all_on_circle(next, 4 * samples, &|start| self.draws(map, start, inner, 4.0 * next, scale)) {
+            let next = (WIDENING * widest).min(LARGEST_RADIUS);
+            if !all_on_circle(next, samples.saturating_mul(4), &|start| {
+                self.draws(map, start, inner, 4.0 * next, scale)
+            }) {
                 break;
             }
             widest = next;

@@ -176,7 +176,7 @@ pub(crate) struct Impacts {
     pub(crate) cos: Row,
     /// Relative velocity, <= 0.
     pub(crate) velocity: Row,
-    /// How often the phase passed 0 during the flight.
+    /// How often the phase passed 0 during the flight; stale, like the duration, unless the flyer is timed.
     pub(crate) turns: Row,
     /// Duration of the flight (rad), or [`Impacts::BETWEEN_PHASES`].
     pub(crate) duration: Row,

@@ -13,6 +13,9 @@ use crate::vibration::Vibration;
 /// Bound on the rounding error of the pull, in units of 1 + P.
 const PULL_ROUNDING: f64 = 1.0e-15;
 
+/// Bound on the rounding error of the separation angle, times its cosine.
+const SEPARATION_ROUNDING: f64 = 2.0e-16;
+
 /// Share by which a launch must be slower than the exact bounds: far more than their relative rounding.
 const SLACK: f64 = 1.0e-12;
 
@@ -42,7 +45,9 @@ impl RestProof {
             separation_angle: vibration.separation_angle,
             separation_speed: vibration.separation_speed,
             separation_cosine: if peak > 1.0 { cosine } else { 0.0 },
-            impulse_rounding: vibration.doubtful_gap,
+            // The separation angle asin(1/P) carries the rounding of 1/P over its cosine.
+            impulse_rounding: vibration.doubtful_gap
+                + if peak > 1.0 { SEPARATION_ROUNDING / cosine } else { 0.0 },
             restitution,
             loss: (1.0 - restitution) * (1.0 - SLACK),
             always: restitution * restitution * (1.0 + peak) < (1.0 - SLACK) * (1.0 - peak),
@@ -56,8 +61,9 @@ impl RestProof {
         let (peak, loss) = (self.peak, self.loss);
         let drift = peak * cos;
         let pull = (1.0 - peak * sin) - PULL_ROUNDING * (1.0 + peak);
+        // The quadrant decides, not the sign of what is left: at the separation itself that is nothing, not a whole turn.
         let ahead = self.separation_angle - angle;
-        let until_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
+        let until_separation = if (cos >= 0.0) & (angle < PI) { ahead } else { ahead + TAU };
         let impulse = (until_separation + (self.separation_speed - drift)) - self.impulse_rounding;
 
         // The pull shrinks: u <= w, and less the faster it shrinks.
@@ -218,6 +224,35 @@ mod tests {
             let speed = |share: f64| share * drift * distance * distance;
             assert!(vibration.chatters_to_rest(phase, speed(0.12), 0.5), "{distance}");
             assert!(!vibration.chatters_to_rest(phase, speed(0.16), 0.5), "{distance}");
+        }
+    }
+
+    /// The disk ends on an orbit of one impact a period: at the crest the pull is weakest, and nothing is left of its shrinking.
+    #[test]
+    fn nothing_is_proven_at_the_crest_by_the_turn_to_come() {
+        let map = ImpactMap::new(Vibration::new(0.98788).expect("legal"), 0.92417).expect("legal");
+        let phase = Phase::new(0.5 * PI).expect("finite");
+        assert!(!map.vibration().chatters_to_rest(phase, 0.238, map.restitution()));
+        for k in 0..2_000 {
+            let peak = 0.5 + 0.4999 * spread(k, 0.569_840_29);
+            let restitution = 0.6 + 0.37 * spread(k, 0.754_877_666);
+            let map = ImpactMap::new(Vibration::new(peak).expect("legal"), restitution).expect("legal");
+            let speed = 0.3 * spread(k, 0.137);
+            if speed > 0.0 && map.vibration().chatters_to_rest(phase, speed, restitution) {
+                let state = ImpactState::new(phase, -speed / restitution).expect("legal");
+                assert!(duration_of_chatter(&map, state).is_some(), "P {peak}, r {restitution}: {speed}");
+            }
+        }
+    }
+
+    /// Just above P = 1 the separation angle is known to 1e-13 only, and the impulse that is left with it.
+    #[test]
+    fn the_rounding_of_the_separation_proves_nothing() {
+        let vibration = Vibration::new(1.000_000_007_455_782).expect("legal");
+        let separation = vibration.separation_phase().expect("separates").angle();
+        for (distance, too_fast) in [(1.0e-4, 3.02e-13), (3.0e-5, 1.0e-13)] {
+            let phase = Phase::new(separation - distance).expect("finite");
+            assert!(!vibration.chatters_to_rest(phase, too_fast, 0.5), "{distance}");
         }
     }
 

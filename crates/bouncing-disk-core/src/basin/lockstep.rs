@@ -205,6 +205,7 @@ impl<'a> Lockstep<'a> {
 mod tests {
     use core::f64::consts::TAU;
 
+    use super::super::starts::Share;
     use super::super::{ATTACHED, Axis, Grid};
     use super::*;
     use crate::vibration::Vibration;
@@ -243,7 +244,8 @@ mod tests {
     /// What docs/performance.md says of the memory of a thread.
     #[test]
     fn lanes_take_less_than_half_a_megabyte() {
-        let lanes = (BATCHES + 1) * size_of::<Batch>() + size_of::<Flyer>();
+        let (started, share) = ((BATCHES + 1) * LANES, size_of::<Share<'_>>() + 2 * size_of::<usize>());
+        let lanes = (BATCHES + 1) * size_of::<Batch>() + size_of::<Flyer>() + started * share;
         assert!(lanes < 500_000, "{lanes}");
     }
 
@@ -262,6 +264,26 @@ mod tests {
         for max_impacts in [0, 1, 2, 7] {
             let counts = compared(0.5, 0.5, 120, max_impacts);
             assert!(counts[usize::from(UNDECIDED)] > 0, "{max_impacts}: {counts:?}");
+        }
+    }
+
+    #[test]
+    fn every_row_is_reported_once() {
+        use core::sync::atomic::{AtomicUsize, Ordering};
+        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
+        for (columns, rows) in [(1, 1), (3, 50), (70, 131), (3_000, 2)] {
+            for threads in [1, 2, 7] {
+                let axis = |high, cells| Axis::new(0.0, high, cells).expect("legal");
+                let grid = Grid::new(axis(1.0, columns), axis(2.0, rows)).expect("legal");
+                let done = AtomicUsize::new(0);
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts");
+                let labels = pool.install(|| {
+                    let settings = BasinSettings { max_impacts: 50, ..BasinSettings::default() };
+                    map.basins(grid, &[], settings, || _ = done.fetch_add(1, Ordering::Relaxed))
+                });
+                assert_eq!(labels.expect("no failure").labels().len(), columns * rows);
+                assert_eq!(done.into_inner(), rows, "{columns} by {rows}, {threads} threads");
+            }
         }
     }
 }

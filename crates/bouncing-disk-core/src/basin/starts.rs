@@ -11,7 +11,7 @@ use crate::phase::Phase;
 
 use core::f64::consts::{PI, TAU};
 
-/// Cells in a share: enough that a thread seldom waits for the next one, few enough for the threads to finish together.
+/// Most cells in a share, but for longer rows: enough that a thread seldom waits for the next one, few enough for the threads to finish together.
 const SHARE: usize = 1_024;
 
 /// Some rows of the grid: the first of them, and their labels.
@@ -31,10 +31,16 @@ pub(super) struct Cells<'l, Done> {
 }
 
 impl<'l, Done: Fn()> Cells<'l, Done> {
-    pub(super) fn new(grid: Grid, labels: &'l mut [Label], row_done: Done) -> Result<Self, Error> {
+    pub(super) fn new(
+        grid: Grid,
+        labels: &'l mut [Label],
+        threads: usize,
+        row_done: Done,
+    ) -> Result<Self, Error> {
         let (columns, rows) = (grid.phase.cells(), grid.speed.cells());
         let phases = (0..columns).map(|column| Phase::new(grid.phase.centre(column) * TAU));
-        let rows_of_share = (SHARE / columns).max(1);
+        let share = SHARE.min(labels.len().div_ceil(threads));
+        let rows_of_share = (share / columns).max(1);
         Ok(Self {
             phases: phases.collect::<Result<_, _>>()?,
             speeds: (0..rows).map(|row| grid.speed.centre(row) * PI).collect(),
@@ -78,9 +84,11 @@ impl Cell {
 /// Starts that have been screened and are not decided yet, a batch at a time.
 pub(super) struct Starts<'c, 'l, Done> {
     cells: &'c Cells<'l, Done>,
-    /// The shares taken, and how many of their cells have no label yet.
+    /// The shares taken, and how many of their cells have no label yet; those with none make room for others.
     shares: Vec<(Share<'l>, usize)>,
-    /// The next cell to begin, in the last share: its index, row and column.
+    finished: Vec<usize>,
+    /// The next cell to begin: its share, and its index, row and column there.
+    current: usize,
     index: usize,
     row: usize,
     column: usize,
@@ -96,6 +104,8 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
         Self {
             cells,
             shares: Vec::new(),
+            finished: Vec::new(),
+            current: 0,
             index: 0,
             row: 0,
             column: 0,
@@ -114,6 +124,7 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
         *left -= 1;
         if *left == 0 {
             self.cells.rows_done(share);
+            self.finished.push(cell.share as usize);
         }
     }
 
@@ -143,15 +154,19 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
             if self.column == self.cells.phases.len() {
                 (self.row, self.column) = (self.row + 1, 0);
             }
-            if self.shares.last().is_none_or(|(share, _)| self.index == share.labels.len()) {
+            if self.shares.get(self.current).is_none_or(|(share, _)| self.index == share.labels.len()) {
                 let Some(share) = self.cells.take() else { return lane };
                 (self.index, self.row, self.column) = (0, share.first_row, 0);
                 let cells = share.labels.len();
-                self.shares.push((share, cells));
+                self.current = self.finished.pop().unwrap_or(self.shares.len());
+                match self.shares.get_mut(self.current) {
+                    Some(finished) => *finished = (share, cells),
+                    None => self.shares.push((share, cells)),
+                }
             }
             let (phase, speed) = (self.cells.phases[self.column], self.cells.speeds[self.row]);
             self.batch.set_impact(lane, phase, -speed);
-            self.batch_cells[lane] = Cell { share: self.shares.len() as u32 - 1, index: self.index as u32 };
+            self.batch_cells[lane] = Cell { share: self.current as u32, index: self.index as u32 };
             self.index += 1;
             self.column += 1;
         }

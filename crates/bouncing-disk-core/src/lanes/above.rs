@@ -172,7 +172,7 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
 #[inline(always)]
 fn two_windows<P: Below>(platforms: P, arcs: &Arcs, jet: &Jet, k: usize) -> u64 {
     let peak = platforms.lane(k).peak;
-    mask(jet.curvature > -CLEAR) & mask(jet.third < CLEAR * peak) & mask(arcs.fall[k] < peak)
+    mask(jet.curvature > -CLEAR * (1.0 + peak)) & mask(jet.third < CLEAR * peak) & mask(arcs.fall[k] < peak)
 }
 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.

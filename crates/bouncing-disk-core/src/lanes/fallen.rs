@@ -1,4 +1,5 @@
-//! Disks that have come down to the height of the crests and need more than two evaluations, or have two windows.
+//! Disks that have come down to the height of the crests and need more than two or three evaluations, or
+//! have two windows.
 
 use core::f64::consts::{PI, TAU};
 
@@ -118,6 +119,12 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
 impl Fallen {
     pub(super) const fn new() -> Self {
         Self { start: ROW, fall: ROW, free_periods: ROW, reached: ROW }
+    }
+
+    /// How many evaluations of the gap number `k` had before.
+    #[inline(always)]
+    pub(super) fn evaluations(&self, k: usize) -> u8 {
+        u8::from(self.reached[k] > 0.0)
     }
 
     /// Sets number `k` to one of some arcs, with the time that a first step has led to, or zero.

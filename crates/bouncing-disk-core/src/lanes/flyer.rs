@@ -375,7 +375,7 @@ impl Flyer {
         }
         for k in open.without(near) {
             let (who, forms, windows) = (self.fallen.who[k], &self.fallen.rows, &self.fallen_windows);
-            self.fallen_search.add(who, forms, windows, k, AT_ONCE - 1);
+            self.fallen_search.add(who, forms, windows, k, forms.evaluations(k) + (AT_ONCE - 1));
             if self.fallen_search.is_full() {
                 self.search_fallen(batches, LEFT);
             }

@@ -11,7 +11,7 @@ use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask, pairs};
 use crate::elementary::{CREST, nearby_wrapped_of_lane};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, LaunchForm};
-use crate::shortcuts::clears_by_tangents;
+use crate::shortcuts::{clears, clears_by_tangents};
 
 /// Launches that may land before the first crest.
 #[derive(Debug, Clone)]
@@ -144,7 +144,7 @@ impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
 }
 
 /// The first step of `GapForm::dip` for launches whose windows are those of a dip: whether the middle of the window is below
-/// the platform (open, the window then ends there), or the tangent there shows that there is no dip.
+/// the platform beyond doubt (open, the window then ends there), or the tangent there shows that there is no dip.
 pub(super) struct Dips<'a, const N: usize> {
     pub(super) low: &'a mut Low,
     pub(super) times: &'a mut Times,
@@ -165,7 +165,7 @@ impl<const N: usize> WithSimd for Dips<'_, N> {
             let (lo, hi, t) = (times.lo[k], times.hi[k], times.time[k]);
             let (gap, slope) = (times.gap[k], times.slope[k]);
             let far = if slope < 0.0 { hi } else { lo };
-            verdicts.open[k] = mask(gap <= 0.0);
+            verdicts.open[k] = mask(clears(-gap, times.peak[k]));
             verdicts.clears[k] = mask(gap > 0.0) & mask(gap + slope * (far - t) > 0.0);
             times.hi[k] = t;
             times.time[k] = lo;

@@ -47,6 +47,8 @@ pub(super) struct Short {
     landed: Mask,
     /// Launches that may be hit before the first crest if they do not land soon.
     low: [bool; LANES],
+    /// Launches where the platform falls away.
+    away: [bool; LANES],
 }
 
 /// Newton's iteration on gap/h of the first `count` flights, and their impacts.
@@ -167,6 +169,7 @@ impl Short {
             inside: MASK,
             landed: MASK,
             low: [false; LANES],
+            away: [false; LANES],
         }
     }
 
@@ -186,6 +189,7 @@ impl Short {
         let ahead = separation - angle;
         let to_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
         self.low[k] = low;
+        self.away[k] = away;
         self.speed[k] = launches.speed[lane];
         self.sin[k] = launches.from.sin[lane];
         self.cos[k] = launches.from.cos[lane];
@@ -225,7 +229,7 @@ impl Short {
         let second_piece = end_ratio > 0.0 && self.next_end[k] >= SHORT_FLIGHT + 1.0e-9 && !dips;
         let flies_on = last_ratio > 0.0
             && (self.end[k] >= SHORT_FLIGHT || second_piece)
-            && (!away || self.sine[k] >= 1.0 || self.speed[k] > 0.0);
+            && (self.speed[k] > 0.0 || self.away[k]);
         match (flies_on, self.low[k]) {
             (true, true) => Fate::GoesLow,
             (true, false) => Fate::GoesAbove,
