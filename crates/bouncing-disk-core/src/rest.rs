@@ -151,7 +151,7 @@ mod tests {
             let proven = map.vibration().chatters_to_rest(phase, speed, restitution);
             let state = ImpactState::new(phase, -speed / restitution.max(1.0e-3)).expect("legal");
             // The launch that the orbit makes of it, which rounding may have changed.
-            let exact = -restitution * state.velocity() == speed;
+            let exact = (-restitution * state.velocity()).to_bits() == speed.to_bits();
             if restitution < 1.0e-3 || !exact {
                 continue;
             }
