@@ -16,6 +16,7 @@ mod low;
 mod platform;
 mod search;
 mod short;
+mod subset;
 
 use pulp::{Simd, WithSimd};
 
@@ -29,6 +30,7 @@ use platform::{Below, Platform, Platforms};
 pub(crate) use flyer::Flyer;
 pub(crate) use instructions::Dispatch;
 pub use instructions::InstructionSet;
+pub(crate) use subset::{Lanes, lanes_of};
 
 /// Flights in one batch.
 pub(crate) const LANES: usize = 64;
@@ -37,78 +39,6 @@ pub(crate) const LANES: usize = 64;
 pub(crate) type Row = [f64; LANES];
 /// All bits of a lane set or none.
 pub(crate) type Mask = [u64; LANES];
-
-/// The bit of each lane.
-const BIT: Mask = {
-    let mut bits = [0; LANES];
-    let mut lane = 0;
-    while lane < LANES {
-        bits[lane] = 1 << lane;
-        lane += 1;
-    }
-    bits
-};
-
-/// The lanes whose bits are set in a mask.
-#[inline(always)]
-pub(crate) fn lanes_of(mask: &Mask) -> Lanes {
-    Lanes(mask.iter().zip(&BIT).fold(0, |all, (mask, bit)| all | (mask & bit)))
-}
-
-/// Some lanes of a batch, from the first to the last.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Lanes(pub(crate) u64);
-
-impl Lanes {
-    /// The first `count` lanes, which must be between 1 and all.
-    #[inline(always)]
-    pub(crate) const fn first(count: usize) -> Self {
-        Self(u64::MAX >> ((LANES - count) % LANES))
-    }
-
-    /// Those that are not among others.
-    #[inline(always)]
-    const fn without(self, others: Self) -> Self {
-        Self(self.0 & !others.0)
-    }
-
-    #[inline(always)]
-    const fn has(self, lane: usize) -> bool {
-        self.0 >> (lane % LANES) & 1 != 0
-    }
-}
-
-impl core::ops::BitAnd for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
-}
-
-impl core::ops::BitOr for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
-
-impl Iterator for Lanes {
-    type Item = usize;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<usize> {
-        if self.0 == 0 {
-            return None;
-        }
-        let lane = self.0.trailing_zeros() as usize;
-        self.0 &= self.0 - 1;
-        Some(lane)
-    }
-}
 
 #[inline(always)]
 pub(crate) const fn mask(condition: bool) -> u64 {

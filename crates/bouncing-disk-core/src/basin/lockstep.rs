@@ -5,7 +5,7 @@ use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
 use crate::chatter::ChatterPolicy;
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Row};
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Lanes, Row};
 use crate::map::{ImpactMap, ImpactState};
 use crate::rest::RestProof;
 
@@ -149,10 +149,8 @@ impl<'a> Lockstep<'a> {
     ) {
         self.screen(self.batches[number].impacts(), verdicts);
         let first = number * LANES;
-        let mut settled = verdicts.settled & (u64::MAX >> (LANES - (self.lanes - first).min(LANES)));
-        while settled != 0 {
-            let lane = LANES - 1 - settled.leading_zeros() as usize;
-            settled &= !(1 << lane);
+        let settled = verdicts.settled & Lanes::first((self.lanes - first).min(LANES));
+        for lane in settled.rev() {
             if let Some(label) = self.label(verdicts, &self.batches[number], lane) {
                 self.finish(first + lane, label, starts);
             }

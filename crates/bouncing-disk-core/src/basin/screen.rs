@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::{ATTACHED, Label};
-use crate::lanes::{Impacts, LANES, Mask, lanes_of, mask};
+use crate::lanes::{Impacts, LANES, Lanes, Mask, lanes_of, mask};
 use crate::rest::RestProof;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
@@ -27,8 +27,8 @@ pub(super) struct Verdicts {
     /// Lanes left to `ImpactMap::settles`.
     pub(super) doubtful: Mask,
     either: Mask,
-    /// One bit for each lane that is labelled or doubtful.
-    pub(super) settled: u64,
+    /// Lanes that are labelled or doubtful.
+    pub(super) settled: Lanes,
 }
 
 pub(super) struct Screen<'a> {
@@ -54,7 +54,7 @@ impl WithSimd for Screen<'_> {
         for lane in 0..LANES {
             verdicts.either[lane] = mask(verdicts.labels[lane] | verdicts.doubtful[lane] != 0);
         }
-        verdicts.settled = lanes_of(&verdicts.either).0;
+        verdicts.settled = lanes_of(&verdicts.either);
     }
 }
 
@@ -89,6 +89,6 @@ fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &
 
 impl Verdicts {
     pub(super) const fn new() -> Self {
-        Self { labels: [0; LANES], doubtful: [0; LANES], either: [0; LANES], settled: 0 }
+        Self { labels: [0; LANES], doubtful: [0; LANES], either: [0; LANES], settled: Lanes::NONE }
     }
 }

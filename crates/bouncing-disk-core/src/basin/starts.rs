@@ -6,7 +6,7 @@ use super::lockstep::Lockstep;
 use super::screen::Verdicts;
 use super::{Grid, Label};
 use crate::error::Error;
-use crate::lanes::{Batch, LANES};
+use crate::lanes::{Batch, LANES, Lanes};
 use crate::phase::Phase;
 
 use core::f64::consts::{PI, TAU};
@@ -95,8 +95,8 @@ pub(super) struct Starts<'c, 'l, Done> {
     batch: Batch,
     batch_cells: [Cell; LANES],
     verdicts: Verdicts,
-    /// One bit for each lane of the batch not taken yet.
-    open: u64,
+    /// Lanes of the batch not taken yet.
+    open: Lanes,
 }
 
 impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
@@ -112,7 +112,7 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
             batch,
             batch_cells: [Cell::NONE; LANES],
             verdicts: Verdicts::new(),
-            open: 0,
+            open: Lanes::NONE,
         }
     }
 
@@ -132,15 +132,16 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
     /// their labels.
     #[inline(always)]
     pub(super) fn next(&mut self, lockstep: &Lockstep<'_>) -> Option<(Cell, usize)> {
-        while self.open == 0 {
+        let lane = loop {
+            if let Some(lane) = self.open.next() {
+                break lane;
+            }
             let count = self.fill();
             if count == 0 {
                 return None;
             }
             self.screen(lockstep, count);
-        }
-        let lane = self.open.trailing_zeros() as usize;
-        self.open &= self.open - 1;
+        };
         Some((self.batch_cells[lane], lane))
     }
 
@@ -176,14 +177,11 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
     /// Labels those of the first `count` lanes of the batch that are decided at once, and opens the others.
     fn screen(&mut self, lockstep: &Lockstep<'_>, count: usize) {
         lockstep.screen(self.batch.impacts(), &mut self.verdicts);
-        self.open = u64::MAX >> (LANES - count);
-        let mut settled = self.verdicts.settled & self.open;
-        while settled != 0 {
-            let lane = settled.trailing_zeros() as usize;
-            settled &= settled - 1;
+        self.open = Lanes::first(count);
+        for lane in self.verdicts.settled & self.open {
             if let Some(label) = lockstep.label(&self.verdicts, &self.batch, lane) {
                 self.settle(self.batch_cells[lane], label);
-                self.open &= !(1 << lane);
+                self.open.remove(lane);
             }
         }
     }

@@ -145,18 +145,24 @@ fn meets_no_crest(start: f64, time: f64) -> u64 {
     mask(crests(start + (time + CLEAR)) <= crests(start - CLEAR))
 }
 
+/// The step of the model from where the gap is known.
+#[inline(always)]
+fn model_step<const N: usize>(work: &mut Work, jet: impl Fn(&Work, usize) -> Jet) {
+    for k in 0..N {
+        work.root[k] = jet(work, k).radicand().sqrt();
+    }
+    for k in 0..N {
+        work.quadratic[k] = jet(work, k).quadratic_step(work.root[k]);
+    }
+    for k in 0..N {
+        work.step[k] = jet(work, k).corrected_step(work.quadratic[k], work.root[k]);
+    }
+}
+
 /// The first step of the search of one flight; none where the root is near.
 #[inline(always)]
 fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
-    for k in 0..N {
-        work.root[k] = first_jet(platforms, arcs, work, k).radicand().sqrt();
-    }
-    for k in 0..N {
-        work.quadratic[k] = first_jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
-    }
-    for k in 0..N {
-        work.step[k] = first_jet(platforms, arcs, work, k).corrected_step(work.quadratic[k], work.root[k]);
-    }
+    model_step::<N>(work, |work, k| first_jet(platforms, arcs, work, k));
     for k in 0..N {
         let jet = first_jet(platforms, arcs, work, k);
         let (start, step) = (arcs.start[k], work.step[k]);
@@ -198,15 +204,7 @@ fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &
 /// The step after the second evaluation, where the root is not near: that of the search if it stays in the window.
 #[inline(always)]
 fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
-    for k in 0..N {
-        work.root[k] = jet(platforms, arcs, work, k).radicand().sqrt();
-    }
-    for k in 0..N {
-        work.quadratic[k] = jet(platforms, arcs, work, k).quadratic_step(work.root[k]);
-    }
-    for k in 0..N {
-        work.step[k] = jet(platforms, arcs, work, k).corrected_step(work.quadratic[k], work.root[k]);
-    }
+    model_step::<N>(work, |work, k| jet(platforms, arcs, work, k));
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
         let time = work.second[k];
