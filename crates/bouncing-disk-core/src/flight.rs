@@ -131,6 +131,12 @@ impl Vibration {
     /// [`Self::first_impact`] for a speed that is known to be finite and not negative.
     #[inline]
     pub(crate) fn impact_after(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
+        self.impact_after_in_place(from, speed)
+    }
+
+    /// [`Self::impact_after`] as a part of its caller.
+    #[inline(always)]
+    pub(crate) fn impact_after_in_place(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
         let p = self.peak_acceleration();
         let angle = from.angle();
         if speed < self.long_launch_speed

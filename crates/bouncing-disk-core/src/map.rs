@@ -111,6 +111,28 @@ impl ImpactMap {
         self.vibration.impact_after(state.phase, -self.restitution * state.velocity)
     }
 
+    /// The impact that is so many [steps](Self::step) after the one in `state`, which itself is 0 steps after: the same bits as
+    /// one step after the other, but the state stays in registers all the way, which otherwise depends on the caller.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+    /// let start = ImpactState::from_normalised(0.8, 1.3)?;
+    /// let settled = map.iterate(start, 10_000)?;
+    /// assert_eq!(map.iterate(start, 10_001)?, map.step(settled)?.into());
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// That of the first step that fails (see [`Self::step`]).
+    pub fn iterate(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
+        for _ in 0..impacts {
+            let speed = -self.restitution * state.velocity;
+            state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
+        }
+        Ok(state)
+    }
+
     /// The derivative of the next (phase, velocity) by the present (phase, velocity), with `impact` the result of
     /// [`Self::step`] from `state`. Column-major: `x_axis` is the derivative by the phase.
     ///

@@ -227,14 +227,11 @@ impl ImpactMap {
         longest: usize,
         tolerance: f64,
     ) -> Result<Option<PeriodicOrbit>, Error> {
-        let mut state = state;
-        for _ in 0..transient {
-            match self.step(state) {
-                Ok(impact) => state = impact.into(),
-                Err(Error::NoLiftOff { .. }) => return Ok(None),
-                Err(error) => return Err(error),
-            }
-        }
+        let state = match self.iterate(state, transient as u64) {
+            Ok(state) => state,
+            Err(Error::NoLiftOff { .. }) => return Ok(None),
+            Err(error) => return Err(error),
+        };
         let Some(period) = self.period_of(state, longest, tolerance)? else { return Ok(None) };
         let mut guess = vec![state];
         while guess.len() < period {

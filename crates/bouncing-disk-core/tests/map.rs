@@ -45,6 +45,26 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
     #[test]
+    fn iterates_are_the_bits_of_single_steps(
+        forcing in 0.05_f64..60.0, restitution in 0.0_f64..0.95, angle in 0.0..TAU, speed in 0.05_f64..4.0, impacts in 0_u64..60,
+    ) {
+        let map = map(forcing, restitution);
+        let from = state(angle, -speed * PI * forcing);
+        let one_by_one = (0..impacts).try_fold(from, |at, _| map.step(at).map(ImpactState::from));
+        match (map.iterate(from, impacts), one_by_one) {
+            (Ok(own), Ok(other)) => {
+                let bits = |state: ImpactState| {
+                    let phase = state.phase();
+                    [phase.angle(), phase.sin(), phase.cos(), state.velocity()].map(f64::to_bits)
+                };
+                prop_assert_eq!(bits(own), bits(other));
+            }
+            (Err(own), Err(other)) => prop_assert_eq!(own, other),
+            (own, other) => prop_assert!(false, "{own:?} {other:?}"),
+        }
+    }
+
+    #[test]
     fn jacobian_agrees_with_dual_numbers(
         forcing in 0.05_f64..60.0, restitution in 0.05_f64..0.95, angle in 0.0..TAU, speed in 0.05_f64..4.0,
     ) {
