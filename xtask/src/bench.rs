@@ -4,6 +4,7 @@ mod criterion;
 mod page;
 mod record;
 mod table;
+mod workloads;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

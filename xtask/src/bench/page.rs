@@ -55,15 +55,7 @@ fn grouped(value: f64) -> String {
     while value / scale >= 1.0e3 {
         scale *= 10.0;
     }
-    let text = format!("{:.0}", (value / scale).round() * scale);
-    let mut grouped = String::new();
-    for (index, digit) in text.chars().enumerate() {
-        if index > 0 && (text.len() - index).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    grouped
+    table::with_commas(((value / scale).round() * scale) as usize)
 }
 
 /// How much faster two threads are; only where two processors were there.
@@ -213,7 +205,7 @@ pub(super) fn page(run: &Record, baseline: Option<&Record>) -> anyhow::Result<St
         ("own", own_row(run)),
     ];
     let mut page = TEMPLATE.to_owned();
-    for (name, text) in tables {
+    for (name, text) in tables.into_iter().chain(super::workloads::places()?) {
         let place = format!("{{{{{name}}}}}");
         if !page.contains(&place) {
             bail!("the template of the page has no place {place}");

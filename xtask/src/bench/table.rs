@@ -41,6 +41,19 @@ pub(super) fn digits(value: f64) -> String {
     }
 }
 
+/// A whole number with commas.
+pub(super) fn with_commas(number: usize) -> String {
+    let text = number.to_string();
+    let mut grouped = String::new();
+    for (index, digit) in text.chars().enumerate() {
+        if index > 0 && (text.len() - index).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
 /// A change with its sign, or that it is within what the uncertainties explain.
 fn change(change: Change) -> String {
     let Change { relative, uncertainty } = change;
