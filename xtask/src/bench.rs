@@ -45,6 +45,9 @@ pub(crate) struct Options {
     /// Measure the wall time of `cargo xtask figures` in both qualities as well
     #[arg(long)]
     figures: bool,
+    /// Measure the wall time of a release build of xtask in an empty target folder as well
+    #[arg(long)]
+    build: bool,
     /// Take the results of the last run instead of measuring
     #[arg(long)]
     reuse: bool,
@@ -85,13 +88,12 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     let stored = results.join("run.json");
     if options.reuse {
         let mut record = Record::read(&stored, "cargo xtask bench")?;
-        if options.figures {
-            record.figures = Some(figure_times(&results)?);
-        }
+        measure_programs(options, &results, &mut record)?;
         return Ok(record);
     }
     let machine = machine(&root)?;
-    let fresh = Record { machine, quick: options.quick, benches: Default::default(), figures: None };
+    let fresh =
+        Record { machine, quick: options.quick, benches: Default::default(), figures: None, build_s: None };
     // Single programs renew their part of the last run, if that was one of the same source and kind.
     let last =
         (!options.programs.is_empty()).then(|| Record::read(&stored, "cargo xtask bench").ok()).flatten();
@@ -104,11 +106,20 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
         // Now, so that a run that is broken off loses no more than one program.
         OutputFolder::create(results.clone())?.write("run.json", &record.to_json()?)?;
     }
-    if options.figures {
-        record.figures = Some(figure_times(&results)?);
-        OutputFolder::create(results)?.write("run.json", &record.to_json()?)?;
-    }
+    measure_programs(options, &results, &mut record)?;
     Ok(record)
+}
+
+/// Measures whole programs, as far as it was asked for, and stores the record with their times.
+fn measure_programs(options: &Options, results: &Path, record: &mut Record) -> anyhow::Result<()> {
+    if options.build {
+        record.build_s = Some(build_time(results)?);
+    }
+    if options.figures {
+        record.figures = Some(figure_times(results)?);
+    }
+    OutputFolder::create(results.to_path_buf())?.write("run.json", &record.to_json()?)?;
+    Ok(())
 }
 
 /// In the folder that cargo builds into.
@@ -140,6 +151,26 @@ fn said(command: &mut Command) -> anyhow::Result<String> {
         bail!("{}", String::from_utf8_lossy(&output.stderr).trim());
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+/// Wall time of a release build of xtask into an empty folder, which is removed again.
+fn build_time(results: &Path) -> anyhow::Result<f64> {
+    let target = results.join("build");
+    let remove = || match std::fs::remove_dir_all(&target) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    };
+    remove().with_context(|| format!("cannot empty {}", target.display()))?;
+    let mut cargo = Command::new("cargo");
+    cargo.args(["build", "--release", "--locked", "--package", "xtask", "--target-dir"]).arg(&target);
+    let start = Instant::now();
+    let status = cargo.current_dir(in_workspace("")).status().context("cannot start cargo")?;
+    let seconds = start.elapsed().as_secs_f64();
+    if !status.success() {
+        bail!("cargo build failed: {status}");
+    }
+    remove().with_context(|| format!("cannot remove {}", target.display()))?;
+    Ok(seconds.round())
 }
 
 /// Wall times of all figures, made anew into a folder that is removed again.

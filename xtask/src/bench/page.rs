@@ -72,6 +72,7 @@ fn aims(run: &Record) -> Vec<Aim> {
     let aim = |what, unit, rate, (floor, goal), value| Aim { what, unit, rate, floor, goal, value, decides };
     let panel = ns("w3/panel_1000/threads_2").filter(|_| two).map(|ns| ns * 1.0e6 / 1.0e9);
     let figures = run.figures.filter(|_| two);
+    let build = run.build_s.filter(|_| two);
     vec![
         aim("W1, one after the other", "ns an impact", false, (130.0, 95.0), ns("w1/scalar")),
         aim("W1, in lockstep, AVX-512", "ns an impact", false, (8.0, 5.0), ns("w1/lanes/Avx512")),
@@ -84,6 +85,7 @@ fn aims(run: &Record) -> Vec<Aim> {
         aim("W3, two threads over one", "times", true, (1.9, 1.9), speed_up(run, "w3/panel_1000/")),
         aim("all figures, draft, two processors", "s", false, (15.0, 15.0), figures.map(|f| f.draft_s)),
         aim("all figures, paper, two processors", "s", false, (120.0, 120.0), figures.map(|f| f.paper_s)),
+        aim("release build of xtask from nothing, two processors", "s", false, (180.0, 180.0), build),
     ]
 }
 
@@ -248,8 +250,11 @@ mod tests {
         );
         assert!(line(&rows(&run), "| W1, in lockstep, AVX2").ends_with("not measured in this run | - |"));
         assert!(line(&rows(&run), "| panel").ends_with("| 0.100 | met |"));
+        run.build_s = Some(190.0);
+        assert!(line(&rows(&run), "| release build").ends_with("| 190 | **not met** |"));
         // Two threads on one processor are no measurement of two threads.
         run.machine.processors = 1;
+        assert!(line(&rows(&run), "| release build").ends_with("not measured in this run | - |"));
         assert!(line(&rows(&run), "| panel").ends_with("not measured in this run | - |"));
         run.benches = record(&[("w1/scalar", 140.0)]).benches;
         assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | **not met** |"));

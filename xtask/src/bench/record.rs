@@ -18,6 +18,9 @@ pub(crate) struct Record {
     pub(crate) benches: BTreeMap<String, Measured>,
     /// Wall times of `cargo xtask figures`, if they were measured.
     pub(crate) figures: Option<FigureTimes>,
+    /// Wall time (s) of a release build of xtask from nothing, if it was measured.
+    #[serde(default)]
+    pub(crate) build_s: Option<f64>,
 }
 
 /// Where a run was made, and of what.
@@ -142,6 +145,7 @@ pub(crate) mod tests {
             quick: false,
             benches: times.iter().map(|(name, time)| ((*name).to_owned(), measured(*time))).collect(),
             figures: None,
+            build_s: None,
         }
     }
 
