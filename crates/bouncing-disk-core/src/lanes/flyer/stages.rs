@@ -1,0 +1,222 @@
+//! The stages of the flights of each kind: computed once their queue is full, and sorted by what became of them.
+
+use super::Flyer;
+use super::queue::Queue;
+use crate::lanes::above::Fly;
+use crate::lanes::fallen;
+use crate::lanes::low::{self, Dips};
+use crate::lanes::platform::Platform;
+use crate::lanes::search::{Advance, Finish, Forms};
+use crate::lanes::short::{self, Fate};
+use crate::lanes::{Batch, Impacts, LANES, Lanes, Who, lanes_of, wide};
+
+/// Evaluations of low and fallen flights before those that need more are left to the search.
+const AT_ONCE: u8 = 2;
+
+/// Flights under search are taken further once there are [`LANES`] of them, until so many are left.
+const LEFT: usize = LANES / 2;
+
+impl Flyer {
+    pub(super) fn fly_slow(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.slow.len;
+        if count == 0 {
+            return;
+        }
+        let (short, impacts) = (&mut self.slow.rows, &mut self.slow_impacts);
+        wide!(count, N => self.dispatch.run(short::Solve::<N> { short, count, impacts }));
+        self.slow.len = 0;
+        for k in 0..count {
+            let who = self.slow.who[k];
+            match self.slow.rows.fate(k) {
+                Fate::Landed => land(batches, who, &self.slow_impacts, k, self.timed),
+                Fate::GoesLow => self.go_low(batches, who, shared),
+                Fate::GoesAbove => self.go_above(batches, who, shared),
+                Fate::Doubtful => self.hard.push(who),
+            }
+        }
+    }
+
+    pub(super) fn fly_low(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.low.len;
+        if count == 0 {
+            return;
+        }
+        let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, verdicts, .. } = self;
+        if let Some(platforms) = shared {
+            wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
+        } else {
+            let platforms = &self.low_platforms;
+            wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
+        }
+        let all = Lanes::first(count);
+        let open = lanes_of(&verdicts.open) & all;
+        let clear = lanes_of(&verdicts.clears) & all.without(open);
+        let doubtful = lanes_of(&verdicts.dips) & all.without(open | clear);
+        // Before their windows shrink.
+        for k in doubtful {
+            let slot = self.dips.place(self.low.who[k]);
+            self.dips.rows.copy(slot, &self.low.rows, k);
+            self.dip_windows.take(slot, &self.low_windows, k);
+            if self.dips.len == LANES {
+                self.settle_dips(batches, shared);
+            }
+        }
+        let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, .. } = self;
+        let (evaluations, steps_on) = (AT_ONCE, false);
+        wide!(count, N => dispatch.run(Advance::<_, N> { forms: low, times, evaluations, steps_on }));
+        self.low.len = 0;
+        let near = lanes_of(&times.near) & open;
+        for k in open.without(near) {
+            self.low_search.add(self.low.who[k], &self.low.rows, &self.low_windows, k, AT_ONCE - 1);
+            if self.low_search.is_full() {
+                self.search_low(batches, LEFT);
+            }
+        }
+        for k in clear {
+            self.go_above(batches, self.low.who[k], shared);
+        }
+        for k in all.without(open | clear | doubtful) {
+            self.hard.push(self.low.who[k]);
+        }
+        let Self {
+            dispatch, low: Queue { rows: forms, .. }, low_windows: times, low_impacts: impacts, ..
+        } = self;
+        wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
+        for k in near {
+            land(batches, self.low.who[k], &self.low_impacts, k, self.timed);
+        }
+    }
+
+    /// Decides whether launches dip below the platform between inflection and crest.
+    pub(super) fn settle_dips(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.dips.len;
+        if count == 0 {
+            return;
+        }
+        let Self {
+            dispatch, dips: Queue { rows: low, .. }, dip_windows: times, dip_verdicts: verdicts, ..
+        } = self;
+        wide!(count, N => dispatch.run(Dips::<N> { low, times, verdicts }));
+        self.dips.len = 0;
+        for k in 0..count {
+            let who = self.dips.who[k];
+            if self.dip_verdicts.open[k] != 0 {
+                self.low_search.add(who, &self.dips.rows, &self.dip_windows, k, 0);
+                if self.low_search.is_full() {
+                    self.search_low(batches, LEFT);
+                }
+            } else if self.dip_verdicts.clears[k] != 0 {
+                self.go_above(batches, who, shared);
+            } else {
+                self.hard.push(who);
+            }
+        }
+    }
+
+    pub(super) fn fly_above(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
+        let count = self.above.len;
+        if count == 0 {
+            return;
+        }
+        let Self { dispatch, timed, above: Queue { rows: arcs, .. }, work, above_impacts: impacts, .. } =
+            self;
+        let timed = *timed;
+        if let Some(platforms) = shared {
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
+        } else {
+            let platforms = &self.above_platforms;
+            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
+        }
+        self.above.len = 0;
+        let landed = work.landed() & Lanes::first(count);
+        for k in landed {
+            land(batches, self.above.who[k], &self.above_impacts, k, timed);
+        }
+        for k in Lanes::first(count).without(landed) {
+            self.keep_falling(batches, self.above.who[k], self.work.reached(k));
+        }
+    }
+
+    /// Goes on with a lane at the height of the crests, from the time that a first step has led to, or from zero.
+    pub(super) fn keep_falling(&mut self, batches: &mut [Batch], who: Who, reached: f64) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        if batch.arcs.regular[lane] == 0 {
+            self.hard.push(who);
+            return;
+        }
+        let platform = batch.platform(lane);
+        let place = self.fallen.place(who);
+        self.fallen.rows.set(place, &batch.arcs, lane, reached);
+        self.behind.set(place, &platform);
+        if self.fallen.len == LANES {
+            self.fly_fallen(batches);
+        }
+    }
+
+    pub(super) fn fly_fallen(&mut self, batches: &mut [Batch]) {
+        let count = self.fallen.len;
+        if count == 0 {
+            return;
+        }
+        let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, fallen_windows: times, .. } = self;
+        wide!(count, N => dispatch.run(fallen::Windows::<N> { fallen, behind, times }));
+        let (evaluations, steps_on) = (AT_ONCE, false);
+        wide!(count, N => dispatch.run(Advance::<_, N> { forms: fallen, times, evaluations, steps_on }));
+        self.fallen.len = 0;
+        let all = Lanes::first(count);
+        let open = lanes_of(&behind.open) & all;
+        let near = lanes_of(&times.near) & open;
+        for k in all.without(open) {
+            self.hard.push(self.fallen.who[k]);
+        }
+        for k in open.without(near) {
+            let (who, forms, windows) = (self.fallen.who[k], &self.fallen.rows, &self.fallen_windows);
+            self.fallen_search.add(who, forms, windows, k, forms.evaluations(k) + (AT_ONCE - 1));
+            if self.fallen_search.is_full() {
+                self.search_fallen(batches, LEFT);
+            }
+        }
+        let Self {
+            dispatch,
+            fallen: Queue { rows: forms, .. },
+            fallen_windows: times,
+            fallen_impacts: impacts,
+            ..
+        } = self;
+        wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
+        for k in near {
+            land(batches, self.fallen.who[k], &self.fallen_impacts, k, self.timed);
+        }
+    }
+
+    pub(super) fn search_low(&mut self, batches: &mut [Batch], left: usize) {
+        let Self { dispatch, low_search, hard, timed, .. } = self;
+        let timed = *timed;
+        low_search.go_on(
+            *dispatch,
+            left,
+            |who, from, k| land(batches, who, from, k, timed),
+            |who| hard.push(who),
+        );
+    }
+
+    pub(super) fn search_fallen(&mut self, batches: &mut [Batch], left: usize) {
+        let Self { dispatch, fallen_search, hard, timed, .. } = self;
+        let timed = *timed;
+        fallen_search.go_on(
+            *dispatch,
+            left,
+            |who, from, k| land(batches, who, from, k, timed),
+            |who| hard.push(who),
+        );
+    }
+}
+
+#[inline(always)]
+fn land(batches: &mut [Batch], who: Who, from: &Impacts, k: usize, timed: bool) {
+    let (impacts, lane) = (batches[who.batch as usize].impacts_mut(), who.lane as usize);
+    impacts.take(lane, from, k);
+    if timed {
+        impacts.take_time(lane, from, k);
+    }
+}
