@@ -190,27 +190,63 @@ mod tests {
         assert!(certain > 1_000, "{certain}");
     }
 
+    /// The largest of the speeds in (0, `most`) for which something holds that holds for all smaller ones.
+    fn fastest(most: f64, holds: impl Fn(f64) -> bool) -> f64 {
+        let (mut low, mut high) = (0.0, most);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if holds(middle) { low = middle } else { high = middle }
+        }
+        low
+    }
+
+    /// Whether a disk chatters to rest under a pull 1 - t that shrinks to nothing at t = 1, launched at t = 0: the map in
+    /// closed form, w h - (1 - t) h^2/2 + h^3/6 = 0.
+    fn rests_under_a_linear_pull(mut speed: f64, restitution: f64) -> bool {
+        let mut left = 1.0;
+        while speed > 1.0e-30 {
+            let radicand: f64 = 0.25 * left * left - (2.0 / 3.0) * speed;
+            if radicand < 0.0 {
+                return false;
+            }
+            let h = 2.0 * speed / (0.5 * left + radicand.sqrt());
+            speed = restitution * (h * (left - 0.5 * h) - speed);
+            left -= h;
+            if left <= 0.0 {
+                return false;
+            }
+        }
+        true
+    }
+
     /// Where a launch just comes to rest before the separation, against the fastest one that the proof accepts.
     #[test]
     fn the_proof_is_nearly_sharp_where_the_pull_shrinks() {
-        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
-        for angle in [4.8, 5.2, 5.6, 6.0, 0.1, 0.4, 0.6] {
+        let (forcing, restitution) = (0.5, 0.5);
+        let map = ImpactMap::new(Vibration::from_axial_forcing(forcing).expect("legal"), restitution)
+            .expect("legal");
+        // In units of the impulse left, 1/2. Next to the separation the pull is linear.
+        let linear = 2.0 * fastest(0.5, |speed| rests_under_a_linear_pull(speed, restitution));
+        let share = |cosine: f64| {
+            let half = 0.5 * (1.0 - restitution);
+            half / (1.0 - (1.0 + restitution) / 12.0 * cosine * (1.0 + (2.0 / 3.0) * half * cosine))
+        };
+        let sharpness = |angle: f64| {
             let phase = Phase::new(angle).expect("finite");
-            let fastest = |holds: &dyn Fn(f64) -> bool| {
-                let (mut low, mut high) = (0.0, 2.0);
-                for _ in 0..40 {
-                    let middle = 0.5 * (low + high);
-                    if holds(middle) { low = middle } else { high = middle }
-                }
-                low
-            };
-            let proven = fastest(&|speed| map.vibration().chatters_to_rest(phase, speed, 0.5));
-            let true_limit = fastest(&|speed| {
-                let state = ImpactState::new(phase, -2.0 * speed).expect("legal");
+            let proven = fastest(2.0, |speed| map.vibration().chatters_to_rest(phase, speed, restitution));
+            let limit = fastest(2.0, |speed| {
+                let state = ImpactState::new(phase, -speed / restitution).expect("legal");
                 duration_of_chatter(&map, state).is_some()
             });
-            assert!(proven <= true_limit && proven > 0.85 * true_limit, "{angle}: {proven} {true_limit}");
+            assert!(proven <= limit, "{angle}: {proven} {limit}");
+            proven / limit
+        };
+        for angle in [4.8, 5.2, 5.6, 6.0, 0.1, 0.4, 0.6] {
+            assert!(sharpness(angle) > share(0.0) / linear, "{angle}: {}", sharpness(angle));
         }
+        let separation = map.vibration().separation_phase().expect("separates");
+        let (near, expected) = (sharpness(separation.angle() - 0.01), share(separation.cos()) / linear);
+        assert!((near - expected).abs() <= 0.01, "{near} {expected}");
     }
 
     /// A rest next to the separation is proven, too, though the impulse left is smaller than its rounding.
