@@ -88,6 +88,12 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     let stored = results.join("run.json");
     if options.reuse {
         let mut record = Record::read(&stored, "cargo xtask bench")?;
+        if (options.build || options.figures) && machine(&root)? != record.machine {
+            bail!(
+                "the last run was of {}, not of what is there now; run without --reuse",
+                record.machine.source
+            );
+        }
         measure_programs(options, &results, &mut record)?;
         return Ok(record);
     }
@@ -112,13 +118,19 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
 
 /// Measures whole programs, as far as it was asked for, and stores the record with their times.
 fn measure_programs(options: &Options, results: &Path, record: &mut Record) -> anyhow::Result<()> {
+    // After each, so that a failure of the next one does not lose it.
+    let store = |record: &Record| -> anyhow::Result<()> {
+        OutputFolder::create(results.to_path_buf())?.write("run.json", &record.to_json()?)?;
+        Ok(())
+    };
     if options.build {
         record.build_s = Some(build_time(results)?);
+        store(record)?;
     }
     if options.figures {
         record.figures = Some(figure_times(results)?);
+        store(record)?;
     }
-    OutputFolder::create(results.to_path_buf())?.write("run.json", &record.to_json()?)?;
     Ok(())
 }
 
@@ -163,13 +175,15 @@ fn build_time(results: &Path) -> anyhow::Result<f64> {
     remove().with_context(|| format!("cannot empty {}", target.display()))?;
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "--locked", "--package", "xtask", "--target-dir"]).arg(&target);
+    // A cache of compiled crates would make it another build.
+    cargo.env_remove("RUSTC_WRAPPER").env_remove("CARGO_BUILD_RUSTC_WRAPPER");
     let start = Instant::now();
     let status = cargo.current_dir(in_workspace("")).status().context("cannot start cargo")?;
     let seconds = start.elapsed().as_secs_f64();
+    remove().with_context(|| format!("cannot remove {}", target.display()))?;
     if !status.success() {
         bail!("cargo build failed: {status}");
     }
-    remove().with_context(|| format!("cannot remove {}", target.display()))?;
     Ok(seconds.round())
 }
 

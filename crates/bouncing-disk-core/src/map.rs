@@ -112,7 +112,7 @@ impl ImpactMap {
     }
 
     /// The impact that is so many [steps](Self::step) after the one in `state`, which itself is 0 steps after: the same bits as
-    /// one step after the other, but the state stays in registers all the way, which otherwise depends on the caller.
+    /// one step after the other, and faster where the compiler would pass the state through memory.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};

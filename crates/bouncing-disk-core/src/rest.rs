@@ -241,12 +241,15 @@ mod tests {
             assert!(proven <= limit, "{angle}: {proven} {limit}");
             proven / limit
         };
-        for angle in [4.8, 5.2, 5.6, 6.0, 0.1, 0.4, 0.6] {
-            assert!(sharpness(angle) > share(0.0) / linear, "{angle}: {}", sharpness(angle));
-        }
+        // Farther away it bends, which changes the limit by so much of itself at most; next to the separation by a thousandth.
+        const BENT: f64 = 0.02;
         let separation = map.vibration().separation_phase().expect("separates");
+        for angle in [4.8, 5.2, 5.6, 6.0, 0.1, 0.4, 0.6] {
+            let (own, cosine) = (sharpness(angle), libm::cos(angle).min(separation.cos()));
+            assert!(own > share(cosine) / linear - BENT, "{angle}: {own}");
+        }
         let (near, expected) = (sharpness(separation.angle() - 0.01), share(separation.cos()) / linear);
-        assert!((near - expected).abs() <= 0.01, "{near} {expected}");
+        assert!((near - expected).abs() <= 1.0e-3, "{near} {expected}");
     }
 
     /// A rest next to the separation is proven, too, though the impulse left is smaller than its rounding.

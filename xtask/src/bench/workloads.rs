@@ -1,4 +1,4 @@
-//! What the page says of the workload W3, computed from its definition in `crates/bouncing-disk-core/benches/basin.rs`.
+//! What the page says of the workload W3, with the same definition as in `crates/bouncing-disk-core/benches/basin.rs`.
 
 use std::f64::consts::TAU;
 
@@ -25,8 +25,8 @@ struct Ends {
     followed: usize,
 }
 
-/// The names of the places in the page, and what stands there.
-pub(super) fn places() -> anyhow::Result<Vec<(&'static str, String)>> {
+/// Map, known orbit and the radius within which it catches.
+fn definition() -> anyhow::Result<(ImpactMap, PeriodicOrbit, f64)> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(AXIAL_FORCING)?, RESTITUTION)?;
     let start = ImpactState::from_normalised(0.8, 1.3)?;
     let Some(orbit) = map.settled_orbit(start, 4_000, 4, 1.0e-8)? else {
@@ -35,6 +35,12 @@ pub(super) fn places() -> anyhow::Result<Vec<(&'static str, String)>> {
     let Some(radius) = orbit.trapping_radius(&map, 64) else {
         anyhow::bail!("the periodic orbit of W3 attracts nothing")
     };
+    Ok((map, orbit, radius))
+}
+
+/// The names of the places in the page, and what stands there.
+pub(super) fn places() -> anyhow::Result<Vec<(&'static str, String)>> {
+    let (map, orbit, radius) = definition()?;
     let ends = ends(&map, &orbit, radius)?;
     let mean = |impacts: usize| digits(impacts as f64 / (CELLS * CELLS) as f64);
     let impact = |state: &ImpactState| format!("τ = {} with v = {}", state.phase().angle(), state.velocity());
@@ -87,4 +93,26 @@ fn ends(map: &ImpactMap, orbit: &PeriodicOrbit, radius: f64) -> anyhow::Result<E
         }
     }
     Ok(ends)
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::{ATTACHED, Axis, BasinSettings, Grid, KnownOrbit, UNDECIDED};
+
+    use super::*;
+
+    #[test]
+    fn cells_followed_by_hand_end_as_in_the_basin() {
+        let (map, orbit, radius) = definition().expect("attracts");
+        let ends = ends(&map, &orbit, radius).expect("no failure");
+        let axis = |high| Axis::new(0.0, high, CELLS).expect("legal axis");
+        let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal grid");
+        let settings = BasinSettings { max_impacts: MAX_IMPACTS as u32, policy: ChatterPolicy::Complete };
+        let basins = map.basins(grid, &[KnownOrbit { orbit, radius }], settings, || ()).expect("no failure");
+        let labels = basins.labels();
+        let count = |label| labels.iter().filter(|&&own| own == label).count();
+        assert_eq!((ends.attached, ends.undecided), (count(ATTACHED), count(UNDECIDED)));
+        assert_eq!(ends.attached + ends.caught + ends.undecided, labels.len());
+        assert!(0 < ends.impacts && ends.impacts < ends.followed, "{} {}", ends.impacts, ends.followed);
+    }
 }

@@ -1,4 +1,4 @@
-//! Sorts launches by the kind of flight that follows, and computes each kind together.
+//! Sorts launches by the kind of flight that follows; each kind is computed together, in stages.
 
 mod queue;
 mod stages;

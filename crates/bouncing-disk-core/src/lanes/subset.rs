@@ -29,6 +29,7 @@ impl Lanes {
     /// The first `count` lanes, which must be between 1 and all.
     #[inline(always)]
     pub(crate) const fn first(count: usize) -> Self {
+        debug_assert!(count >= 1 && count <= LANES, "no or too many lanes");
         Self(u64::MAX >> ((LANES - count) % LANES))
     }
 
