@@ -6,9 +6,9 @@ use crate::lanes::above::Fly;
 use crate::lanes::fallen;
 use crate::lanes::low::{self, Dips};
 use crate::lanes::platform::Platform;
-use crate::lanes::search::{Advance, Finish, Forms};
+use crate::lanes::search::{Advance, Finish, Forms, Search};
 use crate::lanes::short::{self, Fate};
-use crate::lanes::{Batch, Impacts, LANES, Lanes, Who, lanes_of, wide};
+use crate::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Who, lanes_of, wide};
 
 /// Evaluations of low and fallen flights before those that need more are left to the search.
 const AT_ONCE: u8 = 2;
@@ -191,25 +191,26 @@ impl Flyer {
 
     pub(super) fn search_low(&mut self, batches: &mut [Batch], left: usize) {
         let Self { dispatch, low_search, hard, timed, .. } = self;
-        let timed = *timed;
-        low_search.go_on(
-            *dispatch,
-            left,
-            |who, from, k| land(batches, who, from, k, timed),
-            |who| hard.push(who),
-        );
+        go_on(low_search, *dispatch, left, batches, *timed, hard);
     }
 
     pub(super) fn search_fallen(&mut self, batches: &mut [Batch], left: usize) {
         let Self { dispatch, fallen_search, hard, timed, .. } = self;
-        let timed = *timed;
-        fallen_search.go_on(
-            *dispatch,
-            left,
-            |who, from, k| land(batches, who, from, k, timed),
-            |who| hard.push(who),
-        );
+        go_on(fallen_search, *dispatch, left, batches, *timed, hard);
     }
+}
+
+/// Goes on with a search until at most `left` flights remain.
+#[inline(always)]
+fn go_on<F: Forms>(
+    search: &mut Search<F>,
+    dispatch: Dispatch,
+    left: usize,
+    batches: &mut [Batch],
+    timed: bool,
+    hard: &mut Vec<Who>,
+) {
+    search.go_on(dispatch, left, |who, from, k| land(batches, who, from, k, timed), |who| hard.push(who));
 }
 
 #[inline(always)]
