@@ -38,6 +38,10 @@ pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
 
+/// A disk that comes down to the height of the crests no faster flies no longer than [`MAX_FLIGHT_DURATION`]: it was launched
+/// at most 2e4 faster, from at most 2e8 below.
+pub(crate) const LONGEST_FALL: f64 = 0.49 * MAX_FLIGHT_DURATION;
+
 /// A launch of the disk from the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Launch {
@@ -139,39 +143,18 @@ impl Vibration {
     pub(crate) fn impact_after_in_place(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
         let p = self.peak_acceleration();
         let angle = from.angle();
-        if speed < self.long_launch_speed
-            && may_return_soon(p, p * from.sin(), p * from.cos(), speed)
+        if may_return_soon(p, p * from.sin(), p * from.cos(), speed)
             && let Some(done) = self.short_flight(from, speed)?
         {
             return Ok(done.in_parts());
         }
         let disk_speed = speed + p * from.cos();
         let depth = p - p * from.sin();
-        let rising = CrestForm { peak: p, angle, speed: disk_speed, depth };
         let mut evaluations = 0;
-
-        // Until the first crest. A disk launched while the platform falls away, its crest still ahead, is above
-        // that crest for certain. One branch for the whole question: each part of it is a coin toss in a chaotic
-        // orbit, the answer hardly ever.
-        let inflection = self.time_to_separation(angle);
-        let crest = inflection + (CREST - self.separation_angle);
-        let from_falling_away = (angle >= self.separation_angle) & (angle < CREST);
-        let above = (rising.gap_over(self.separation_depth, inflection) > self.doubtful_gap)
-            & (rising.gap_over(0.0, crest) > self.doubtful_gap);
-        let no_dip = (disk_speed - inflection >= self.separation_speed) | (disk_speed <= crest);
-        if !(from_falling_away | (above & no_dip))
-            && !clears_by_tangents(
-                p,
-                self.separation_speed,
-                (inflection, rising.gap_over(self.separation_depth, inflection)),
-                (crest, rising.gap_over(0.0, crest)),
-                disk_speed,
-            )
-        {
+        let fall = (disk_speed * disk_speed - 2.0 * depth).sqrt();
+        if !self.crests.surely_cleared(p, angle, disk_speed, fall) {
             let low = LaunchForm { angle, peak: p, speed, sine: p * from.sin(), cosine: p * from.cos() };
-            if let Some((bracket, guess)) =
-                self.bracket_before_crest_of_launch(&rising, &low, inflection, crest, &mut evaluations)
-            {
+            if let Some((bracket, guess)) = self.bracket_before_crest_of_launch(&low, &mut evaluations) {
                 let root = low.root(bracket, guess, evaluations)?;
                 return Ok(landed_within_a_turn(angle, root).in_parts());
             }
@@ -187,13 +170,22 @@ impl Vibration {
     #[inline(never)]
     fn bracket_before_crest_of_launch(
         &self,
-        rising: &CrestForm,
         low: &LaunchForm,
-        inflection: f64,
-        crest: f64,
         evaluations: &mut u32,
     ) -> Option<(Bracket, f64)> {
-        if crest <= SHORT_FLIGHT {
+        let &LaunchForm { angle, peak, speed, sine, cosine } = low;
+        let rising = CrestForm { peak, angle, speed: speed + cosine, depth: peak - sine };
+        let inflection = self.time_to_separation(angle);
+        let crest = inflection + (CREST - self.separation_angle);
+        if crest <= SHORT_FLIGHT
+            || clears_by_tangents(
+                peak,
+                self.separation_speed,
+                (inflection, rising.gap_over(self.separation_depth, inflection)),
+                (crest, rising.gap_over(0.0, crest)),
+                rising.speed,
+            )
+        {
             return None;
         }
         let mut has_passed = |platform_depth: f64, t: f64| {

@@ -93,8 +93,6 @@ struct Arcs {
     start: Row,
     free_periods: Row,
     fall: Row,
-    /// Lanes that come down at all, within the longest flight.
-    regular: Mask,
 }
 
 /// Impacts of all lanes.
@@ -301,7 +299,7 @@ impl WithSimd for Rebound<'_> {
 
 impl Arcs {
     const fn new() -> Self {
-        Self { start: ROW, free_periods: ROW, fall: ROW, regular: [0; LANES] }
+        Self { start: ROW, free_periods: ROW, fall: ROW }
     }
 
     /// Takes over the arc of a lane as number `k`.
@@ -310,7 +308,6 @@ impl Arcs {
         self.start[k] = others.start[lane];
         self.free_periods[k] = others.free_periods[lane];
         self.fall[k] = others.fall[lane];
-        self.regular[k] = others.regular[lane];
     }
 }
 

@@ -1,19 +1,21 @@
 //! Cheap tests that spare a search: certain when they answer, silent otherwise.
 
+use core::f64::consts::TAU;
+
+use crate::elementary::CREST;
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::CrestForm;
 
-/// T^2/6, rounded up and down, and T^3/24, rounded up, for the half radian T of [`SHORT_FLIGHT`]: the shares of drift and
-/// curvature in the gap over its time.
-const DRIFT_SHARE: f64 = 0.0417;
-const LEAST_DRIFT_SHARE: f64 = 0.0416;
+/// T^2/6, rounded down, and T^3/24, rounded up by more than that for P > |b|, for the half radian T of [`SHORT_FLIGHT`]: the
+/// shares of drift and curvature in the gap over its time.
+const DRIFT_SHARE: f64 = 0.0416;
 const BEND_SHARE: f64 = 0.0053;
-
-/// The largest value of a h/2 - b h^2/6, as a share of a^2/b, rounded up.
-const LARGEST_PULL_SHARE: f64 = 0.375_001;
 
 /// Share of 1 + P by which the gaps and speeds of [`clears_by_tangents`] exceed a tie: far more than their rounding.
 const CLEAR: f64 = 1.0e-9;
+
+/// Share of 1 + P by which a disk at the crest must be faster than one that falls past it.
+const CLEAR_FALL: f64 = 1.0e-5;
 
 /// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
 /// a radian the pull is at most its value at launch, less its drift, plus the curvature of the platform
@@ -22,12 +24,37 @@ const CLEAR: f64 = 1.0e-9;
 pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
     let pull = 1.0 - sine;
     let pull = if pull > 0.0 { pull } else { 0.0 };
-    let bend = BEND_SHARE * peak;
-    let share = if cosine < 0.0 { DRIFT_SHARE } else { LEAST_DRIFT_SHARE };
-    let late = speed < (0.5 * SHORT_FLIGHT * pull - share * cosine) + bend;
+    let late = (0.5 * SHORT_FLIGHT) * pull - DRIFT_SHARE * cosine;
     // The pull of a disk that is about to separate is strongest before half a radian.
-    let early = (speed - bend) * cosine < LARGEST_PULL_SHARE * (pull * pull);
-    if cosine * SHORT_FLIGHT > 1.5 * pull { early } else { late }
+    let early = (0.25 * SHORT_FLIGHT) * pull;
+    speed < (if late > early { late } else { early }) + BEND_SHARE * peak
+}
+
+/// What decides whether launches clear the first crest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crests {
+    /// Time from the separation to the crest (rad).
+    pub(crate) falling: f64,
+    /// A disk that has at least this speed at the crest has not been slower than the platform since the separation.
+    pub(crate) rising: f64,
+}
+
+impl Crests {
+    pub(crate) const fn new(peak: f64, separation_angle: f64, separation_speed: f64) -> Self {
+        let falling = CREST - separation_angle;
+        Self { falling, rising: (separation_speed - falling) + CLEAR * (1.0 + peak) }
+    }
+
+    /// Whether a launch is certain not to be hit before the first crest, unless within [`SHORT_FLIGHT`] (docs/numerics.md,
+    /// section 9): `disk_speed` is that at launch, `fall` the one with which it comes down to the height of the crests.
+    #[inline(always)]
+    pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, fall: f64) -> bool {
+        let ahead = CREST - angle;
+        let crest = if ahead > 0.0 { ahead } else { ahead + TAU };
+        let speed = disk_speed - crest;
+        let above = fall + speed >= CLEAR_FALL * (1.0 + peak);
+        (crest <= self.falling) | (above & ((speed <= 0.0) | (speed >= self.rising)))
+    }
 }
 
 /// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,
@@ -82,7 +109,7 @@ mod tests {
             let vibration = vibration(k);
             let (p, phase) =
                 (vibration.peak_acceleration(), Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite"));
-            let speed = 0.5 * vibration.long_launch_speed * (1.0 + spread(k, 0.618_033_99));
+            let speed = 0.25 * SHORT_FLIGHT * (1.0 + p) * (1.0 + spread(k, 0.618_033_99));
             let flight = vibration.first_impact(Launch::new(phase, speed).expect("legal")).expect("lands");
             let may = may_return_soon(p, p * phase.sin(), p * phase.cos(), speed);
             let lands_soon = flight.duration() <= SHORT_FLIGHT;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::elementary::{CREST, asin};
 use crate::error::{Error, within};
 use crate::phase::Phase;
+use crate::shortcuts::Crests;
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.
 ///
@@ -31,9 +32,9 @@ pub struct Vibration {
     /// A gap at a crest or an inflection that may be rounding only, in the crest form.
     #[serde(skip)]
     pub(crate) doubtful_gap: f64,
-    /// A launch at least this fast cannot come back within [`crate::flight::SHORT_FLIGHT`].
+    /// Which launches clear the first crest for certain.
     #[serde(skip)]
-    pub(crate) long_launch_speed: f64,
+    pub(crate) crests: Crests,
 }
 
 impl Vibration {
@@ -66,7 +67,7 @@ impl Vibration {
             separation_speed,
             separation_depth,
             doubtful_gap: 1.0e-14 * (1.0 + p),
-            long_launch_speed: 0.5 * crate::flight::SHORT_FLIGHT * (1.0 + p),
+            crests: Crests::new(p, separation_angle, separation_speed),
         })
     }
 
@@ -79,7 +80,7 @@ impl Vibration {
             separation_speed: 0.0,
             separation_depth: 0.0,
             doubtful_gap: 1.0e-14,
-            long_launch_speed: 0.5 * crate::flight::SHORT_FLIGHT,
+            crests: Crests::new(0.0, CREST, 0.0),
         }
     }
 

@@ -86,7 +86,7 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
         let Self { platforms, arcs, work, impacts, timed } = self;
         pairs::<N>(&mut work.sin, &mut work.cos, |k| arcs.start[k]);
         first_step::<P, N>(platforms, arcs, work);
-        let astray = (0..N).fold(0, |any, k| any | (arcs.regular[k] & !work.followed[k]));
+        let astray = (0..N).fold(0, |any, k| any | !work.followed[k]);
         if astray != 0 {
             other_first_step::<P, N>(platforms, arcs, work);
         }
@@ -170,7 +170,7 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
         let within = meets_no_crest(start, step);
         let inside = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(work.root[k] > 0.0) & within;
         work.time[k] = kept(!near, step);
-        work.followed[k] = arcs.regular[k] & (near | inside) & !two_windows(platforms, arcs, &jet, k);
+        work.followed[k] = (near | inside) & !two_windows(platforms, arcs, &jet, k);
     }
 }
 
@@ -195,7 +195,7 @@ fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &
         let fine = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(step < crest);
         let next = if fine != 0 { step } else { 0.5 * crest };
         let one_window = !two_windows(platforms, arcs, &jet, k);
-        let astray = arcs.regular[k] & !followed[k] & one_window & mask(jet.gap > 0.0);
+        let astray = !followed[k] & one_window & mask(jet.gap > 0.0);
         work.time[k] = if astray != 0 { next } else { time[k] };
         work.followed[k] = followed[k] | astray;
     }

@@ -1,15 +1,12 @@
 //! What kind of flight follows each launch, as `Vibration::impact_after` decides it, and the free flight of disks that rise
 //! above the crests.
 
-use core::f64::consts::TAU;
-
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
 use super::{Arcs, LANES, Launches, Mask, mask};
-use crate::elementary::{CREST, nearest_periods};
-use crate::flight::MAX_FLIGHT_DURATION;
-use crate::gap::CrestForm;
+use crate::elementary::nearest_periods;
+use crate::flight::LONGEST_FALL;
 use crate::shortcuts::may_return_soon;
 
 /// Kinds of launches; one that is neither rises above the crests.
@@ -20,7 +17,7 @@ pub(super) struct Kinds {
     pub(super) slow: Mask,
     /// May be hit before the first crest.
     pub(super) low: Mask,
-    /// Whether any lane is slow or low.
+    /// Whether any lane is slow, low or does not come down within the longest flight.
     pub(super) special: bool,
 }
 
@@ -43,28 +40,14 @@ impl<P: Below> WithSimd for Classify<'_, P> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, launches, kinds, arcs } = self;
-        let mut any_slow = 0;
+        let (mut special, mut endless) = (0, 0);
         for lane in 0..LANES {
             let platform = platforms.lane(lane);
             let peak = platform.peak;
             let (angle, speed) = (launches.from.angle[lane], launches.speed[lane]);
-            let cosine = peak * launches.from.cos[lane];
+            let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
             let disk_speed = speed + cosine;
-            let depth = peak - peak * launches.from.sin[lane];
-            let rising = CrestForm { peak, angle, speed: disk_speed, depth };
-            let ahead = platform.separation_angle - angle;
-            let inflection = if ahead > 0.0 { ahead } else { ahead + TAU };
-            let crest = inflection + (CREST - platform.separation_angle);
-            let from_falling_away = mask(angle >= platform.separation_angle) & mask(angle < CREST);
-            let doubtful = platform.doubtful_gap;
-            let above = mask(rising.gap_over(platform.separation_depth, inflection) > doubtful)
-                & mask(rising.gap_over(0.0, crest) > doubtful);
-            let no_dip =
-                mask(disk_speed - inflection >= platform.separation_speed) | mask(disk_speed <= crest);
-            kinds.low[lane] = !(from_falling_away | (above & no_dip));
-            let slow = mask(speed < platform.long_launch_speed);
-            kinds.slow[lane] = slow;
-            any_slow |= slow;
+            let depth = peak - sine;
             // Down to the height of the crests the disk flies free. Not a number where it stays below: no comparison with it
             // holds.
             let fall = (disk_speed * disk_speed - 2.0 * depth).sqrt();
@@ -73,23 +56,13 @@ impl<P: Below> WithSimd for Classify<'_, P> {
             arcs.fall[lane] = fall;
             arcs.free_periods[lane] = periods;
             arcs.start[lane] = angle + rest;
-            arcs.regular[lane] = mask(free <= MAX_FLIGHT_DURATION);
+            let low = !mask(platform.crests.surely_cleared(peak, angle, disk_speed, fall));
+            let slow = mask(may_return_soon(peak, sine, cosine, speed));
+            kinds.low[lane] = low;
+            kinds.slow[lane] = slow;
+            special |= low | slow;
+            endless |= !mask(fall <= LONGEST_FALL);
         }
-        if any_slow != 0 {
-            slow(platforms, launches, kinds);
-        }
-        let special = kinds.slow.iter().zip(&kinds.low).fold(0, |any, (slow, low)| any | slow | low);
-        kinds.special = special != 0;
-    }
-}
-
-/// Marks the launches that may land within half a radian.
-#[inline(always)]
-fn slow<P: Below>(platforms: P, launches: Launches<'_>, kinds: &mut Kinds) {
-    for lane in 0..LANES {
-        let platform = platforms.lane(lane);
-        let (peak, speed) = (platform.peak, launches.speed[lane]);
-        let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
-        kinds.slow[lane] &= mask(may_return_soon(peak, sine, cosine, speed));
+        kinds.special = (special | endless) != 0;
     }
 }

@@ -12,6 +12,7 @@ use super::search::{Search, Times};
 use super::short::Short;
 use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Who, lanes_of};
 use crate::error::Error;
+use crate::flight::LONGEST_FALL;
 use queue::Queue;
 
 /// Computes the flights of batches of lanes.
@@ -186,6 +187,11 @@ impl Flyer {
     #[inline(always)]
     fn go_above(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let comes_down = batch.arcs.fall[lane] <= LONGEST_FALL;
+        if !comes_down {
+            self.hard.push(who);
+            return;
+        }
         let k = self.above.place(who);
         self.above.rows.take(k, &batch.arcs, lane);
         if shared.is_none() {

@@ -1,6 +1,7 @@
 //! What the lanes fly above: one platform for all of them, or each its own.
 
 use super::{ROW, Row};
+use crate::shortcuts::Crests;
 use crate::vibration::Vibration;
 
 /// What the flights above one platform need to know of it (see [`Vibration`]).
@@ -11,7 +12,7 @@ pub(crate) struct Platform {
     pub(super) separation_speed: f64,
     pub(super) separation_depth: f64,
     pub(super) doubtful_gap: f64,
-    pub(super) long_launch_speed: f64,
+    pub(super) crests: Crests,
 }
 
 impl From<&Vibration> for Platform {
@@ -22,7 +23,7 @@ impl From<&Vibration> for Platform {
             separation_speed: vibration.separation_speed,
             separation_depth: vibration.separation_depth,
             doubtful_gap: vibration.doubtful_gap,
-            long_launch_speed: vibration.long_launch_speed,
+            crests: vibration.crests,
         }
     }
 }
@@ -36,7 +37,8 @@ pub(crate) struct Platforms {
     separation_speed: Row,
     separation_depth: Row,
     doubtful_gap: Row,
-    long_launch_speed: Row,
+    falling: Row,
+    rising: Row,
 }
 
 /// The platform below a lane. A shared one stays in registers, which is why there are two kinds.
@@ -60,7 +62,7 @@ impl Below for &Platforms {
             separation_speed: self.separation_speed[lane],
             separation_depth: self.separation_depth[lane],
             doubtful_gap: self.doubtful_gap[lane],
-            long_launch_speed: self.long_launch_speed[lane],
+            crests: Crests { falling: self.falling[lane], rising: self.rising[lane] },
         }
     }
 }
@@ -74,7 +76,8 @@ impl Platforms {
             separation_speed: ROW,
             separation_depth: ROW,
             doubtful_gap: ROW,
-            long_launch_speed: ROW,
+            falling: ROW,
+            rising: ROW,
         }
     }
 
@@ -85,6 +88,7 @@ impl Platforms {
         self.separation_speed[lane] = platform.separation_speed;
         self.separation_depth[lane] = platform.separation_depth;
         self.doubtful_gap[lane] = platform.doubtful_gap;
-        self.long_launch_speed[lane] = platform.long_launch_speed;
+        self.falling[lane] = platform.crests.falling;
+        self.rising[lane] = platform.crests.rising;
     }
 }

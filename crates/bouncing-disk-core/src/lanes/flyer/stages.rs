@@ -140,10 +140,6 @@ impl Flyer {
     /// Goes on with a lane at the height of the crests, from the time that a first step has led to, or from zero.
     pub(super) fn keep_falling(&mut self, batches: &mut [Batch], who: Who, reached: f64) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
-        if batch.arcs.regular[lane] == 0 {
-            self.hard.push(who);
-            return;
-        }
         let platform = batch.platform(lane);
         let place = self.fallen.place(who);
         self.fallen.rows.set(place, &batch.arcs, lane, reached);
