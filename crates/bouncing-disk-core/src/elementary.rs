@@ -77,7 +77,7 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
 #[inline(always)]
 pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
     let (r, quadrant) = reduced_of_lane(x);
-    sin_cos_of_reduced(r, quadrant)
+    sin_cos_of_reduced(r, quadrant, false)
 }
 
 /// The angle less the nearest number of quarter turns, and that number.
@@ -87,17 +87,21 @@ pub(crate) fn reduced_of_lane(x: f64) -> (f64, u64) {
     ((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE, quadrant)
 }
 
-/// The second part of [`sin_cos_of_lane`].
+/// The second part of [`sin_cos_of_lane`], the same bits with selections (`blends`) or without.
 #[inline(always)]
-pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64) -> (f64, f64) {
+pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64, blends: bool) -> (f64, f64) {
     let (sine, cosine) = pair_polynomials(r);
     // Quadrant q: the pair is swapped if q is odd; the signs are those of the bits 1, and 1 xor 0.
-    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
-    let swapped = (sine ^ cosine) & 0_u64.wrapping_sub(quadrant & 1);
-    let sign = (quadrant << 62) & (1 << 63);
-    let s = (sine ^ swapped) ^ sign;
-    let c = (cosine ^ swapped) ^ (sign ^ (quadrant << 63));
-    (f64::from_bits(s), f64::from_bits(c))
+    let (odd, second) = (quadrant << 63, (quadrant << 62) & (1 << 63));
+    let (s, c) = if blends {
+        // A vector selection looks at nothing but the sign.
+        if (odd as i64) < 0 { (cosine, sine) } else { (sine, cosine) }
+    } else {
+        let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+        let swapped = (sine ^ cosine) & 0_u64.wrapping_sub(quadrant & 1);
+        (f64::from_bits(sine ^ swapped), f64::from_bits(cosine ^ swapped))
+    };
+    (f64::from_bits(s.to_bits() ^ second), f64::from_bits(c.to_bits() ^ (second ^ odd)))
 }
 
 /// Sine and cosine of `r` in [-pi/4, pi/4]: the minimax polynomials of FreeBSD's `k_sin.c` and `k_cos.c`, summed as
@@ -209,10 +213,11 @@ pub(crate) fn nearby_wrapped(angle: f64) -> (f64, f64) {
 pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
     let turns = ((angle * (1.0 / TAU) - 0.5) + ROUND_MAGIC) - ROUND_MAGIC;
     let wrapped = angle - turns * TAU;
-    let (below, above) = (wrapped < 0.0, wrapped >= TAU);
-    let inside = if above { wrapped - TAU } else { wrapped };
-    let counted = if above { turns + 1.0 } else { turns };
-    (if below { wrapped + TAU } else { inside }, if below { turns - 1.0 } else { counted })
+    let share = |of: f64| {
+        let (below, above) = (if wrapped < 0.0 { of } else { 0.0 }, if wrapped >= TAU { of } else { 0.0 });
+        below - above
+    };
+    (wrapped + share(TAU), turns - share(1.0))
 }
 
 /// The nearest whole number to `x`, for |x| below 2^51.

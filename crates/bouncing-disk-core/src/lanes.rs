@@ -47,13 +47,15 @@ pub(crate) const fn mask(condition: bool) -> u64 {
 
 /// Sines and cosines of some angles, in two loops: the processor overlaps more iterations of shorter ones.
 #[inline(always)]
-fn pairs<const N: usize>(sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
+fn pairs<S: Simd, const N: usize>(sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
     for k in 0..N {
         let (reduced, quadrant) = reduced_of_lane(angle(k));
         (sin[k], cos[k]) = (reduced, f64::from_bits(quadrant));
     }
+    // The baseline has no instruction for a selection.
+    let blends = size_of::<S::f64s>() > size_of::<f64>();
     for k in 0..N {
-        (sin[k], cos[k]) = sin_cos_of_reduced(sin[k], cos[k].to_bits());
+        (sin[k], cos[k]) = sin_cos_of_reduced(sin[k], cos[k].to_bits(), blends);
     }
 }
 

@@ -31,9 +31,11 @@ pub(super) struct Work {
     inverse: Row,
     /// Lanes whose steps are those of the search.
     followed: Mask,
-    /// Lanes near their root at the last evaluation.
+    /// Lanes near their root: at the start, or, if followed, surely at the last evaluation.
     near: Mask,
-    /// Whether all lanes have landed.
+    /// Whether `second` is the time of the second evaluation, else `time` is.
+    stepped: bool,
+    /// Whether all lanes have landed at the second evaluation.
     pub(super) all: bool,
 }
 
@@ -50,6 +52,7 @@ impl Work {
             inverse: ROW,
             followed: [0; LANES],
             near: [0; LANES],
+            stepped: false,
             all: false,
         }
     }
@@ -57,13 +60,14 @@ impl Work {
     /// The lanes that have landed.
     #[inline(always)]
     pub(super) fn landed(&self) -> Lanes {
-        lanes_of(&self.followed) & lanes_of(&self.near)
+        lanes_of(&self.near)
     }
 
     /// Where the first step of the search has led a lane that has not landed; zero where it is not known.
     #[inline(always)]
     pub(super) const fn reached(&self, k: usize) -> f64 {
-        kept(self.followed[k], self.second[k])
+        let second = if self.stepped { &self.second } else { &self.time };
+        kept(self.followed[k], second[k])
     }
 }
 
@@ -84,21 +88,17 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, arcs, work, impacts, timed } = self;
-        pairs::<N>(&mut work.sin, &mut work.cos, |k| arcs.start[k]);
-        first_step::<P, N>(platforms, arcs, work);
-        let astray = (0..N).fold(0, |any, k| any | !work.followed[k]);
-        if astray != 0 {
+        pairs::<S, N>(&mut work.sin, &mut work.cos, |k| arcs.start[k]);
+        if !first_step::<P, N>(platforms, arcs, work) {
             other_first_step::<P, N>(platforms, arcs, work);
         }
-        evaluate::<P, N>(platforms, arcs, work);
-        let landed = (0..N).fold(u64::MAX, |all, k| all & work.followed[k] & work.near[k]);
-        work.all = landed == u64::MAX;
+        work.stepped = false;
+        work.all = evaluate::<S, P, N>(platforms, arcs, work);
         if !work.all {
-            work.second = work.time;
-            let missing: u64 = (0..N).map(|k| work.followed[k] & !work.near[k] & 1).sum();
-            if missing >= (N / MANY) as u64 {
+            let missing = Lanes::first(N).without(work.landed());
+            if missing.count() >= N / MANY {
                 second_step::<P, N>(platforms, arcs, work);
-                evaluate::<P, N>(platforms, arcs, work);
+                evaluate::<S, P, N>(platforms, arcs, work);
             }
         }
         last_step::<P, N>(platforms, arcs, work);
@@ -141,37 +141,46 @@ fn form<P: Below>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
 /// Lanes with no crest between the start and so much later.
 #[inline(always)]
 fn meets_no_crest(start: f64, time: f64) -> u64 {
-    let crests = |angle: f64| nearest_whole(angle * (1.0 / TAU) - 0.75);
-    mask(crests(start + (time + CLEAR)) <= crests(start - CLEAR))
+    // Turns since half a turn before the last crest.
+    let turns = start * (1.0 / TAU) - (0.75 + CLEAR);
+    let ahead = (nearest_whole(turns) - turns) + (0.5 - 2.0 * CLEAR);
+    mask(time * (1.0 / TAU) < ahead)
 }
 
-/// The step of the model from where the gap is known.
+/// The step of the model from where the gap is known, given the square roots of its radicands.
 #[inline(always)]
 fn model_step<const N: usize>(work: &mut Work, jet: impl Fn(&Work, usize) -> Jet) {
-    for k in 0..N {
-        work.root[k] = jet(work, k).radicand().sqrt();
-    }
     for k in 0..N {
         work.quadratic[k] = jet(work, k).quadratic_step(work.root[k]);
     }
     for k in 0..N {
-        work.step[k] = jet(work, k).corrected_step(work.quadratic[k], work.root[k]);
+        work.step[k] = jet(work, k).corrected_step_of_lane(work.quadratic[k], work.root[k]);
     }
 }
 
-/// The first step of the search of one flight; none where the root is near.
+/// The first step of the search of one flight; none where the root is near. Whether all lanes are followed.
 #[inline(always)]
-fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
-    model_step::<N>(work, |work, k| first_jet(platforms, arcs, work, k));
+fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     for k in 0..N {
         let jet = first_jet(platforms, arcs, work, k);
-        let (start, step) = (arcs.start[k], work.step[k]);
-        let near = mask(jet.is_near_root());
-        let within = meets_no_crest(start, step);
-        let inside = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(work.root[k] > 0.0) & within;
-        work.time[k] = kept(!near, step);
-        work.followed[k] = (near | inside) & !two_windows(platforms, arcs, &jet, k);
+        let one_window = !two_windows(platforms, arcs, &jet, k);
+        let radicand = jet.radicand();
+        let usable = one_window & mask(jet.slope < 0.0) & mask(radicand > 0.0);
+        work.near[k] = one_window & mask(jet.is_near_root());
+        // Not a number where the model is of no use: nor is the step then, and no comparison with it holds.
+        work.root[k] = f64::from_bits(radicand.sqrt().to_bits() | !usable);
     }
+    model_step::<N>(work, |work, k| first_jet(platforms, arcs, work, k));
+    let mut all = u64::MAX;
+    for k in 0..N {
+        let (start, step) = (arcs.start[k], work.step[k]);
+        let inside = mask(step > 0.0) & meets_no_crest(start, step);
+        let followed = work.near[k] | inside;
+        work.time[k] = kept(!work.near[k], step);
+        work.followed[k] = followed;
+        all &= followed;
+    }
+    all == u64::MAX
 }
 
 /// Lanes behind a crest, the platform falling away faster than the disk may fall: two windows.
@@ -204,6 +213,11 @@ fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &
 /// The step after the second evaluation, where the root is not near: that of the search if it stays in the window.
 #[inline(always)]
 fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+    work.second = work.time;
+    work.stepped = true;
+    for k in 0..N {
+        work.root[k] = jet(platforms, arcs, work, k).radicand().sqrt();
+    }
     model_step::<N>(work, |work, k| jet(platforms, arcs, work, k));
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
@@ -214,23 +228,27 @@ fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut W
         let within = (later & mask(next > time) & meets_no_crest(arcs.start[k], next))
             | (!later & mask(next > 0.0) & mask(next < time));
         let inside = mask(jet.slope < 0.0) & mask(work.root[k] > 0.0) & within;
-        let moves = !work.near[k] & inside;
+        let moves = !mask(jet.is_near_root()) & inside;
         work.time[k] = if moves != 0 { next } else { time };
     }
 }
 
-/// Another evaluation, and the Newton step from there.
+/// Another evaluation, and the Newton step from there. Whether all lanes are near their root.
 #[inline(always)]
-fn evaluate<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+fn evaluate<S: Simd, P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     let Work { time, sin, cos, .. } = &mut *work;
-    pairs::<N>(sin, cos, |k| arcs.start[k] + time[k]);
+    pairs::<S, N>(sin, cos, |k| arcs.start[k] + time[k]);
+    let mut all = u64::MAX;
     for k in 0..N {
         let jet = jet(platforms, arcs, work, k);
         let inverse = 1.0 / jet.slope;
         work.inverse[k] = inverse;
         work.step[k] = -(jet.gap * inverse);
-        work.near[k] = mask(jet.is_near_root());
+        let near = work.followed[k] & mask(jet.is_surely_near_root(platforms.lane(k).peak));
+        work.near[k] = near;
+        all &= near;
     }
+    all == u64::MAX
 }
 
 /// The last step.
@@ -254,11 +272,14 @@ fn impact<P: Below, const N: usize, const TIMED: bool>(
         let time = work.time[k] + delta;
         let (sin, cos) = rotated(work.sin[k], work.cos[k], delta);
         let velocity = (-arcs.fall[k] - time) - platforms.lane(k).peak * cos;
-        let (wrapped, turns) = nearby_wrapped_of_lane(arcs.start[k] + time);
-        impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
+        impacts.angle[k] = arcs.start[k] + time;
         impacts.sin[k] = sin;
         impacts.cos[k] = cos;
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
+    }
+    for k in 0..N {
+        let (wrapped, turns) = nearby_wrapped_of_lane(impacts.angle[k]);
+        impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
         if TIMED {
             impacts.turns[k] = arcs.free_periods[k] + turns;
             impacts.duration[k] = Impacts::BETWEEN_PHASES;

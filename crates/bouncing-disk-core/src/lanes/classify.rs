@@ -40,27 +40,27 @@ impl<P: Below> WithSimd for Classify<'_, P> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, launches, kinds, arcs } = self;
+        for lane in 0..LANES {
+            let peak = platforms.lane(lane).peak;
+            let speed = launches.speed[lane];
+            let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
+            let disk_speed = speed + cosine;
+            // Not a number where the disk stays below the crests: no comparison with it holds.
+            arcs.fall[lane] = (disk_speed * disk_speed - 2.0 * (peak - sine)).sqrt();
+            kinds.slow[lane] = mask(may_return_soon(peak, sine, cosine, speed));
+            arcs.start[lane] = disk_speed;
+        }
         let (mut special, mut endless) = (0, 0);
         for lane in 0..LANES {
             let platform = platforms.lane(lane);
-            let peak = platform.peak;
-            let (angle, speed) = (launches.from.angle[lane], launches.speed[lane]);
-            let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
-            let disk_speed = speed + cosine;
-            let depth = peak - sine;
-            // Down to the height of the crests the disk flies free. Not a number where it stays below: no comparison with it
-            // holds.
-            let fall = (disk_speed * disk_speed - 2.0 * depth).sqrt();
-            let free = disk_speed + fall;
-            let (periods, rest) = nearest_periods(free);
-            arcs.fall[lane] = fall;
+            let (angle, disk_speed, fall) = (launches.from.angle[lane], arcs.start[lane], arcs.fall[lane]);
+            // Down to the height of the crests the disk flies free.
+            let (periods, rest) = nearest_periods(disk_speed + fall);
             arcs.free_periods[lane] = periods;
             arcs.start[lane] = angle + rest;
-            let low = !mask(platform.crests.surely_cleared(peak, angle, disk_speed, fall));
-            let slow = mask(may_return_soon(peak, sine, cosine, speed));
+            let low = !mask(platform.crests.surely_cleared(platform.peak, angle, disk_speed, fall));
             kinds.low[lane] = low;
-            kinds.slow[lane] = slow;
-            special |= low | slow;
+            special |= low | kinds.slow[lane];
             endless |= !mask(fall <= LONGEST_FALL);
         }
         kinds.special = (special | endless) != 0;

@@ -24,9 +24,9 @@ pub(super) struct Fallen {
 
 impl Forms for Fallen {
     #[inline(always)]
-    fn evaluate<const N: usize>(&mut self, times: &mut Times) {
+    fn evaluate<S: Simd, const N: usize>(&mut self, times: &mut Times) {
         let Times { time, sin, cos, .. } = &mut *times;
-        pairs::<N>(sin, cos, |k| self.start[k] + time[k]);
+        pairs::<S, N>(sin, cos, |k| self.start[k] + time[k]);
         for k in 0..N {
             let form =
                 CrestForm { peak: times.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 };
@@ -37,7 +37,7 @@ impl Forms for Fallen {
     }
 
     #[inline(always)]
-    fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
+    fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
         for k in 0..N {
             let time = times.time[k];
             let velocity = (-self.fall[k] - time) - times.peak[k] * times.cos[k];

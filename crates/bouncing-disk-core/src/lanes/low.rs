@@ -45,10 +45,10 @@ impl Verdicts {
 
 impl Forms for Low {
     #[inline(always)]
-    fn evaluate<const N: usize>(&mut self, times: &mut Times) {
+    fn evaluate<S: Simd, const N: usize>(&mut self, times: &mut Times) {
         let Times { time, sin, cos, .. } = &mut *times;
-        pairs::<N>(sin, cos, |k| self.angle[k] + time[k]);
-        self.turn::<N>(times);
+        pairs::<S, N>(sin, cos, |k| self.angle[k] + time[k]);
+        self.turn::<S, N>(times);
         for k in 0..N {
             let (form, of_time) = (self.form(times, k), (self.versine[k], self.sine_of_time[k]));
             times.gap[k] = form.gap_of(times.time[k], of_time);
@@ -57,8 +57,8 @@ impl Forms for Low {
     }
 
     #[inline(always)]
-    fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
-        self.turn::<N>(times);
+    fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
+        self.turn::<S, N>(times);
         for k in 0..N {
             // The velocity is the slope of the launch form at the impact.
             let time = times.time[k];
@@ -160,7 +160,7 @@ impl<const N: usize> WithSimd for Dips<'_, N> {
         for k in 0..N {
             times.time[k] = 0.5 * (times.lo[k] + times.hi[k]);
         }
-        low.evaluate::<N>(times);
+        low.evaluate::<S, N>(times);
         for k in 0..N {
             let (lo, hi, t) = (times.lo[k], times.hi[k], times.time[k]);
             let (gap, slope) = (times.gap[k], times.slope[k]);
@@ -190,8 +190,8 @@ impl Low {
     }
 
     #[inline(always)]
-    fn turn<const N: usize>(&mut self, times: &Times) {
-        pairs::<N>(&mut self.versine, &mut self.sine_of_time, |k| 0.5 * times.time[k]);
+    fn turn<S: Simd, const N: usize>(&mut self, times: &Times) {
+        pairs::<S, N>(&mut self.versine, &mut self.sine_of_time, |k| 0.5 * times.time[k]);
         for k in 0..N {
             let half = (self.versine[k], self.sine_of_time[k]);
             (self.versine[k], self.sine_of_time[k]) = LaunchForm::versine_and_sine_of_half(half);

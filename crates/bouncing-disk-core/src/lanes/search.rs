@@ -12,10 +12,10 @@ const EVALUATIONS: u8 = 8;
 /// Flights in one of the forms of the gap.
 pub(super) trait Forms: Clone {
     /// Evaluates gaps, slopes and the pairs of the phases at the times reached.
-    fn evaluate<const N: usize>(&mut self, times: &mut Times);
+    fn evaluate<S: Simd, const N: usize>(&mut self, times: &mut Times);
 
     /// The impacts of flights whose times and pairs are those of the impact.
-    fn land<const N: usize>(&mut self, times: &Times, impacts: &mut Impacts);
+    fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts);
 
     /// Copies number `from` of others.
     fn copy(&mut self, to: usize, others: &Self, from: usize);
@@ -106,7 +106,7 @@ impl<F: Forms, const N: usize> WithSimd for Advance<'_, F, N> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { forms, times, evaluations, steps_on } = self;
         for evaluation in 1..=evaluations {
-            forms.evaluate::<N>(times);
+            forms.evaluate::<S, N>(times);
             for k in 0..N {
                 times.near[k] = mask(times.jet(k).is_near_root());
             }
@@ -128,7 +128,7 @@ fn step<const N: usize>(times: &mut Times) {
     for k in 0..N {
         let jet = times.jet(k);
         let root = times.root[k];
-        let model = jet.corrected_step(times.step[k], root);
+        let model = jet.corrected_step_of_lane(times.step[k], root);
         let newton = -(jet.gap * (1.0 / jet.slope));
         times.step[k] = if root > 0.0 { model } else { newton };
     }
@@ -160,7 +160,7 @@ impl<F: Forms, const N: usize> WithSimd for Finish<'_, F, N> {
             (times.sin[k], times.cos[k]) = rotated(times.sin[k], times.cos[k], delta);
             times.time[k] += delta;
         }
-        forms.land::<N>(times, impacts);
+        forms.land::<S, N>(times, impacts);
     }
 }
 

@@ -33,6 +33,10 @@ impl Lanes {
         Self(u64::MAX >> ((LANES - count) % LANES))
     }
 
+    pub(super) const fn count(self) -> usize {
+        self.0.count_ones() as usize
+    }
+
     /// Those that are not among others.
     #[inline(always)]
     pub(super) const fn without(self, others: Self) -> Self {
