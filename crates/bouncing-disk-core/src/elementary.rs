@@ -111,11 +111,7 @@ fn pair_polynomials(r: f64) -> (f64, f64) {
     let z = r * r;
     let z2 = z * z;
     let rz = r * z;
-    let sine_low = z * 8.333_333_333_322_489_461_24e-3 - 1.666_666_666_666_663_243_48e-1;
-    let sine_middle = z * 2.755_731_370_707_006_767_89e-6 - 1.984_126_982_985_794_931_34e-4;
-    let sine_high = z * 1.589_690_995_211_550_102_21e-10 - 2.505_076_025_340_686_341_95e-8;
     let z4 = z2 * z2;
-    let sine = r + rz * ((sine_low + z2 * sine_middle) + z4 * sine_high);
     let half = 0.5 * z;
     let head = 1.0 - half;
     let lost = (1.0 - head) - half;
@@ -123,6 +119,10 @@ fn pair_polynomials(r: f64) -> (f64, f64) {
     let cosine_middle = 2.480_158_728_947_672_941_78e-5 - z * 2.755_731_435_139_066_330_35e-7;
     let cosine_high = 2.087_572_321_298_174_827_90e-9 - z * 1.135_964_755_778_819_482_65e-11;
     let cosine = head + ((lost + z2 * cosine_low) + (z4 * cosine_middle + (z4 * z2) * cosine_high));
+    let sine_low = z * 8.333_333_333_322_489_461_24e-3 - 1.666_666_666_666_663_243_48e-1;
+    let sine_middle = z * 2.755_731_370_707_006_767_89e-6 - 1.984_126_982_985_794_931_34e-4;
+    let sine_high = z * 1.589_690_995_211_550_102_21e-10 - 2.505_076_025_340_686_341_95e-8;
+    let sine = r + rz * ((sine_low + z2 * sine_middle) + z4 * sine_high);
     (sine, cosine)
 }
 

@@ -1,7 +1,7 @@
 //! Independent orbits of impact maps, advanced together.
 
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Row};
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES};
 use crate::map::{ImpactMap, ImpactState};
 
 /// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of
@@ -23,7 +23,6 @@ use crate::map::{ImpactMap, ImpactState};
 pub struct Ensemble {
     flyer: Box<Flyer>,
     batches: Vec<Batch>,
-    restitutions: Vec<Row>,
     len: usize,
 }
 
@@ -43,21 +42,17 @@ impl Ensemble {
         let mut ensemble = Self {
             flyer: Box::new(Flyer::new(set, false)),
             batches: Vec::new(),
-            restitutions: Vec::new(),
             len: 0,
         };
         for (map, state) in starts {
             let lane = ensemble.len % LANES;
             if lane == 0 {
                 ensemble.batches.push(Batch::new(*map.vibration()));
-                ensemble.restitutions.push([0.0; LANES]);
             }
-            if let (Some(batch), Some(restitution)) =
-                (ensemble.batches.last_mut(), ensemble.restitutions.last_mut())
-            {
+            if let Some(batch) = ensemble.batches.last_mut() {
                 batch.set_platform(lane, *map.vibration());
                 batch.set_impact(lane, state.phase(), state.velocity());
-                restitution[lane] = map.restitution();
+                batch.set_restitution(lane, map.restitution());
             }
             ensemble.len += 1;
         }
@@ -89,9 +84,6 @@ impl Ensemble {
     /// The error of the first orbit that has none (see [`ImpactMap::step`]); that orbit stays where it is, the others
     /// go on.
     pub fn step(&mut self) -> Result<(), Error> {
-        for (batch, restitution) in self.batches.iter_mut().zip(&self.restitutions) {
-            batch.rebound(self.flyer.dispatch(), restitution);
-        }
         let (mut first, mut failed) = (None, Vec::new());
         self.flyer.fly(&mut self.batches, self.len, |index, error| {
             failed.push(index);

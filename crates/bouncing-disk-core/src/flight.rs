@@ -38,9 +38,9 @@ pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
 
-/// A disk that comes down to the height of the crests no faster flies no longer than [`MAX_FLIGHT_DURATION`]: it was launched
-/// at most 2e4 faster, from at most 2e8 below.
-pub(crate) const LONGEST_FALL: f64 = 0.49 * MAX_FLIGHT_DURATION;
+/// A disk that comes down to the height of the crests with this speed or a slower one flies no longer than
+/// [`MAX_FLIGHT_DURATION`]: it was launched at most 2e4 faster, from at most 2e8 below.
+pub(crate) const FASTEST_ARC: f64 = -0.49 * MAX_FLIGHT_DURATION;
 
 /// A launch of the disk from the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -151,8 +151,8 @@ impl Vibration {
         let disk_speed = speed + p * from.cos();
         let depth = p - p * from.sin();
         let mut evaluations = 0;
-        let fall = (disk_speed * disk_speed - 2.0 * depth).sqrt();
-        if !self.crests.surely_cleared(p, angle, disk_speed, fall) {
+        let arc_speed = -(disk_speed * disk_speed - 2.0 * depth).sqrt();
+        if !self.crests.surely_cleared(p, angle, disk_speed, arc_speed) {
             let low = LaunchForm { angle, peak: p, speed, sine: p * from.sin(), cosine: p * from.cos() };
             if let Some((bracket, guess)) = self.bracket_before_crest_of_launch(&low, &mut evaluations) {
                 let root = low.root(bracket, guess, evaluations)?;

@@ -49,8 +49,6 @@ pub(crate) struct Jet {
     pub(crate) third: f64,
     /// P sin: the platform's height.
     pub(crate) platform: f64,
-    pub(crate) sin: f64,
-    pub(crate) cos: f64,
 }
 
 impl Jet {
@@ -142,8 +140,8 @@ impl Jet {
 
 /// A way to evaluate the gap.
 pub(crate) trait GapForm: Copy {
-    /// Gap and derivatives at time `t` from the form's reference.
-    fn jet(&self, t: f64) -> Jet;
+    /// Gap and derivatives at time `t` from the form's reference, with sine and cosine of the phase there.
+    fn jet(&self, t: f64) -> (Jet, (f64, f64));
     /// Relative velocity at `t`, where the phase has this cosine.
     fn velocity(&self, t: f64, cos: f64) -> f64;
     /// Bound on the rounding error of the gap at `t`.
@@ -159,9 +157,9 @@ pub(crate) trait GapForm: Copy {
         let mut t = guess;
         let mut used = evaluations;
         loop {
-            let jet = self.jet(t);
+            let (jet, (sin, cos)) = self.jet(t);
             used += 1;
-            let Jet { gap, slope, sin, cos, .. } = jet;
+            let Jet { gap, slope, .. } = jet;
             if jet.is_near_root() {
                 let delta = jet.last_step();
                 let time = t + delta;
@@ -212,7 +210,7 @@ pub(crate) trait GapForm: Copy {
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let mut t = 0.5 * (lo + hi);
         loop {
-            let Jet { gap, slope, curvature, .. } = self.jet(t);
+            let (Jet { gap, slope, curvature, .. }, _) = self.jet(t);
             *evaluations += 1;
             if gap <= 0.0 {
                 return Some(t);
@@ -274,17 +272,15 @@ impl CrestForm {
             curvature: platform - 1.0,
             third,
             platform,
-            sin,
-            cos,
         }
     }
 }
 
 impl GapForm for CrestForm {
     #[inline(always)]
-    fn jet(&self, t: f64) -> Jet {
+    fn jet(&self, t: f64) -> (Jet, (f64, f64)) {
         let (sin, cos) = sin_cos_bounded(self.angle + t);
-        self.jet_of_pair(t, sin, cos)
+        (self.jet_of_pair(t, sin, cos), (sin, cos))
     }
 
     #[inline(always)]
@@ -355,16 +351,15 @@ impl LaunchForm {
             curvature: platform - 1.0,
             third: self.peak * cos,
             platform,
-            sin,
-            cos,
         }
     }
 }
 
 impl GapForm for LaunchForm {
     #[inline(always)]
-    fn jet(&self, t: f64) -> Jet {
-        self.jet_of_pairs(t, sin_cos_bounded(self.angle + t), Self::versine_and_sine(t))
+    fn jet(&self, t: f64) -> (Jet, (f64, f64)) {
+        let pair = sin_cos_bounded(self.angle + t);
+        (self.jet_of_pairs(t, pair, Self::versine_and_sine(t)), pair)
     }
 
     fn velocity(&self, t: f64, _cos: f64) -> f64 {

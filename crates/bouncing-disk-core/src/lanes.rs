@@ -22,7 +22,7 @@ use pulp::{Simd, WithSimd};
 
 use crate::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::flight::Impact;
-use crate::map::ImpactState;
+use crate::map::{ImpactMap, ImpactState};
 use crate::phase::Phase;
 use crate::vibration::Vibration;
 use platform::{Below, Platform, Platforms};
@@ -48,6 +48,17 @@ pub(crate) const fn mask(condition: bool) -> u64 {
 /// Sines and cosines of some angles, in two loops: the processor overlaps more iterations of shorter ones.
 #[inline(always)]
 fn pairs<S: Simd, const N: usize>(sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
+    scaled_pairs::<S, N>(sin, cos, angle, |_| 1.0);
+}
+
+/// [`pairs`], multiplied by a number for each.
+#[inline(always)]
+fn scaled_pairs<S: Simd, const N: usize>(
+    sin: &mut Row,
+    cos: &mut Row,
+    angle: impl Fn(usize) -> f64,
+    scale: impl Fn(usize) -> f64,
+) {
     for k in 0..N {
         let (reduced, quadrant) = reduced_of_lane(angle(k));
         (sin[k], cos[k]) = (reduced, f64::from_bits(quadrant));
@@ -55,7 +66,8 @@ fn pairs<S: Simd, const N: usize>(sin: &mut Row, cos: &mut Row, angle: impl Fn(u
     // The baseline has no instruction for a selection.
     let blends = size_of::<S::f64s>() > size_of::<f64>();
     for k in 0..N {
-        (sin[k], cos[k]) = sin_cos_of_reduced(sin[k], cos[k].to_bits(), blends);
+        let (s, c) = sin_cos_of_reduced(sin[k], cos[k].to_bits(), blends);
+        (sin[k], cos[k]) = (scale(k) * s, scale(k) * c);
     }
 }
 
@@ -87,14 +99,23 @@ pub(crate) struct Launches<'a> {
     pub(crate) speed: &'a Row,
 }
 
+/// The rows of a batch in flight.
+struct Rows<'a> {
+    from: &'a Impacts,
+    speed: &'a mut Row,
+    restitution: &'a Row,
+    arcs: &'a mut Arcs,
+    impacts: &'a mut Impacts,
+}
+
 /// Disks that have come down to the height of the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 struct Arcs {
-    /// Phase less the whole periods flown, those periods, and the speed.
+    /// Phase less the whole periods flown, those periods, and the disk's speed, which is negative.
     start: Row,
     free_periods: Row,
-    fall: Row,
+    speed: Row,
 }
 
 /// Impacts of all lanes.
@@ -130,6 +151,8 @@ pub(crate) struct Batch {
     from: usize,
     /// Relative speeds of the launches.
     speed: Row,
+    /// Coefficients of restitution, where every launch follows the impact before.
+    restitution: Row,
     arcs: Arcs,
     vibrations: [Vibration; LANES],
     /// P of every lane.
@@ -158,10 +181,16 @@ impl Batch {
             last: 0,
             from: 0,
             speed: ROW,
+            restitution: ROW,
             arcs: Arcs::new(),
             vibrations: [vibration; LANES],
             peaks: [vibration.peak_acceleration(); LANES],
         }
+    }
+
+    /// All lanes on the platform of a map and with its restitution.
+    pub(crate) fn of_map(map: &ImpactMap) -> Self {
+        Self { restitution: [map.restitution(); LANES], ..Self::new(*map.vibration()) }
     }
 
     /// Puts all lanes on the same platform.
@@ -223,12 +252,12 @@ impl Batch {
         self.last = 1 - self.last;
     }
 
-    /// Platform, launches, arcs and impacts, after [`Self::turn`].
+    /// Platforms and rows, after [`Self::turn`].
     #[inline(always)]
-    const fn parts(&mut self) -> (&Ground, Launches<'_>, &mut Arcs, &mut Impacts) {
-        let [first, second] = &mut self.impacts;
-        let (from, to) = if self.last == 0 { (second, first) } else { (first, second) };
-        (&self.ground, Launches { from, speed: &self.speed }, &mut self.arcs, to)
+    const fn parts(&mut self) -> (&Ground, Rows<'_>) {
+        let Self { ground, impacts: [first, second], speed, restitution, arcs, .. } = self;
+        let (from, impacts) = if self.last == 0 { (second, first) } else { (first, second) };
+        (ground, Rows { from, speed, restitution, arcs, impacts })
     }
 
     /// Sets the impact of a lane: what its next launch starts from.
@@ -238,6 +267,11 @@ impl Batch {
         impacts.sin[lane] = phase.sin();
         impacts.cos[lane] = phase.cos();
         impacts.velocity[lane] = velocity;
+    }
+
+    /// Sets the coefficient of restitution of a lane, for flights that follow the impacts before.
+    pub(crate) const fn set_restitution(&mut self, lane: usize, restitution: f64) {
+        self.restitution[lane] = restitution;
     }
 
     /// Sets the impact of a lane to one of another batch.
@@ -301,7 +335,7 @@ impl WithSimd for Rebound<'_> {
 
 impl Arcs {
     const fn new() -> Self {
-        Self { start: ROW, free_periods: ROW, fall: ROW }
+        Self { start: ROW, free_periods: ROW, speed: ROW }
     }
 
     /// Takes over the arc of a lane as number `k`.
@@ -309,7 +343,7 @@ impl Arcs {
     const fn take(&mut self, k: usize, others: &Self, lane: usize) {
         self.start[k] = others.start[lane];
         self.free_periods[k] = others.free_periods[lane];
-        self.fall[k] = others.fall[lane];
+        self.speed[k] = others.speed[lane];
     }
 }
 

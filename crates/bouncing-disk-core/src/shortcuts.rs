@@ -46,13 +46,13 @@ impl Crests {
     }
 
     /// Whether a launch is certain not to be hit before the first crest, unless within [`SHORT_FLIGHT`] (docs/numerics.md,
-    /// section 9): `disk_speed` is that at launch, `fall` the one with which it comes down to the height of the crests.
+    /// section 9): `disk_speed` is that at launch, `arc_speed` the one, negative, with which it comes down to the height of the crests.
     #[inline(always)]
-    pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, fall: f64) -> bool {
+    pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, arc_speed: f64) -> bool {
         let ahead = CREST - angle;
-        let crest = if ahead > 0.0 { ahead } else { ahead + TAU };
+        let crest = ahead + if ahead > 0.0 { 0.0 } else { TAU };
         let speed = disk_speed - crest;
-        let above = fall + speed >= CLEAR_FALL * (1.0 + peak);
+        let above = speed - arc_speed >= CLEAR_FALL * (1.0 + peak);
         (crest <= self.falling) | (above & ((speed <= 0.0) | (speed >= self.rising)))
     }
 }

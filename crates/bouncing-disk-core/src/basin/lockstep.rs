@@ -5,7 +5,7 @@ use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
 use crate::chatter::ChatterPolicy;
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Lanes, Row};
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Lanes};
 use crate::map::{ImpactMap, ImpactState};
 use crate::rest::RestProof;
 
@@ -70,7 +70,6 @@ pub(super) struct Lockstep<'a> {
     proof: RestProof,
     flyer: Box<Flyer>,
     batches: Vec<Batch>,
-    restitution: Row,
     /// The cell of each lane, and the round before its first flight.
     cell: Vec<Cell>,
     begun: Vec<u64>,
@@ -98,8 +97,7 @@ impl<'a> Lockstep<'a> {
             targets: targets.collect(),
             proof: RestProof::new(map.vibration(), map.restitution()),
             flyer: Box::new(Flyer::new(InstructionSet::best(), false)),
-            batches: vec![Batch::new(*map.vibration()); capacity.div_ceil(LANES)],
-            restitution: [map.restitution(); LANES],
+            batches: vec![Batch::of_map(map); capacity.div_ceil(LANES)],
             cell: vec![Cell::NONE; capacity],
             begun: vec![0; capacity],
             lanes: 0,
@@ -112,9 +110,6 @@ impl<'a> Lockstep<'a> {
     fn fly(&mut self) -> Result<(), Error> {
         self.round += 1;
         let batches = &mut self.batches[..self.lanes.div_ceil(LANES)];
-        for batch in &mut *batches {
-            batch.rebound(self.flyer.dispatch(), &self.restitution);
-        }
         let mut failure = None;
         self.flyer.fly(batches, self.lanes, |_, error| failure = Some(error));
         failure.map_or(Ok(()), Err)

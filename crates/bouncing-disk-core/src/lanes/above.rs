@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask, pairs};
+use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask, pairs, scaled_pairs};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated};
 use crate::gap::{CrestForm, Jet};
 
@@ -22,6 +22,9 @@ pub(super) struct Work {
     time: Row,
     /// The time of the second evaluation.
     second: Row,
+    /// P sin and P cos at the height of the crests; the pair of the last evaluation.
+    platform: Row,
+    third: Row,
     sin: Row,
     cos: Row,
     root: Row,
@@ -44,6 +47,8 @@ impl Work {
         Self {
             time: ROW,
             second: ROW,
+            platform: ROW,
+            third: ROW,
             sin: ROW,
             cos: ROW,
             root: ROW,
@@ -88,7 +93,8 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { platforms, arcs, work, impacts, timed } = self;
-        pairs::<S, N>(&mut work.sin, &mut work.cos, |k| arcs.start[k]);
+        let Work { platform, third, .. } = &mut *work;
+        scaled_pairs::<S, N>(platform, third, |k| arcs.start[k], |k| platforms.lane(k).peak);
         if !first_step::<P, N>(platforms, arcs, work) {
             other_first_step::<P, N>(platforms, arcs, work);
         }
@@ -114,16 +120,13 @@ impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
 /// with the time vanish.
 #[inline(always)]
 fn first_jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet {
-    let peak = platforms.lane(k).peak;
-    let (platform, third) = (peak * work.sin[k], peak * work.cos[k]);
+    let (platform, third) = (work.platform[k], work.third[k]);
     Jet {
-        gap: peak - platform,
-        slope: -arcs.fall[k] - third,
+        gap: platforms.lane(k).peak - platform,
+        slope: arcs.speed[k] - third,
         curvature: platform - 1.0,
         third,
         platform,
-        sin: work.sin[k],
-        cos: work.cos[k],
     }
 }
 
@@ -135,7 +138,7 @@ fn jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet {
 
 #[inline(always)]
 fn form<P: Below>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
-    CrestForm { peak: platforms.lane(k).peak, angle: arcs.start[k], speed: -arcs.fall[k], depth: 0.0 }
+    CrestForm { peak: platforms.lane(k).peak, angle: arcs.start[k], speed: arcs.speed[k], depth: 0.0 }
 }
 
 /// Lanes with no crest between the start and so much later.
@@ -187,7 +190,7 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
 #[inline(always)]
 fn two_windows<P: Below>(platforms: P, arcs: &Arcs, jet: &Jet, k: usize) -> u64 {
     let peak = platforms.lane(k).peak;
-    mask(jet.curvature > -CLEAR * (1.0 + peak)) & mask(jet.third < CLEAR * peak) & mask(arcs.fall[k] < peak)
+    mask(jet.curvature > -CLEAR * (1.0 + peak)) & mask(jet.third < CLEAR * peak) & mask(arcs.speed[k] > -peak)
 }
 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.
@@ -271,7 +274,7 @@ fn impact<P: Below, const N: usize, const TIMED: bool>(
         let delta = work.step[k];
         let time = work.time[k] + delta;
         let (sin, cos) = rotated(work.sin[k], work.cos[k], delta);
-        let velocity = (-arcs.fall[k] - time) - platforms.lane(k).peak * cos;
+        let velocity = (arcs.speed[k] - time) - platforms.lane(k).peak * cos;
         impacts.angle[k] = arcs.start[k] + time;
         impacts.sin[k] = sin;
         impacts.cos[k] = cos;

@@ -4,9 +4,9 @@
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{Arcs, LANES, Launches, Mask, mask};
+use super::{LANES, Mask, Rows, mask};
 use crate::elementary::nearest_periods;
-use crate::flight::LONGEST_FALL;
+use crate::flight::FASTEST_ARC;
 use crate::shortcuts::may_return_soon;
 
 /// Kinds of launches; one that is neither rises above the crests.
@@ -27,41 +27,46 @@ impl Kinds {
     }
 }
 
-pub(super) struct Classify<'a, P> {
+/// Sorts the launches of a batch: those given where flights are `TIMED`, else those that follow the impacts before.
+pub(super) struct Classify<'a, P, const TIMED: bool> {
     pub(super) platforms: P,
-    pub(super) launches: Launches<'a>,
+    pub(super) rows: Rows<'a>,
     pub(super) kinds: &'a mut Kinds,
-    pub(super) arcs: &'a mut Arcs,
 }
 
-impl<P: Below> WithSimd for Classify<'_, P> {
+impl<P: Below, const TIMED: bool> WithSimd for Classify<'_, P, TIMED> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, launches, kinds, arcs } = self;
+        let Self { platforms, rows: Rows { from, speed: speeds, restitution, arcs, .. }, kinds } = self;
         for lane in 0..LANES {
             let peak = platforms.lane(lane).peak;
-            let speed = launches.speed[lane];
-            let (sine, cosine) = (peak * launches.from.sin[lane], peak * launches.from.cos[lane]);
+            let speed = if TIMED { speeds[lane] } else { -restitution[lane] * from.velocity[lane] };
+            let (sine, cosine) = (peak * from.sin[lane], peak * from.cos[lane]);
             let disk_speed = speed + cosine;
             // Not a number where the disk stays below the crests: no comparison with it holds.
-            arcs.fall[lane] = (disk_speed * disk_speed - 2.0 * (peak - sine)).sqrt();
+            arcs.speed[lane] = -(disk_speed * disk_speed - 2.0 * (peak - sine)).sqrt();
             kinds.slow[lane] = mask(may_return_soon(peak, sine, cosine, speed));
             arcs.start[lane] = disk_speed;
+            if !TIMED {
+                speeds[lane] = speed;
+            }
         }
         let (mut special, mut endless) = (0, 0);
         for lane in 0..LANES {
             let platform = platforms.lane(lane);
-            let (angle, disk_speed, fall) = (launches.from.angle[lane], arcs.start[lane], arcs.fall[lane]);
+            let (angle, disk_speed, arc_speed) = (from.angle[lane], arcs.start[lane], arcs.speed[lane]);
             // Down to the height of the crests the disk flies free.
-            let (periods, rest) = nearest_periods(disk_speed + fall);
-            arcs.free_periods[lane] = periods;
+            let (periods, rest) = nearest_periods(disk_speed - arc_speed);
+            if TIMED {
+                arcs.free_periods[lane] = periods;
+            }
             arcs.start[lane] = angle + rest;
-            let low = !mask(platform.crests.surely_cleared(platform.peak, angle, disk_speed, fall));
+            let low = !mask(platform.crests.surely_cleared(platform.peak, angle, disk_speed, arc_speed));
             kinds.low[lane] = low;
             special |= low | kinds.slow[lane];
-            endless |= !mask(fall <= LONGEST_FALL);
+            endless |= !mask(arc_speed >= FASTEST_ARC);
         }
         kinds.special = (special | endless) != 0;
     }

@@ -16,7 +16,7 @@ use crate::gap::CrestForm;
 #[repr(align(64))]
 pub(super) struct Fallen {
     start: Row,
-    fall: Row,
+    speed: Row,
     free_periods: Row,
     /// Where a first step has led, or zero.
     reached: Row,
@@ -29,7 +29,7 @@ impl Forms for Fallen {
         pairs::<S, N>(sin, cos, |k| self.start[k] + time[k]);
         for k in 0..N {
             let form =
-                CrestForm { peak: times.peak[k], angle: self.start[k], speed: -self.fall[k], depth: 0.0 };
+                CrestForm { peak: times.peak[k], angle: self.start[k], speed: self.speed[k], depth: 0.0 };
             let jet = form.jet_of_pair(times.time[k], times.sin[k], times.cos[k]);
             times.gap[k] = jet.gap;
             times.slope[k] = jet.slope;
@@ -40,7 +40,7 @@ impl Forms for Fallen {
     fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
         for k in 0..N {
             let time = times.time[k];
-            let velocity = (-self.fall[k] - time) - times.peak[k] * times.cos[k];
+            let velocity = (self.speed[k] - time) - times.peak[k] * times.cos[k];
             let (wrapped, turns) = nearby_wrapped_of_lane(self.start[k] + time);
             impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
             impacts.sin[k] = times.sin[k];
@@ -54,14 +54,14 @@ impl Forms for Fallen {
     #[inline(always)]
     fn copy(&mut self, to: usize, others: &Self, from: usize) {
         self.start[to] = others.start[from];
-        self.fall[to] = others.fall[from];
+        self.speed[to] = others.speed[from];
         self.free_periods[to] = others.free_periods[from];
     }
 
     #[inline(always)]
     fn copy_within(&mut self, to: usize, from: usize) {
         self.start[to] = self.start[from];
-        self.fall[to] = self.fall[from];
+        self.speed[to] = self.speed[from];
         self.free_periods[to] = self.free_periods[from];
     }
 }
@@ -94,16 +94,16 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { fallen, behind: platforms, times } = self;
         for k in 0..N {
-            let (fall, peak, retention) = (fallen.fall[k], platforms.peak[k], platforms.retention[k]);
+            let (speed, peak, retention) = (fallen.speed[k], platforms.peak[k], platforms.retention[k]);
             let (turned, _) = nearby_wrapped_of_lane(fallen.start[k]);
-            let behind = mask(turned > CREST) & mask(turned < retention) & mask(fall < peak);
+            let behind = mask(turned > CREST) & mask(turned < retention) & mask(speed > -peak);
             let end = retention - turned;
-            let falling = CrestForm { peak, angle: turned, speed: -fall, depth: 0.0 };
+            let falling = CrestForm { peak, angle: turned, speed, depth: 0.0 };
             let gap_at_end = falling.gap_over(platforms.retention_depth[k], end);
             let passed = mask(gap_at_end <= 0.0);
             let (sin, cos) = sin_cos_of_lane(turned);
-            let first = -fall - peak * cos;
-            let last = (-fall - end) + platforms.retention_speed[k];
+            let first = speed - peak * cos;
+            let last = (speed - end) + platforms.retention_speed[k];
             let lowest = CrestForm::lowest_of_tangents(peak - peak * sin, gap_at_end, first, last, end);
             let dips = mask(first < 0.0) & mask(last > 0.0) & mask(lowest <= platforms.doubtful_gap[k]);
             let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
@@ -118,7 +118,7 @@ impl<const N: usize> WithSimd for Windows<'_, N> {
 
 impl Fallen {
     pub(super) const fn new() -> Self {
-        Self { start: ROW, fall: ROW, free_periods: ROW, reached: ROW }
+        Self { start: ROW, speed: ROW, free_periods: ROW, reached: ROW }
     }
 
     /// How many evaluations of the gap number `k` had before.
@@ -132,7 +132,7 @@ impl Fallen {
     pub(super) fn set(&mut self, k: usize, arcs: &Arcs, from: usize, reached: f64) {
         self.reached[k] = reached;
         self.start[k] = arcs.start[from];
-        self.fall[k] = arcs.fall[from];
+        self.speed[k] = arcs.speed[from];
         self.free_periods[k] = arcs.free_periods[from];
     }
 }

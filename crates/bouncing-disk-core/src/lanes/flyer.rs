@@ -10,16 +10,16 @@ use super::low::{Low, Verdicts};
 use super::platform::{Platform, Platforms};
 use super::search::{Search, Times};
 use super::short::Short;
-use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Who, lanes_of};
+use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, lanes_of};
 use crate::error::Error;
-use crate::flight::LONGEST_FALL;
+use crate::flight::FASTEST_ARC;
 use queue::Queue;
 
 /// Computes the flights of batches of lanes.
 #[derive(Debug, Clone)]
 pub(crate) struct Flyer {
     dispatch: Dispatch,
-    /// Whether impacts get their turns and durations.
+    /// Whether launches are given and impacts get their turns and durations; else every launch follows the impact before.
     timed: bool,
     kinds: Kinds,
     work: Work,
@@ -48,7 +48,8 @@ pub(crate) struct Flyer {
 }
 
 impl Flyer {
-    /// Flights computed with these instructions; `timed` if the durations of flights and their turns are asked for.
+    /// Flights computed with these instructions: `timed` ones are launched as their batches say, and have turns and durations;
+    /// the others follow the impacts before with the restitution of their lanes.
     pub(crate) fn new(set: InstructionSet, timed: bool) -> Self {
         Self {
             dispatch: Dispatch::new(set),
@@ -114,18 +115,25 @@ impl Flyer {
     fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
         let Self { dispatch, timed, kinds, work, .. } = self;
         let timed = *timed;
-        let (ground, launches, arcs, impacts) = batches[number].parts();
-        match ground {
-            Ground::Shared(platforms) => {
-                dispatch.run(Classify { platforms: *platforms, launches, kinds, arcs });
+        let (ground, rows) = batches[number].parts();
+        match (ground, timed) {
+            (Ground::Shared(platforms), false) => {
+                dispatch.run(Classify::<_, false> { platforms: *platforms, rows, kinds });
             }
-            Ground::Own(platforms) => {
-                dispatch.run(Classify { platforms: platforms.as_ref(), launches, kinds, arcs });
+            (Ground::Shared(platforms), true) => {
+                dispatch.run(Classify::<_, true> { platforms: *platforms, rows, kinds });
+            }
+            (Ground::Own(platforms), false) => {
+                dispatch.run(Classify::<_, false> { platforms: platforms.as_ref(), rows, kinds });
+            }
+            (Ground::Own(platforms), true) => {
+                dispatch.run(Classify::<_, true> { platforms: platforms.as_ref(), rows, kinds });
             }
         }
         let all = Lanes::first(lanes);
         let who = |lane| Who { batch: number as u32, lane: lane as u32 };
         if !self.kinds.special {
+            let (ground, Rows { arcs, impacts, .. }) = batches[number].parts();
             match ground {
                 Ground::Shared(platforms) => {
                     dispatch.run(Fly::<_, LANES> { platforms: *platforms, arcs, work, impacts, timed });
@@ -187,7 +195,7 @@ impl Flyer {
     #[inline(always)]
     fn go_above(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
-        let comes_down = batch.arcs.fall[lane] <= LONGEST_FALL;
+        let comes_down = batch.arcs.speed[lane] >= FASTEST_ARC;
         if !comes_down {
             self.hard.push(who);
             return;

@@ -70,16 +70,13 @@ impl Times {
     /// Gap and derivatives at the time evaluated last.
     #[inline(always)]
     fn jet(&self, k: usize) -> Jet {
-        let (sin, cos) = (self.sin[k], self.cos[k]);
-        let platform = self.peak[k] * sin;
+        let platform = self.peak[k] * self.sin[k];
         Jet {
             gap: self.gap[k],
             slope: self.slope[k],
             curvature: platform - 1.0,
-            third: self.peak[k] * cos,
+            third: self.peak[k] * self.cos[k],
             platform,
-            sin,
-            cos,
         }
     }
 }
