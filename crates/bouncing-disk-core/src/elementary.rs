@@ -351,6 +351,31 @@ mod tests {
     }
 
     #[test]
+    fn a_pair_has_the_same_bits_with_selections_or_without() {
+        for share in spread(20_000) {
+            let x = 2.0 * BOUND * (share - 0.5);
+            let (r, quadrant) = reduced_of_lane(x);
+            let (s, c) = sin_cos_bounded(x);
+            for blends in [false, true] {
+                let (sin, cos) = sin_cos_of_reduced(r, quadrant, blends);
+                assert_eq!((sin.to_bits(), cos.to_bits()), (s.to_bits(), c.to_bits()), "{x} {blends}");
+            }
+        }
+    }
+
+    #[test]
+    fn angles_next_to_the_seam_are_wrapped_alike() {
+        for turn in -1..=3 {
+            let seam = f64::from(turn) * TAU;
+            for step in -200..=200 {
+                let angle = seam + 0.25 * f64::EPSILON * f64::from(step);
+                let (alone, lane) = (nearby_wrapped(angle), nearby_wrapped_of_lane(angle));
+                assert_eq!((alone.0.to_bits(), alone.1), (lane.0.to_bits(), lane.1), "{angle:e}");
+            }
+        }
+    }
+
+    #[test]
     fn short_series_are_relative() {
         for share in spread(300) {
             let h = if share < 0.5 { share + 1.0e-9 } else { libm::exp10(-20.0 * share) };

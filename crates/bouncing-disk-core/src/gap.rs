@@ -508,3 +508,52 @@ impl ShortForm {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Well spread numbers in [0, 1).
+    fn spread(k: u32, stride: f64) -> f64 {
+        (f64::from(k) * stride) % 1.0
+    }
+
+    /// Jets of gaps of every size, above platforms of every strength.
+    fn jets() -> impl Iterator<Item = (f64, Jet)> {
+        (0..400_000).map(|k| {
+            let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0);
+            let (sin, cos) = sin_cos_bounded(core::f64::consts::TAU * spread(k, 0.569_840_29));
+            let slope = (1.0 + peak) * (0.2 - 2.0 * spread(k, 0.618_033_99));
+            let gap = slope * libm::exp10(-4.0 * spread(k, 0.819_172_513)) * if k % 2 == 0 { 1.0 } else { -1.0 };
+            let (platform, third) = (peak * sin, peak * cos);
+            (peak, Jet { gap, slope, curvature: platform - 1.0, third, platform })
+        })
+    }
+
+    #[test]
+    fn a_root_that_is_surely_near_is_near() {
+        let (mut surely, mut near) = (0, 0);
+        for (peak, jet) in jets() {
+            assert!(!jet.is_surely_near_root(peak) || jet.is_near_root());
+            surely += u32::from(jet.is_surely_near_root(peak));
+            near += u32::from(jet.is_near_root());
+        }
+        assert!(near > 100_000 && surely > near - near / 10, "{surely} of {near}");
+        // A gap that does not fall has no root ahead, however small it is.
+        let flat = Jet { gap: 0.0, slope: 0.0, curvature: -1.0, third: 0.0, platform: 0.0 };
+        assert!(!flat.is_near_root() && !flat.is_surely_near_root(1.0));
+    }
+
+    #[test]
+    fn steps_of_lanes_are_those_of_single_flights() {
+        let mut corrected = 0;
+        for (_, jet) in jets() {
+            let root = jet.radicand().sqrt();
+            let step = jet.quadratic_step(root);
+            let (alone, lane) = (jet.corrected_step(step, root), jet.corrected_step_of_lane(step, root));
+            assert!(alone.to_bits() == lane.to_bits() || (alone.is_nan() && lane.is_nan()), "{alone} {lane}");
+            corrected += u32::from(alone != step && !alone.is_nan());
+        }
+        assert!(corrected > 100_000, "{corrected}");
+    }
+}

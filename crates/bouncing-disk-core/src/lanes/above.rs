@@ -9,7 +9,7 @@ use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask, p
 use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated};
 use crate::gap::{CrestForm, Jet};
 
-/// Comparisons that decide which path a lane takes keep this far from a tie (radians; relative to the pull).
+/// Comparisons that decide which path a lane takes keep this far from a tie (turns; relative to the pull).
 const CLEAR: f64 = 1.0e-9;
 
 /// One in so many lanes must need a third evaluation for all to get one.
@@ -287,5 +287,37 @@ fn impact<P: Below, const N: usize, const TIMED: bool>(
             impacts.turns[k] = arcs.free_periods[k] + turns;
             impacts.duration[k] = Impacts::BETWEEN_PHASES;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn crests_on_the_way_are_seen() {
+        // Well spread numbers in [0, 1).
+        let spread = |k: u32, stride: f64| (f64::from(k) * stride) % 1.0;
+        let mut missed = 0;
+        for k in 0..200_000 {
+            let start = PI * (4.0 * spread(k, 0.618_033_99) - 1.0);
+            let ahead = (CREST - start).rem_euclid(TAU);
+            // Many of them next to the crest, before and behind it.
+            let beyond = libm::exp10(-12.0 * spread(k, 0.569_840_29)) * if k % 2 == 0 { 1.0 } else { -1.0 };
+            let time = ahead + beyond;
+            if time > 0.0 {
+                let none = meets_no_crest(start, time) != 0;
+                assert!(!none || beyond < 0.0, "{start} {time}");
+                assert!(none || beyond > -2.0e-8, "{start} {time}");
+                missed += u32::from(!none && beyond < 0.0);
+            }
+        }
+        assert!(missed > 0, "no time close enough to a crest");
+        for off in [-1.0e-10, 0.0, 1.0e-10] {
+            assert_eq!(meets_no_crest(CREST + off, 1.0), 0, "a start next to a crest");
+        }
+        assert_ne!(meets_no_crest(CREST + 1.0e-7, 1.0), 0);
     }
 }
