@@ -208,7 +208,7 @@ pub(crate) fn nearby_wrapped(angle: f64) -> (f64, f64) {
     }
 }
 
-/// [`nearby_wrapped`], bit for bit, without a branch at the seam.
+/// [`nearby_wrapped`], bit for bit except for an angle of -0, without a branch at the seam.
 #[inline(always)]
 pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
     let turns = ((angle * (1.0 / TAU) - 0.5) + ROUND_MAGIC) - ROUND_MAGIC;

@@ -1,7 +1,7 @@
 //! Independent orbits of impact maps, advanced together.
 
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, InstructionSet, LANES};
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Purpose};
 use crate::map::{ImpactMap, ImpactState};
 
 /// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of
@@ -39,11 +39,8 @@ impl Ensemble {
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
     ) -> Self {
-        let mut ensemble = Self {
-            flyer: Box::new(Flyer::new(set, false)),
-            batches: Vec::new(),
-            len: 0,
-        };
+        let mut ensemble =
+            Self { flyer: Box::new(Flyer::new(set, Purpose::Orbits)), batches: Vec::new(), len: 0 };
         for (map, state) in starts {
             let lane = ensemble.len % LANES;
             if lane == 0 {
@@ -128,6 +125,34 @@ mod tests {
             let map = ImpactMap::new(Vibration::new(peak).expect("legal"), 0.5).expect("legal");
             (map, ImpactState::new(phase, -speed).expect("legal"))
         })
+    }
+
+    /// Flights around the longest one, where all else is ordinary.
+    #[test]
+    fn the_longest_flights_are_those_of_single_orbits() {
+        let map = ImpactMap::new(Vibration::new(2.0).expect("legal"), 0.5).expect("legal");
+        let mut failed = 0;
+        for block in 0..20_u64 {
+            let starts: Vec<_> = (0..LANES as u64)
+                .map(|lane| {
+                    let k = LANES as u64 * block + lane;
+                    let phase = Phase::new(TAU * spread(13 * k)).expect("finite");
+                    // A launch with half of that is in flight for twice as long.
+                    let speed = 1.6e9 * if block % 2 == 0 { 0.97 } else { 0.99 + 0.02 * spread(k) };
+                    ImpactState::new(phase, -speed).expect("legal")
+                })
+                .collect();
+            let mut ensemble = Ensemble::new(starts.iter().map(|&start| (map, start)));
+            let alone: Vec<_> = starts.iter().map(|&start| map.step(start)).collect();
+            let first = alone.iter().find_map(|step| step.as_ref().err().cloned());
+            assert_eq!(ensemble.step().err(), first);
+            for (lane, (step, start)) in alone.into_iter().zip(&starts).enumerate() {
+                failed += u32::from(step.is_err());
+                let expected = step.map_or(*start, Into::into);
+                assert_eq!(bits(ensemble.state(lane).expect("exists")), bits(expected), "{start:?}");
+            }
+        }
+        assert!((100..1_180).contains(&failed), "{failed}");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use pulp::{Simd, WithSimd};
 use crate::chatter::bounces_on;
 use crate::error::Error;
 use crate::flight::Launch;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, Row, kept, mask};
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, Purpose, Row, kept, mask};
 use crate::map::ImpactState;
 use crate::vibration::Vibration;
 
@@ -76,7 +76,7 @@ impl Flights {
     pub fn new(set: InstructionSet, batches: usize) -> Self {
         let batches = batches.max(1);
         Self {
-            flyer: Box::new(Flyer::new(set, true)),
+            flyer: Box::new(Flyer::new(set, Purpose::Launches)),
             batches: vec![Batch::new(Vibration::still()); batches],
             durations: vec![[0.0; LANES]; batches],
             placed: vec![false; batches],

@@ -27,7 +27,7 @@ use crate::phase::Phase;
 use crate::vibration::Vibration;
 use platform::{Below, Platform, Platforms};
 
-pub(crate) use flyer::Flyer;
+pub(crate) use flyer::{Flyer, Purpose};
 pub(crate) use instructions::Dispatch;
 pub use instructions::InstructionSet;
 pub(crate) use subset::{Lanes, lanes_of};
@@ -127,7 +127,7 @@ pub(crate) struct Impacts {
     pub(crate) cos: Row,
     /// Relative velocity, <= 0.
     pub(crate) velocity: Row,
-    /// How often the phase passed 0 during the flight; stale, like the duration, unless the flyer is timed.
+    /// How often the phase passed 0 during the flight; stale, like the duration, unless the launch was set ([`Purpose`]).
     pub(crate) turns: Row,
     /// Duration of the flight (rad), or [`Impacts::BETWEEN_PHASES`].
     pub(crate) duration: Row,
@@ -181,7 +181,8 @@ impl Batch {
             last: 0,
             from: 0,
             speed: ROW,
-            restitution: ROW,
+            // One that is never set makes no launch.
+            restitution: [f64::NAN; LANES],
             arcs: Arcs::new(),
             vibrations: [vibration; LANES],
             peaks: [vibration.peak_acceleration(); LANES],

@@ -5,7 +5,7 @@ use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
 use crate::chatter::ChatterPolicy;
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Lanes};
+use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Lanes, Purpose};
 use crate::map::{ImpactMap, ImpactState};
 use crate::rest::RestProof;
 
@@ -96,7 +96,7 @@ impl<'a> Lockstep<'a> {
             settings,
             targets: targets.collect(),
             proof: RestProof::new(map.vibration(), map.restitution()),
-            flyer: Box::new(Flyer::new(InstructionSet::best(), false)),
+            flyer: Box::new(Flyer::new(InstructionSet::best(), Purpose::Orbits)),
             batches: vec![Batch::of_map(map); capacity.div_ceil(LANES)],
             cell: vec![Cell::NONE; capacity],
             begun: vec![0; capacity],

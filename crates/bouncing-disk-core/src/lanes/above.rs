@@ -144,7 +144,7 @@ fn form<P: Below>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
 /// Lanes with no crest between the start and so much later.
 #[inline(always)]
 fn meets_no_crest(start: f64, time: f64) -> u64 {
-    // Turns since half a turn before the last crest.
+    // In turns; whole numbers are half way between two crests.
     let turns = start * (1.0 / TAU) - (0.75 + CLEAR);
     let ahead = (nearest_whole(turns) - turns) + (0.5 - 2.0 * CLEAR);
     mask(time * (1.0 / TAU) < ahead)

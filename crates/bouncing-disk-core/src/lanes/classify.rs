@@ -27,14 +27,14 @@ impl Kinds {
     }
 }
 
-/// Sorts the launches of a batch: those given where flights are `TIMED`, else those that follow the impacts before.
-pub(super) struct Classify<'a, P, const TIMED: bool> {
+/// Sorts the launches of a batch: those that are `SET`, else those that follow the impacts before.
+pub(super) struct Classify<'a, P, const SET: bool> {
     pub(super) platforms: P,
     pub(super) rows: Rows<'a>,
     pub(super) kinds: &'a mut Kinds,
 }
 
-impl<P: Below, const TIMED: bool> WithSimd for Classify<'_, P, TIMED> {
+impl<P: Below, const SET: bool> WithSimd for Classify<'_, P, SET> {
     type Output = ();
 
     #[inline(always)]
@@ -42,14 +42,14 @@ impl<P: Below, const TIMED: bool> WithSimd for Classify<'_, P, TIMED> {
         let Self { platforms, rows: Rows { from, speed: speeds, restitution, arcs, .. }, kinds } = self;
         for lane in 0..LANES {
             let peak = platforms.lane(lane).peak;
-            let speed = if TIMED { speeds[lane] } else { -restitution[lane] * from.velocity[lane] };
+            let speed = if SET { speeds[lane] } else { -restitution[lane] * from.velocity[lane] };
             let (sine, cosine) = (peak * from.sin[lane], peak * from.cos[lane]);
             let disk_speed = speed + cosine;
             // Not a number where the disk stays below the crests: no comparison with it holds.
             arcs.speed[lane] = -(disk_speed * disk_speed - 2.0 * (peak - sine)).sqrt();
             kinds.slow[lane] = mask(may_return_soon(peak, sine, cosine, speed));
             arcs.start[lane] = disk_speed;
-            if !TIMED {
+            if !SET {
                 speeds[lane] = speed;
             }
         }
@@ -59,7 +59,7 @@ impl<P: Below, const TIMED: bool> WithSimd for Classify<'_, P, TIMED> {
             let (angle, disk_speed, arc_speed) = (from.angle[lane], arcs.start[lane], arcs.speed[lane]);
             // Down to the height of the crests the disk flies free.
             let (periods, rest) = nearest_periods(disk_speed - arc_speed);
-            if TIMED {
+            if SET {
                 arcs.free_periods[lane] = periods;
             }
             arcs.start[lane] = angle + rest;

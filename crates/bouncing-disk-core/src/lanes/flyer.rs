@@ -15,11 +15,21 @@ use crate::error::Error;
 use crate::flight::FASTEST_ARC;
 use queue::Queue;
 
+/// What flights are computed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and nobody asks how long
+    /// a flight takes. Launches that are set are ignored.
+    Orbits,
+    /// Launches that are set; the impacts get their turns and durations.
+    Launches,
+}
+
 /// Computes the flights of batches of lanes.
 #[derive(Debug, Clone)]
 pub(crate) struct Flyer {
     dispatch: Dispatch,
-    /// Whether launches are given and impacts get their turns and durations; else every launch follows the impact before.
+    /// Whether the purpose is [`Purpose::Launches`].
     timed: bool,
     kinds: Kinds,
     work: Work,
@@ -48,12 +58,11 @@ pub(crate) struct Flyer {
 }
 
 impl Flyer {
-    /// Flights computed with these instructions: `timed` ones are launched as their batches say, and have turns and durations;
-    /// the others follow the impacts before with the restitution of their lanes.
-    pub(crate) fn new(set: InstructionSet, timed: bool) -> Self {
+    /// Flights computed with these instructions.
+    pub(crate) fn new(set: InstructionSet, purpose: Purpose) -> Self {
         Self {
             dispatch: Dispatch::new(set),
-            timed,
+            timed: purpose == Purpose::Launches,
             kinds: Kinds::new(),
             work: Work::new(),
             slow: Queue::new(Short::new()),

@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{Landing, SweepEvent, advance};
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Row};
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Purpose, Row};
 use crate::map::Orbit;
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
@@ -134,7 +134,7 @@ where
         // impact that leads to it.
         const WITHOUT_LOSS: Row = [1.0; LANES];
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return };
-        let mut flyer = Box::new(Flyer::new(set, true));
+        let mut flyer = Box::new(Flyer::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
