@@ -97,13 +97,9 @@ impl Ensemble {
 mod tests {
     use super::*;
     use crate::phase::Phase;
+    use crate::testing::golden_spread;
     use crate::vibration::Vibration;
     use core::f64::consts::TAU;
-
-    /// Well spread numbers in [0, 1).
-    fn spread(k: u64) -> f64 {
-        (k as f64 * 0.618_033_988_749_894_9) % 1.0
-    }
 
     fn bits(state: ImpactState) -> [u64; 4] {
         let phase = state.phase();
@@ -114,14 +110,14 @@ mod tests {
     fn launches(count: u64) -> impl Iterator<Item = (ImpactMap, ImpactState)> {
         (0..count).map(|k| {
             let peak = match k % 7 {
-                0 => 1.2 * spread(k),
-                1..=3 => 1.0 + 2.0 * spread(3 * k),
-                4 => 20.0 * spread(5 * k),
+                0 => 1.2 * golden_spread(k),
+                1..=3 => 1.0 + 2.0 * golden_spread(3 * k),
+                4 => 20.0 * golden_spread(5 * k),
                 5 => 197.392_088,
-                _ => libm::exp10(6.0 * spread(k / 7)),
+                _ => libm::exp10(6.0 * golden_spread(k / 7)),
             };
-            let speed = (1.0 + peak) * libm::exp10(1.5 - 7.0 * spread(k / 3) * spread(11 * k));
-            let phase = Phase::new(TAU * spread(13 * k + k / 64)).expect("finite");
+            let speed = (1.0 + peak) * libm::exp10(1.5 - 7.0 * golden_spread(k / 3) * golden_spread(11 * k));
+            let phase = Phase::new(TAU * golden_spread(13 * k + k / 64)).expect("finite");
             let map = ImpactMap::new(Vibration::new(peak).expect("legal"), 0.5).expect("legal");
             (map, ImpactState::new(phase, -speed).expect("legal"))
         })
@@ -136,9 +132,9 @@ mod tests {
             let starts: Vec<_> = (0..LANES as u64)
                 .map(|lane| {
                     let k = LANES as u64 * block + lane;
-                    let phase = Phase::new(TAU * spread(13 * k)).expect("finite");
+                    let phase = Phase::new(TAU * golden_spread(13 * k)).expect("finite");
                     // A launch with half of that is in flight for twice as long.
-                    let speed = 1.6e9 * if block % 2 == 0 { 0.97 } else { 0.99 + 0.02 * spread(k) };
+                    let speed = 1.6e9 * if block % 2 == 0 { 0.97 } else { 0.99 + 0.02 * golden_spread(k) };
                     ImpactState::new(phase, -speed).expect("legal")
                 })
                 .collect();

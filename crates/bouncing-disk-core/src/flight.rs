@@ -29,7 +29,7 @@ use crate::elementary::{
 use crate::error::Error;
 use crate::gap::{Bracket, CrestForm, GapForm, LaunchForm, Root, ShortForm};
 use crate::phase::Phase;
-use crate::shortcuts::{clears_by_tangents, may_return_soon};
+use crate::shortcuts::{arc_speed, clears_by_tangents, may_return_soon};
 use crate::vibration::Vibration;
 
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
@@ -151,8 +151,7 @@ impl Vibration {
         let disk_speed = speed + p * from.cos();
         let depth = p - p * from.sin();
         let mut evaluations = 0;
-        let arc_speed = -(disk_speed * disk_speed - 2.0 * depth).sqrt();
-        if !self.crests.surely_cleared(p, angle, disk_speed, arc_speed) {
+        if !self.crests.surely_cleared(p, angle, disk_speed, arc_speed(disk_speed, depth)) {
             let low = LaunchForm { angle, peak: p, speed, sine: p * from.sin(), cosine: p * from.cos() };
             if let Some((bracket, guess)) = self.bracket_before_crest_of_launch(&low, &mut evaluations) {
                 let root = low.root(bracket, guess, evaluations)?;

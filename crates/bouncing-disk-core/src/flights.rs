@@ -241,25 +241,21 @@ fn durations(from: &Row, impacts: &Impacts, durations: &mut Row) {
 mod tests {
     use super::*;
     use crate::phase::Phase;
-
-    /// Well spread numbers in [0, 1).
-    fn spread(k: u64) -> f64 {
-        (k as f64 * 0.618_033_988_749_894_9) % 1.0
-    }
+    use crate::testing::golden_spread;
 
     fn launch(k: u64) -> (Vibration, Launch) {
         let peak = match k % 5 {
-            0 => 1.2 * spread(k),
-            1 | 2 => 1.0 + 2.0 * spread(3 * k),
+            0 => 1.2 * golden_spread(k),
+            1 | 2 => 1.0 + 2.0 * golden_spread(3 * k),
             3 => 197.392_088,
-            _ => libm::exp10(6.0 * spread(k / 7)),
+            _ => libm::exp10(6.0 * golden_spread(k / 7)),
         };
-        let speed = (1.0 + peak) * libm::exp10(1.5 - 7.0 * spread(k / 3) * spread(11 * k));
+        let speed = (1.0 + peak) * libm::exp10(1.5 - 7.0 * golden_spread(k / 3) * golden_spread(11 * k));
         // Now and then phases next to the turn.
         let angle = if k.is_multiple_of(97) {
-            TAU * (1.0 - 1e-16 * spread(5 * k))
+            TAU * (1.0 - 1e-16 * golden_spread(5 * k))
         } else {
-            TAU * spread(13 * k + k / 64)
+            TAU * golden_spread(13 * k + k / 64)
         };
         let phase = Phase::new(angle).expect("finite");
         (Vibration::new(peak).expect("legal"), Launch::new(phase, speed).expect("legal"))
@@ -322,9 +318,9 @@ mod tests {
             let launches: Vec<_> = (0..all as u64)
                 .filter_map(|lane| {
                     let k = 256 * block + lane;
-                    let angle = vibration.separation_angle - 2.0 * spread(k);
+                    let angle = vibration.separation_angle - 2.0 * golden_spread(k);
                     let phase = Phase::new(angle).expect("finite");
-                    let disk_speed = 1.9 + 0.8 * spread(7 * k);
+                    let disk_speed = 1.9 + 0.8 * golden_spread(7 * k);
                     Launch::new(phase, disk_speed - vibration.velocity(phase)).ok()
                 })
                 .collect();

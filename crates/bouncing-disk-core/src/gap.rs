@@ -512,11 +512,7 @@ impl ShortForm {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Well spread numbers in [0, 1).
-    fn spread(k: u32, stride: f64) -> f64 {
-        (f64::from(k) * stride) % 1.0
-    }
+    use crate::testing::spread;
 
     /// Jets of gaps of every size, above platforms of every strength.
     fn jets() -> impl Iterator<Item = (f64, Jet)> {

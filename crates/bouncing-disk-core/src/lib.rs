@@ -23,6 +23,8 @@ pub mod reference;
 mod rest;
 mod shortcuts;
 mod sweep;
+#[cfg(test)]
+mod testing;
 mod vibration;
 
 pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};

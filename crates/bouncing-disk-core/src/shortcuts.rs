@@ -35,26 +35,37 @@ pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crests {
     /// Time from the separation to the crest (rad).
-    pub(crate) falling: f64,
+    pub(crate) separation_to_crest: f64,
     /// A disk that has at least this speed at the crest has not been slower than the platform since the separation.
-    pub(crate) rising: f64,
+    pub(crate) rising_speed: f64,
+}
+
+/// The speed, negative, with which a disk comes down to the height of the crests; not a number where it stays below.
+///
+/// `disk_speed` is that at launch, from `depth` below the crests.
+#[inline(always)]
+pub(crate) fn arc_speed(disk_speed: f64, depth: f64) -> f64 {
+    -(disk_speed * disk_speed - 2.0 * depth).sqrt()
 }
 
 impl Crests {
     pub(crate) const fn new(peak: f64, separation_angle: f64, separation_speed: f64) -> Self {
-        let falling = CREST - separation_angle;
-        Self { falling, rising: (separation_speed - falling) + CLEAR * (1.0 + peak) }
+        let separation_to_crest = CREST - separation_angle;
+        Self {
+            separation_to_crest,
+            rising_speed: (separation_speed - separation_to_crest) + CLEAR * (1.0 + peak),
+        }
     }
 
     /// Whether a launch is certain not to be hit before the first crest, unless within [`SHORT_FLIGHT`] (docs/numerics.md,
-    /// section 9): `disk_speed` is that at launch, `arc_speed` the one, negative, with which it comes down to the height of the crests.
+    /// section 9): `disk_speed` is that at launch, `arc_speed` that of [`arc_speed`].
     #[inline(always)]
     pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, arc_speed: f64) -> bool {
         let ahead = CREST - angle;
         let crest = ahead + if ahead > 0.0 { 0.0 } else { TAU };
         let speed = disk_speed - crest;
         let above = speed - arc_speed >= CLEAR_FALL * (1.0 + peak);
-        (crest <= self.falling) | (above & ((speed <= 0.0) | (speed >= self.rising)))
+        (crest <= self.separation_to_crest) | (above & ((speed <= 0.0) | (speed >= self.rising_speed)))
     }
 }
 
@@ -93,12 +104,8 @@ mod tests {
     use crate::flight::Launch;
     use crate::gap::LaunchForm;
     use crate::phase::Phase;
+    use crate::testing::spread;
     use crate::vibration::Vibration;
-
-    /// Well spread numbers in [0, 1).
-    fn spread(k: u32, stride: f64) -> f64 {
-        (f64::from(k) * stride) % 1.0
-    }
 
     fn vibration(k: u32) -> Vibration {
         Vibration::new(libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0)).expect("legal")
@@ -152,7 +159,7 @@ mod tests {
             let speed = (1.0 + p) * libm::exp10(2.0 * spread(k, 0.618_033_99) - 1.5);
             let (sine, cosine) = (p * phase.sin(), p * phase.cos());
             let disk_speed = speed + cosine;
-            let arc_speed = -(disk_speed * disk_speed - 2.0 * (p - sine)).sqrt();
+            let arc_speed = arc_speed(disk_speed, p - sine);
             let ahead = CREST - phase.angle();
             let crest = if ahead > 0.0 { ahead } else { ahead + TAU };
             let form = LaunchForm { angle: phase.angle(), peak: p, speed, sine, cosine };

@@ -295,11 +295,10 @@ mod tests {
     use core::f64::consts::PI;
 
     use super::*;
+    use crate::testing::spread;
 
     #[test]
     fn crests_on_the_way_are_seen() {
-        // Well spread numbers in [0, 1).
-        let spread = |k: u32, stride: f64| (f64::from(k) * stride) % 1.0;
         let mut missed = 0;
         for k in 0..200_000 {
             let start = PI * (4.0 * spread(k, 0.618_033_99) - 1.0);

@@ -7,7 +7,7 @@ use super::platform::Below;
 use super::{LANES, Mask, Rows, mask};
 use crate::elementary::nearest_periods;
 use crate::flight::FASTEST_ARC;
-use crate::shortcuts::may_return_soon;
+use crate::shortcuts::{arc_speed, may_return_soon};
 
 /// Kinds of launches; one that is neither rises above the crests.
 #[derive(Debug, Clone)]
@@ -45,8 +45,8 @@ impl<P: Below, const SET: bool> WithSimd for Classify<'_, P, SET> {
             let speed = if SET { speeds[lane] } else { -restitution[lane] * from.velocity[lane] };
             let (sine, cosine) = (peak * from.sin[lane], peak * from.cos[lane]);
             let disk_speed = speed + cosine;
-            // Not a number where the disk stays below the crests: no comparison with it holds.
-            arcs.speed[lane] = -(disk_speed * disk_speed - 2.0 * (peak - sine)).sqrt();
+            // No comparison holds with what is not a number.
+            arcs.speed[lane] = arc_speed(disk_speed, peak - sine);
             kinds.slow[lane] = mask(may_return_soon(peak, sine, cosine, speed));
             arcs.start[lane] = disk_speed;
             if !SET {
@@ -56,17 +56,17 @@ impl<P: Below, const SET: bool> WithSimd for Classify<'_, P, SET> {
         let (mut special, mut endless) = (0, 0);
         for lane in 0..LANES {
             let platform = platforms.lane(lane);
-            let (angle, disk_speed, arc_speed) = (from.angle[lane], arcs.start[lane], arcs.speed[lane]);
+            let (angle, disk_speed, speed) = (from.angle[lane], arcs.start[lane], arcs.speed[lane]);
             // Down to the height of the crests the disk flies free.
-            let (periods, rest) = nearest_periods(disk_speed - arc_speed);
+            let (periods, rest) = nearest_periods(disk_speed - speed);
             if SET {
                 arcs.free_periods[lane] = periods;
             }
             arcs.start[lane] = angle + rest;
-            let low = !mask(platform.crests.surely_cleared(platform.peak, angle, disk_speed, arc_speed));
+            let low = !mask(platform.crests.surely_cleared(platform.peak, angle, disk_speed, speed));
             kinds.low[lane] = low;
             special |= low | kinds.slow[lane];
-            endless |= !mask(arc_speed >= FASTEST_ARC);
+            endless |= !mask(speed >= FASTEST_ARC);
         }
         kinds.special = (special | endless) != 0;
     }

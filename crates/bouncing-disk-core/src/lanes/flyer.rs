@@ -7,7 +7,7 @@ use super::above::{Fly, Work};
 use super::classify::{Classify, Kinds};
 use super::fallen::{Behind, Fallen};
 use super::low::{Low, Verdicts};
-use super::platform::{Platform, Platforms};
+use super::platform::{Below, Platform, Platforms};
 use super::search::{Search, Times};
 use super::short::Short;
 use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, lanes_of};
@@ -125,19 +125,9 @@ impl Flyer {
         let Self { dispatch, timed, kinds, work, .. } = self;
         let timed = *timed;
         let (ground, rows) = batches[number].parts();
-        match (ground, timed) {
-            (Ground::Shared(platforms), false) => {
-                dispatch.run(Classify::<_, false> { platforms: *platforms, rows, kinds });
-            }
-            (Ground::Shared(platforms), true) => {
-                dispatch.run(Classify::<_, true> { platforms: *platforms, rows, kinds });
-            }
-            (Ground::Own(platforms), false) => {
-                dispatch.run(Classify::<_, false> { platforms: platforms.as_ref(), rows, kinds });
-            }
-            (Ground::Own(platforms), true) => {
-                dispatch.run(Classify::<_, true> { platforms: platforms.as_ref(), rows, kinds });
-            }
+        match ground {
+            Ground::Shared(platforms) => classify(*dispatch, *platforms, rows, kinds, timed),
+            Ground::Own(platforms) => classify(*dispatch, platforms.as_ref(), rows, kinds, timed),
         }
         let all = Lanes::first(lanes);
         let who = |lane| Who { batch: number as u32, lane: lane as u32 };
@@ -217,6 +207,15 @@ impl Flyer {
         if self.above.len == LANES {
             self.fly_above(batches, shared);
         }
+    }
+}
+
+/// Sorts the launches of a batch; those of `timed` flights are set.
+fn classify<P: Below>(dispatch: Dispatch, platforms: P, rows: Rows<'_>, kinds: &mut Kinds, timed: bool) {
+    if timed {
+        dispatch.run(Classify::<_, true> { platforms, rows, kinds });
+    } else {
+        dispatch.run(Classify::<_, false> { platforms, rows, kinds });
     }
 }
 

@@ -37,8 +37,8 @@ pub(crate) struct Platforms {
     separation_speed: Row,
     separation_depth: Row,
     doubtful_gap: Row,
-    falling: Row,
-    rising: Row,
+    separation_to_crest: Row,
+    rising_speed: Row,
 }
 
 /// The platform below a lane. A shared one stays in registers, which is why there are two kinds.
@@ -62,7 +62,10 @@ impl Below for &Platforms {
             separation_speed: self.separation_speed[lane],
             separation_depth: self.separation_depth[lane],
             doubtful_gap: self.doubtful_gap[lane],
-            crests: Crests { falling: self.falling[lane], rising: self.rising[lane] },
+            crests: Crests {
+                separation_to_crest: self.separation_to_crest[lane],
+                rising_speed: self.rising_speed[lane],
+            },
         }
     }
 }
@@ -76,8 +79,8 @@ impl Platforms {
             separation_speed: ROW,
             separation_depth: ROW,
             doubtful_gap: ROW,
-            falling: ROW,
-            rising: ROW,
+            separation_to_crest: ROW,
+            rising_speed: ROW,
         }
     }
 
@@ -88,7 +91,7 @@ impl Platforms {
         self.separation_speed[lane] = platform.separation_speed;
         self.separation_depth[lane] = platform.separation_depth;
         self.doubtful_gap[lane] = platform.doubtful_gap;
-        self.falling[lane] = platform.crests.falling;
-        self.rising[lane] = platform.crests.rising;
+        self.separation_to_crest[lane] = platform.crests.separation_to_crest;
+        self.rising_speed[lane] = platform.crests.rising_speed;
     }
 }

@@ -6,28 +6,24 @@ use super::*;
 use crate::chatter::ChatterPolicy;
 use crate::lanes::InstructionSet;
 use crate::map::ImpactMap;
+use crate::testing::golden_spread;
 use crate::vibration::Vibration;
 
 const POLICIES: [ChatterPolicy; 2] = [ChatterPolicy::Complete, ChatterPolicy::Paper];
-
-/// Well spread numbers in [0, 1).
-fn spread(k: u64) -> f64 {
-    (k as f64 * 0.618_033_988_749_894_9) % 1.0
-}
 
 /// Orbits of both policies from impacts, launches, rest and the air, at forcings from rest to chaos; many chatter.
 fn orbits(count: u64) -> Vec<Orbit> {
     let orbit = |k: u64| {
         let peak = match k % 5 {
-            0 => 1.2 * spread(k),
-            1 | 2 => 1.0 + spread(3 * k),
-            3 => 20.0 * spread(5 * k),
-            _ => libm::exp10(4.0 * spread(k / 5)),
+            0 => 1.2 * golden_spread(k),
+            1 | 2 => 1.0 + golden_spread(3 * k),
+            3 => 20.0 * golden_spread(5 * k),
+            _ => libm::exp10(4.0 * golden_spread(k / 5)),
         };
-        let map = ImpactMap::new(Vibration::new(peak)?, 0.9 * spread(7 * k))?;
+        let map = ImpactMap::new(Vibration::new(peak)?, 0.9 * golden_spread(7 * k))?;
         let policy = POLICIES[(k % 2) as usize];
-        let phase = Phase::new(TAU * spread(13 * k + k / 64))?;
-        let speed = (1.0 + peak) * libm::exp10(1.0 - 6.0 * spread(k / 3) * spread(11 * k));
+        let phase = Phase::new(TAU * golden_spread(13 * k + k / 64))?;
+        let speed = (1.0 + peak) * libm::exp10(1.0 - 6.0 * golden_spread(k / 3) * golden_spread(11 * k));
         match (k % 11, map.vibration().separation_phase()) {
             (0, Some(leaves)) => map.orbit_from_launch(leaves, 0.0, policy),
             (1, _) => map.orbit_from_launch(phase, speed, policy),
