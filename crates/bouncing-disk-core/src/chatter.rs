@@ -171,6 +171,20 @@ pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
     (speed > 0.0) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
 }
 
+/// Whether [`Vibration::accumulation`] is `None` for a launch with `speed` against `pull`, as far as that is cheap to say.
+///
+/// Beside the refusals of [`bounces_on`] those of most chatters whose series is still too inaccurate: with x as in
+/// [`Expansion::error_bound`] that bound is at least 32 (P/pull) x^5, because |P sin| + |P cos| >= P.
+#[inline(always)]
+pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f64) -> bool {
+    let reach = pull * (1.0 - restitution);
+    let (speed2, reach2) = (speed * speed, reach * reach);
+    let least = (32.0 * peak * speed) * (speed2 * speed2);
+    // More than the bound by far more than the rounding of both.
+    let inaccurate = least > (1.000_001 * COMPLETION_ERROR) * (pull * reach) * (reach2 * reach2);
+    bounces_on(pull, speed, restitution) | ((speed > 0.0) & inaccurate)
+}
+
 /// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.
 #[inline(always)]
 fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f64, leading: f64) -> bool {
@@ -270,5 +284,34 @@ impl ShortFlightCount {
             self.0 = 0;
         }
         cut
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::spread;
+
+    #[test]
+    fn chatters_that_surely_bounce_on_have_no_sum_yet() {
+        let (mut refused, mut seen) = (0, 0);
+        for k in 0..200_000 {
+            let vibration = Vibration::new(libm::exp10(5.0 * spread(k, 0.754_877_666) - 1.0)).expect("legal");
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let restitution = 0.98 * spread(k, 0.324_717_957);
+            let (peak, pull) = (vibration.peak_acceleration(), vibration.contact_force(phase));
+            // From far below the longest expansion parameter of a sum to above it.
+            let x = libm::exp10(-5.0 * spread(k, 0.618_033_99) - 2.0);
+            let speed = x * pull * (1.0 - restitution);
+            if pull <= 0.0 || bounces_on(pull, speed, restitution) {
+                continue;
+            }
+            let none = vibration.accumulation(phase, speed, restitution).is_none();
+            let surely = surely_bounces_on(peak, pull, speed, restitution);
+            assert!(none || !surely, "{vibration:?} {phase:?} {speed} {restitution}");
+            refused += u32::from(none);
+            seen += u32::from(surely);
+        }
+        assert!(seen > refused / 2 && refused > 10_000, "{seen} of {refused}");
     }
 }

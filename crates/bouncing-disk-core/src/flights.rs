@@ -4,10 +4,10 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use crate::chatter::bounces_on;
+use crate::chatter::surely_bounces_on;
 use crate::error::Error;
 use crate::flight::Launch;
-use crate::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Mask, Purpose, Row, kept, mask};
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask};
 use crate::map::ImpactState;
 use crate::vibration::Vibration;
 
@@ -37,14 +37,13 @@ pub trait LaneLoop {
 /// flights.fly(10, |lane, error| unreachable!("{lane}: {error}"));
 /// let alone = Vibration::new(9.0)?.first_impact(Launch::new(Phase::new(0.7)?, 3.0)?)?;
 /// assert_eq!(flights.state(7), Some(alone.into()));
-/// assert_eq!(flights.impacts(0).map(|rows| rows.duration[7]), Some(alone.duration()));
+/// assert_eq!(flights.impacts(0).map(|rows| rows.duration(7)), Some(alone.duration()));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Flights {
     flyer: Box<Flyer>,
     batches: Vec<Batch>,
-    durations: Vec<Row>,
     /// Whether a lane of the batch has been put on a platform.
     placed: Vec<bool>,
 }
@@ -62,8 +61,33 @@ pub struct LaneImpacts<'a> {
     pub velocity: &'a [f64; LANES],
     /// How often the phase passed 0 (mod 2 pi) during the flight; where this is negative it is rounding, and none.
     pub turns: &'a [f64; LANES],
-    /// Durations of the flights (rad): [`Impact::duration`](crate::Impact::duration).
-    pub duration: &'a [f64; LANES],
+    /// Phases (rad) of the launches.
+    pub launched: &'a [f64; LANES],
+    /// As in [`Impacts`].
+    duration: &'a [f64; LANES],
+}
+
+impl LaneImpacts<'_> {
+    /// Duration of the flight of a lane of the batch (rad): [`Impact::duration`](crate::Impact::duration).
+    ///
+    /// # Panics
+    /// For a lane that the rows do not have, as they do.
+    #[must_use]
+    #[inline(always)]
+    pub fn duration(&self, lane: usize) -> f64 {
+        // As `flight::landed` finds it where the flight was not followed from its launch.
+        let ahead = self.angle[lane] - self.launched[lane];
+        let wrapped = ahead + TAU;
+        let behind = mask(ahead < 0.0);
+        // A sum that rounds to a whole turn is a whole number of periods, less than the rounding.
+        let short_of = behind & mask(wrapped < TAU);
+        let turns = kept(mask(self.turns[lane] > 0.0), self.turns[lane]);
+        let less = turns - kept(short_of, 1.0);
+        let periods = kept(mask(less > 0.0), less);
+        let remainder = kept(!behind, ahead) + kept(short_of, wrapped);
+        let known = self.duration[lane];
+        if known >= 0.0 { known } else { periods * TAU + remainder }
+    }
 }
 
 impl Flights {
@@ -78,7 +102,6 @@ impl Flights {
         Self {
             flyer: Box::new(Flyer::new(set, Purpose::Launches)),
             batches: vec![Batch::new(Vibration::still()); batches],
-            durations: vec![[0.0; LANES]; batches],
             placed: vec![false; batches],
         }
     }
@@ -122,32 +145,29 @@ impl Flights {
     /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
-        batch.rebound(self.flyer.dispatch(), restitution);
-        self.flyer.dispatch().run(MayRest { batch, restitution, may_rest });
+        self.flyer.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
     }
 
     /// Computes the impacts of the first `lanes` launches. `failed` is told of each lane that has none (see
     /// [`Vibration::first_impact`]), in order; its impact means nothing then.
     pub fn fly(&mut self, lanes: usize, mut failed: impl FnMut(usize, Error)) {
-        let Self { flyer, batches, durations, .. } = self;
-        let lanes = lanes.min(LANES * batches.len());
-        flyer.fly(batches, lanes, &mut failed);
-        for (batch, durations) in batches.iter().zip(durations).take(lanes.div_ceil(LANES)) {
-            flyer.dispatch().run(Durations { batch, durations });
-        }
+        let lanes = lanes.min(LANES * self.batches.len());
+        self.flyer.fly(&mut self.batches, lanes, &mut failed);
     }
 
     /// The impacts of a batch.
     #[must_use]
     pub fn impacts(&self, batch: usize) -> Option<LaneImpacts<'_>> {
-        let (impacts, duration) = (self.batches.get(batch)?.impacts(), self.durations.get(batch)?);
+        let batch = self.batches.get(batch)?;
+        let impacts = batch.impacts();
         Some(LaneImpacts {
             angle: &impacts.angle,
             sin: &impacts.sin,
             cos: &impacts.cos,
             velocity: &impacts.velocity,
             turns: &impacts.turns,
-            duration,
+            launched: &batch.impacts_before().angle,
+            duration: &impacts.duration,
         })
     }
 
@@ -175,65 +195,26 @@ impl<Loop: LaneLoop> WithSimd for Vectorised<Loop> {
     }
 }
 
-/// Lanes whose launch may be the first of a chatter.
-struct MayRest<'a> {
-    batch: &'a Batch,
+/// Launches that follow the impacts, and which of them may be the first of a chatter.
+struct Rebound<'a> {
+    rows: Rebounding<'a>,
     restitution: &'a Row,
     may_rest: &'a mut Mask,
 }
 
-impl WithSimd for MayRest<'_> {
+impl WithSimd for Rebound<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        may_rest(
-            &self.batch.peaks,
-            &self.batch.impacts().sin,
-            &self.batch.impacts().velocity,
-            self.restitution,
-            self.may_rest,
-        );
-    }
-}
-
-#[inline(always)]
-fn may_rest(peak: &Row, sin: &Row, velocity: &Row, restitution: &Row, may_rest: &mut Mask) {
-    for lane in 0..LANES {
-        let (pull, restitution) = (1.0 - peak[lane] * sin[lane], restitution[lane]);
-        may_rest[lane] = !mask(bounces_on(pull, -restitution * velocity[lane], restitution));
-    }
-}
-
-/// Durations of all flights. Those that were not followed from their launch are as `flight::landed` finds them.
-struct Durations<'a> {
-    batch: &'a Batch,
-    durations: &'a mut Row,
-}
-
-impl WithSimd for Durations<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        durations(&self.batch.launches().from.angle, self.batch.impacts(), self.durations);
-    }
-}
-
-#[inline(always)]
-fn durations(from: &Row, impacts: &Impacts, durations: &mut Row) {
-    for lane in 0..LANES {
-        let ahead = impacts.angle[lane] - from[lane];
-        let wrapped = ahead + TAU;
-        let behind = mask(ahead < 0.0);
-        // A sum that rounds to a whole turn is a whole number of periods, less than the rounding.
-        let short_of = behind & mask(wrapped < TAU);
-        let turns = kept(mask(impacts.turns[lane] > 0.0), impacts.turns[lane]);
-        let less = turns - kept(short_of, 1.0);
-        let periods = kept(mask(less > 0.0), less);
-        let remainder = kept(!behind, ahead) + kept(short_of, wrapped);
-        let known = impacts.duration[lane];
-        durations[lane] = if known >= 0.0 { known } else { periods * TAU + remainder };
+        let Self { rows: Rebounding { peaks, impacts, speed: speeds }, restitution, may_rest } = self;
+        for lane in 0..LANES {
+            let (peak, restitution) = (peaks[lane], restitution[lane]);
+            let speed = -restitution * impacts.velocity[lane];
+            let pull = 1.0 - peak * impacts.sin[lane];
+            speeds[lane] = speed;
+            may_rest[lane] = !mask(surely_bounces_on(peak, pull, speed, restitution));
+        }
     }
 }
 
@@ -289,7 +270,7 @@ mod tests {
                         impacts.sin[own],
                         impacts.cos[own],
                         impacts.velocity[own],
-                        impacts.duration[own],
+                        impacts.duration(own),
                     ];
                     let (phase, velocity) = (alone.phase, alone.velocity);
                     let expected = [phase.angle(), phase.sin(), phase.cos(), velocity, alone.duration()];
@@ -302,6 +283,26 @@ mod tests {
                     assert_eq!(flights.state(lane), Some(alone.into()));
                 }
                 assert_eq!(failures.next(), None);
+            }
+        }
+    }
+
+    /// Stages are computed for as many sixteens of lanes as hold their flights.
+    #[test]
+    fn flights_of_any_number_are_those_of_single_ones() {
+        for lanes in 1..=2 * LANES {
+            let mut flights = Flights::new(InstructionSet::best(), 2);
+            let launches: Vec<_> = (0..lanes).map(|lane| launch((997 * lanes + lane) as u64)).collect();
+            for (lane, &(vibration, launch)) in launches.iter().enumerate() {
+                flights.set_platform(lane, vibration);
+                flights.set_launch(lane, launch);
+            }
+            let mut failed = Vec::new();
+            flights.fly(lanes, |lane, _| failed.push(lane));
+            for (lane, (vibration, launch)) in launches.into_iter().enumerate() {
+                let alone = vibration.first_impact(launch).ok().map(Into::into);
+                let state = flights.state(lane).filter(|_| !failed.contains(&lane));
+                assert_eq!(state, alone, "{lane} of {lanes}: {vibration:?} {launch:?}");
             }
         }
     }

@@ -18,7 +18,7 @@ mod search;
 mod short;
 mod subset;
 
-use pulp::{Simd, WithSimd};
+use pulp::Simd;
 
 use crate::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::flight::Impact;
@@ -47,44 +47,64 @@ pub(crate) const fn mask(condition: bool) -> u64 {
 
 /// Sines and cosines of some angles, in two loops: the processor overlaps more iterations of shorter ones.
 #[inline(always)]
-fn pairs<S: Simd, const N: usize>(sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
-    scaled_pairs::<S, N>(sin, cos, angle, |_| 1.0);
+fn pairs<S: Simd>(width: impl Width, sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
+    scaled_pairs::<S>(width, sin, cos, angle, |_| 1.0);
 }
 
 /// [`pairs`], multiplied by a number for each.
 #[inline(always)]
-fn scaled_pairs<S: Simd, const N: usize>(
+fn scaled_pairs<S: Simd>(
+    width: impl Width,
     sin: &mut Row,
     cos: &mut Row,
     angle: impl Fn(usize) -> f64,
     scale: impl Fn(usize) -> f64,
 ) {
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let (reduced, quadrant) = reduced_of_lane(angle(k));
         (sin[k], cos[k]) = (reduced, f64::from_bits(quadrant));
     }
     // The baseline has no instruction for a selection.
     let blends = size_of::<S::f64s>() > size_of::<f64>();
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let (s, c) = sin_cos_of_reduced(sin[k], cos[k].to_bits(), blends);
         (sin[k], cos[k]) = (scale(k) * s, scale(k) * c);
     }
 }
 
-/// Runs a stage for some number of flights: all lanes, or fewer if they suffice. Loops of fixed length become vectors
-/// without a remainder.
-macro_rules! wide {
-    ($count:expr, $n:ident => $stage:expr) => {
-        if $count <= 16 {
-            const $n: usize = 16;
-            $stage
-        } else {
-            const $n: usize = $crate::lanes::LANES;
-            $stage
-        }
-    };
+/// How many flights a stage computes.
+trait Width: Copy {
+    fn lanes(self) -> usize;
 }
-pub(crate) use wide;
+
+/// All lanes: loops of fixed length.
+#[derive(Debug, Clone, Copy)]
+struct Whole;
+
+impl Width for Whole {
+    #[inline(always)]
+    fn lanes(self) -> usize {
+        LANES
+    }
+}
+
+/// Whole sixteens of lanes: vectors without a remainder.
+#[derive(Debug, Clone, Copy)]
+struct Sixteens(usize);
+
+impl Sixteens {
+    /// As few as hold so many flights.
+    const fn holding(count: usize) -> Self {
+        Self(count.div_ceil(16))
+    }
+}
+
+impl Width for Sixteens {
+    #[inline(always)]
+    fn lanes(self) -> usize {
+        16 * self.0.min(LANES / 16)
+    }
+}
 
 /// `value` where the mask is set, else +0.
 #[inline(always)]
@@ -235,6 +255,12 @@ impl Batch {
         &self.impacts[self.last]
     }
 
+    /// The impacts that the last flights started from.
+    #[inline(always)]
+    pub(crate) const fn impacts_before(&self) -> &Impacts {
+        &self.impacts[1 - self.last]
+    }
+
     /// The launches of all lanes.
     #[inline(always)]
     pub(crate) const fn launches(&self) -> Launches<'_> {
@@ -280,11 +306,11 @@ impl Batch {
         self.impacts_mut().take(lane, from.impacts(), other);
     }
 
-    /// Lets every launch follow the impact of its lane with this coefficient of restitution.
-    pub(crate) fn rebound(&mut self, dispatch: Dispatch, restitution: &Row) {
+    /// Lets every launch follow the impact of its lane, once its speed is set.
+    pub(crate) const fn rebounding(&mut self) -> Rebounding<'_> {
         self.from = self.last;
-        let velocity = &self.impacts[self.last].velocity;
-        dispatch.run(Rebound { speed: &mut self.speed, restitution, velocity });
+        let Self { peaks, impacts, last, speed, .. } = self;
+        Rebounding { peaks, impacts: &impacts[*last], speed }
     }
 
     /// Sets the impact of a lane back to the one that its last flight followed.
@@ -315,23 +341,12 @@ impl Batch {
     }
 }
 
-/// Speeds after impacts.
-struct Rebound<'a> {
-    speed: &'a mut Row,
-    restitution: &'a Row,
-    velocity: &'a Row,
-}
-
-impl WithSimd for Rebound<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { speed, restitution, velocity } = self;
-        for lane in 0..LANES {
-            speed[lane] = -restitution[lane] * velocity[lane];
-        }
-    }
+/// The rows of launches that follow impacts.
+pub(crate) struct Rebounding<'a> {
+    pub(crate) peaks: &'a Row,
+    pub(crate) impacts: &'a Impacts,
+    /// Relative speeds of the launches, to be set.
+    pub(crate) speed: &'a mut Row,
 }
 
 impl Arcs {

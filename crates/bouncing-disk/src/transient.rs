@@ -148,7 +148,7 @@ impl Run {
     /// Whether the motion has been added up to the end.
     #[inline(always)]
     pub(crate) fn is_done(&self) -> bool {
-        self.bins.reached >= self.duration
+        self.bins.present.reached >= self.duration
     }
 
     /// Adds the motion up to the next event.
@@ -156,7 +156,7 @@ impl Run {
     pub(crate) fn step(&mut self) -> Result<(), Error> {
         match self.rotor.advance()? {
             RotorStep::Ended => {
-                let rest = self.duration - self.bins.reached;
+                let rest = self.duration - self.bins.present.reached;
                 self.bins.add(self.duration, self.rotor.speed() * (rest / self.unit.time));
                 return Ok(());
             }
@@ -177,7 +177,8 @@ impl Run {
 
     /// The curve of a transient that is done.
     pub(crate) fn finished(self) -> SpeedCurve {
-        let Bins { turned, width, .. } = self.bins;
+        let width = self.bins.width;
+        let turned = self.bins.finished();
         let factor = self.unit.angular_speed * self.unit.time / width;
         SpeedCurve {
             times: (0..turned.len()).map(|i| (i as f64 + 0.5) * width).collect(),
@@ -197,11 +198,21 @@ pub(crate) fn seconds(periods: f64, ahead: f64, unit: f64) -> f64 {
 /// The angle turned in each of a number of equal intervals of time.
 #[derive(Debug)]
 pub(crate) struct Bins {
-    turned: Vec<f64>,
-    width: f64,
-    /// The interval that `reached` lies in, and its end.
-    index: usize,
-    end: f64,
+    /// The intervals that have passed.
+    pub(crate) turned: Vec<f64>,
+    /// Duration of an interval (s).
+    pub(crate) width: f64,
+    pub(crate) present: Interval,
+}
+
+/// The interval that the motion has reached.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Interval {
+    pub(crate) index: usize,
+    /// When it ends (s).
+    pub(crate) end: f64,
+    /// The angle turned in it so far.
+    pub(crate) turned: f64,
     /// Time up to which the motion has been added (s).
     pub(crate) reached: f64,
 }
@@ -209,45 +220,46 @@ pub(crate) struct Bins {
 impl Bins {
     fn new(duration: f64, count: usize) -> Self {
         let width = duration / count as f64;
-        Self { turned: vec![0.0; count], width, index: 0, end: width, reached: 0.0 }
-    }
-
-    /// End of the present interval (s), and the angle turned in it so far.
-    pub(crate) fn present(&self) -> (f64, f64) {
-        (self.end, self.turned[self.index])
-    }
-
-    /// Replaces the angle turned in the present interval, and the time reached (s).
-    pub(crate) fn set_present(&mut self, angle: f64, reached: f64) {
-        self.turned[self.index] = angle;
-        self.reached = reached;
+        let present = Interval { index: 0, end: width, turned: 0.0, reached: 0.0 };
+        Self { turned: vec![0.0; count], width, present }
     }
 
     /// Adds the `angle` turned from the time reached until `to`, evenly in time; what lies beyond the last interval
     /// is dropped.
     #[inline]
     pub(crate) fn add(&mut self, to: f64, angle: f64) {
-        if to <= self.end {
-            self.turned[self.index] += angle;
-            self.reached = to;
+        if to <= self.present.end {
+            self.present.turned += angle;
+            self.present.reached = to;
         } else {
-            self.add_across(to, angle);
+            self.present.pass(&mut self.turned, self.width, to, angle);
         }
     }
 
-    fn add_across(&mut self, to: f64, angle: f64) {
+    fn finished(mut self) -> Vec<f64> {
+        self.turned[self.present.index] = self.present.turned;
+        self.turned
+    }
+}
+
+impl Interval {
+    /// As [`Bins::add`], for a time behind the end of the interval.
+    #[inline]
+    pub(crate) fn pass(&mut self, passed: &mut [f64], width: f64, to: f64, angle: f64) {
         let rate = angle / (to - self.reached);
         while to > self.end {
-            self.turned[self.index] += rate * (self.end - self.reached);
+            self.turned += rate * (self.end - self.reached);
             self.reached = self.end;
-            if self.index + 1 == self.turned.len() {
+            if self.index + 1 == passed.len() {
                 self.reached = to;
                 return;
             }
+            passed[self.index] = self.turned;
+            self.turned = 0.0;
             self.index += 1;
-            self.end = (self.index + 1) as f64 * self.width;
+            self.end = (self.index + 1) as f64 * width;
         }
-        self.turned[self.index] += rate * (to - self.reached);
+        self.turned += rate * (to - self.reached);
         self.reached = to;
     }
 }
@@ -261,11 +273,12 @@ mod tests {
         let mut bins = Bins::new(1.0, 10);
         bins.add(0.05, 0.0);
         bins.add(0.77, 7.2);
-        assert!((bins.turned.iter().sum::<f64>() - 7.2).abs() < 1e-14);
+        let sum = bins.turned.iter().sum::<f64>() + bins.present.turned;
+        assert!((sum - 7.2).abs() < 1e-14);
         assert!((bins.turned[0] - 0.5).abs() < 1e-14 && (bins.turned[3] - 1.0).abs() < 1e-14);
         assert!(bins.turned[8].abs() <= 0.0);
         bins.add(0.95, 0.0);
         bins.add(1.4, 4.5);
-        assert!((bins.turned[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
+        assert!((bins.finished()[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
     }
 }

@@ -13,7 +13,7 @@ use rotors::{Carry, Rotors};
 
 /// With fewer transients under way they are advanced one by one: a step of the lanes costs nearly the same however many of
 /// them are in use, for motors as much as about this many single flights (docs/numerics.md, section 9).
-const FEWEST: usize = 40;
+const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
@@ -116,6 +116,8 @@ struct Worker<'a> {
     set: InstructionSet,
     /// The transients of the first lanes, with the indices of their members.
     runs: Vec<(usize, Run)>,
+    /// Their curves, close together: a run is large, and seldom looked at.
+    curves: Vec<Vec<f64>>,
     outcomes: Vec<Outcome>,
 }
 
@@ -126,7 +128,7 @@ impl<'a> Worker<'a> {
         lanes: usize,
         set: InstructionSet,
     ) -> Self {
-        Self { members, next, lanes, set, runs: Vec::new(), outcomes: Vec::new() }
+        Self { members, next, lanes, set, runs: Vec::new(), curves: Vec::new(), outcomes: Vec::new() }
     }
 
     fn take(&self) -> Option<(usize, &'a TransientMember)> {
@@ -172,13 +174,15 @@ impl<'a> Worker<'a> {
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
             while self.runs.len() < self.lanes
-                && let Some((index, run, launch)) = self.begun()
+                && let Some((index, mut run, launch)) = self.begun()
             {
                 let lane = self.runs.len();
                 flights.set_platform(lane, *run.rotor.system().vibration());
                 flights.set_launch(lane, launch);
-                rotors[lane / Flights::LANES].begin(lane % Flights::LANES, &run);
+                let (rotors, mut curve) = (&mut rotors[lane / Flights::LANES], Vec::new());
+                rotors.begin(lane % Flights::LANES, &mut run, &mut curve);
                 self.runs.push((index, run));
+                self.curves.push(curve);
             }
             if self.runs.len() < FEWEST {
                 break;
@@ -192,34 +196,42 @@ impl<'a> Worker<'a> {
                 flights.rebound(batch, &rotors.restitution, may_rest);
             }
             // From the last lane, so that a transient that is moved into a gap has been judged.
-            for lane in (0..self.runs.len()).rev() {
-                let (batch, own) = (lane / Flights::LANES, lane % Flights::LANES);
-                // The flights name the lanes in their order.
-                let failure = failures.pop_if(|(failed, _)| *failed == lane);
-                let may_rest = may_rest[batch][own] != 0;
-                if rotors[batch].passed()[own] == 0 && !may_rest && failure.is_none() {
-                    continue;
-                }
-                let done = match failure {
-                    Some((_, error)) => Err(error),
-                    None => attend(lane, &mut self.runs[lane].1, &mut flights, &mut rotors[batch], may_rest),
-                };
-                if matches!(done, Ok(false)) {
-                    continue;
-                }
-                let (index, run) = self.runs.swap_remove(lane);
-                self.outcomes.push((index, done.map(|_| run.finished())));
-                let last = self.runs.len();
-                if let (Some((_, moved)), Some(launch)) = (self.runs.get(lane), flights.launch(last)) {
-                    flights.set_platform(lane, *moved.rotor.system().vibration());
-                    flights.set_launch(lane, launch);
-                    Rotors::move_lane(&mut rotors, last, lane);
+            for batch in (0..used).rev() {
+                let first = batch * Flights::LANES;
+                let failed = failures.iter().rev().map_while(|(lane, _)| lane.checked_sub(first));
+                let mut waiting =
+                    failed.fold(rotors[batch].attended(&may_rest[batch]), |bits, own| bits | 1 << own);
+                while let Some(own) = waiting.checked_ilog2() {
+                    waiting &= !(1 << own);
+                    let (own, lane) = (own as usize, first + own as usize);
+                    let Some((_, run)) = self.runs.get_mut(lane) else { continue };
+                    let done = match failures.pop_if(|(failed, _)| *failed == lane) {
+                        Some((_, error)) => Err(error),
+                        None => {
+                            let may_rest = may_rest[batch][own] != 0;
+                            let curve = &mut self.curves[lane];
+                            attend(lane, run, curve, &mut flights, &mut rotors[batch], may_rest)
+                        }
+                    };
+                    if matches!(done, Ok(false)) {
+                        continue;
+                    }
+                    let (index, run) = self.runs.swap_remove(lane);
+                    self.curves.swap_remove(lane);
+                    self.outcomes.push((index, done.map(|_| run.finished())));
+                    let last = self.runs.len();
+                    if let (Some((_, moved)), Some(launch)) = (self.runs.get(lane), flights.launch(last)) {
+                        flights.set_platform(lane, *moved.rotor.system().vibration());
+                        flights.set_launch(lane, launch);
+                        Rotors::move_lane(&mut rotors, last, lane);
+                    }
                 }
             }
         }
-        for (lane, (index, mut run)) in std::mem::take(&mut self.runs).into_iter().enumerate() {
+        let runs = std::mem::take(&mut self.runs).into_iter().zip(std::mem::take(&mut self.curves));
+        for (lane, ((index, mut run), mut curve)) in runs.enumerate() {
             let (rotors, own) = (&rotors[lane / Flights::LANES], lane % Flights::LANES);
-            rotors.store_curve(own, &mut run);
+            rotors.give_back(own, &mut run, &mut curve);
             // Every run has a lane.
             if let Some(launch) = flights.launch(lane) {
                 self.outcomes.push((index, finished_alone(run, launch, rotors.motion(own))));
@@ -243,14 +255,15 @@ fn fly_next(run: &mut Run) -> Result<Option<Launch>, Error> {
 fn attend(
     lane: usize,
     run: &mut Run,
+    curve: &mut Vec<f64>,
     flights: &mut Flights,
     rotors: &mut Rotors,
     may_rest: bool,
 ) -> Result<bool, Error> {
     let own = lane % Flights::LANES;
-    rotors.pass_interval(own, run);
+    rotors.pass_interval(own, curve);
     if rotors.is_over(own) {
-        rotors.store_curve(own, run);
+        rotors.give_back(own, run, curve);
         return Ok(true);
     }
     if !may_rest {
@@ -258,16 +271,15 @@ fn attend(
     }
     let (Some(state), restitution) = (flights.state(lane), rotors.restitution[own]) else { return Ok(false) };
     let vibration = run.rotor.system().vibration();
-    // Nine times in ten the chatter is not yet short enough to be summed.
     if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {
         return Ok(false);
     }
     let (periods, speed) = rotors.motion(own);
     run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
-    rotors.store_curve(own, run);
+    rotors.give_back(own, run, curve);
     let Some(launch) = fly_next(run)? else { return Ok(true) };
     flights.set_launch(lane, launch);
-    rotors.load_motion(own, run);
+    rotors.take(own, run, curve);
     Ok(false)
 }
 

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
-use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, kept, lanes_of, mask, pairs, scaled_pairs};
+use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, Width, kept, lanes_of, mask, pairs, scaled_pairs};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated};
 use crate::gap::{CrestForm, Jet};
 
@@ -78,7 +78,8 @@ impl Work {
 
 /// Flights: two evaluations of the gap, a third one if many lanes need it, and the last step. Lanes that need more are left
 /// to the search.
-pub(super) struct Fly<'a, P, const N: usize> {
+pub(super) struct Fly<'a, P, W> {
+    pub(super) width: W,
     pub(super) platforms: P,
     pub(super) arcs: &'a Arcs,
     pub(super) work: &'a mut Work,
@@ -87,31 +88,31 @@ pub(super) struct Fly<'a, P, const N: usize> {
     pub(super) timed: bool,
 }
 
-impl<P: Below, const N: usize> WithSimd for Fly<'_, P, N> {
+impl<P: Below, W: Width> WithSimd for Fly<'_, P, W> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, arcs, work, impacts, timed } = self;
+        let Self { width, platforms, arcs, work, impacts, timed } = self;
         let Work { platform, third, .. } = &mut *work;
-        scaled_pairs::<S, N>(platform, third, |k| arcs.start[k], |k| platforms.lane(k).peak);
-        if !first_step::<P, N>(platforms, arcs, work) {
-            other_first_step::<P, N>(platforms, arcs, work);
+        scaled_pairs::<S>(width, platform, third, |k| arcs.start[k], |k| platforms.lane(k).peak);
+        if !first_step(width, platforms, arcs, work) {
+            other_first_step(width, platforms, arcs, work);
         }
         work.stepped = false;
-        work.all = evaluate::<S, P, N>(platforms, arcs, work);
+        work.all = evaluate::<S, P>(width, platforms, arcs, work);
         if !work.all {
-            let missing = Lanes::first(N).without(work.landed());
-            if missing.count() >= N / MANY {
-                second_step::<P, N>(platforms, arcs, work);
-                evaluate::<S, P, N>(platforms, arcs, work);
+            let missing = Lanes::first(width.lanes()).without(work.landed());
+            if missing.count() >= width.lanes() / MANY {
+                second_step(width, platforms, arcs, work);
+                evaluate::<S, P>(width, platforms, arcs, work);
             }
         }
-        last_step::<P, N>(platforms, arcs, work);
+        last_step(width, platforms, arcs, work);
         if timed {
-            impact::<P, N, true>(platforms, arcs, work, impacts);
+            impact::<P, true>(width, platforms, arcs, work, impacts);
         } else {
-            impact::<P, N, false>(platforms, arcs, work, impacts);
+            impact::<P, false>(width, platforms, arcs, work, impacts);
         }
     }
 }
@@ -152,19 +153,19 @@ fn meets_no_crest(start: f64, time: f64) -> u64 {
 
 /// The step of the model from where the gap is known, given the square roots of its radicands.
 #[inline(always)]
-fn model_step<const N: usize>(work: &mut Work, jet: impl Fn(&Work, usize) -> Jet) {
-    for k in 0..N {
+fn model_step(width: impl Width, work: &mut Work, jet: impl Fn(&Work, usize) -> Jet) {
+    for k in 0..width.lanes() {
         work.quadratic[k] = jet(work, k).quadratic_step(work.root[k]);
     }
-    for k in 0..N {
+    for k in 0..width.lanes() {
         work.step[k] = jet(work, k).corrected_step_of_lane(work.quadratic[k], work.root[k]);
     }
 }
 
 /// The first step of the search of one flight; none where the root is near. Whether all lanes are followed.
 #[inline(always)]
-fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
-    for k in 0..N {
+fn first_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
+    for k in 0..width.lanes() {
         let jet = first_jet(platforms, arcs, work, k);
         let one_window = !two_windows(platforms, arcs, &jet, k);
         let radicand = jet.radicand();
@@ -173,9 +174,9 @@ fn first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Wo
         // Not a number where the model is of no use: nor is the step then, and no comparison with it holds.
         work.root[k] = f64::from_bits(radicand.sqrt().to_bits() | !usable);
     }
-    model_step::<N>(work, |work, k| first_jet(platforms, arcs, work, k));
+    model_step(width, work, |work, k| first_jet(platforms, arcs, work, k));
     let mut all = u64::MAX;
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let (start, step) = (arcs.start[k], work.step[k]);
         let inside = mask(step > 0.0) & meets_no_crest(start, step);
         let followed = work.near[k] | inside;
@@ -195,9 +196,9 @@ fn two_windows<P: Below>(platforms: P, arcs: &Arcs, jet: &Jet, k: usize) -> u64 
 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.
 #[inline(always)]
-fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+fn other_first_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     let (time, followed) = (work.time, work.followed);
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let jet = first_jet(platforms, arcs, work, k);
         let (turned, _) = nearby_wrapped_of_lane(arcs.start[k]);
         let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
@@ -215,14 +216,14 @@ fn other_first_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &
 
 /// The step after the second evaluation, where the root is not near: that of the search if it stays in the window.
 #[inline(always)]
-fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
+fn second_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     work.second = work.time;
     work.stepped = true;
-    for k in 0..N {
+    for k in 0..width.lanes() {
         work.root[k] = jet(platforms, arcs, work, k).radicand().sqrt();
     }
-    model_step::<N>(work, |work, k| jet(platforms, arcs, work, k));
-    for k in 0..N {
+    model_step(width, work, |work, k| jet(platforms, arcs, work, k));
+    for k in 0..width.lanes() {
         let jet = jet(platforms, arcs, work, k);
         let time = work.second[k];
         let next = time + work.step[k];
@@ -238,11 +239,11 @@ fn second_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut W
 
 /// Another evaluation, and the Newton step from there. Whether all lanes are near their root.
 #[inline(always)]
-fn evaluate<S: Simd, P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
+fn evaluate<S: Simd, P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     let Work { time, sin, cos, .. } = &mut *work;
-    pairs::<S, N>(sin, cos, |k| arcs.start[k] + time[k]);
+    pairs::<S>(width, sin, cos, |k| arcs.start[k] + time[k]);
     let mut all = u64::MAX;
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let jet = jet(platforms, arcs, work, k);
         let inverse = 1.0 / jet.slope;
         work.inverse[k] = inverse;
@@ -256,21 +257,22 @@ fn evaluate<S: Simd, P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: 
 
 /// The last step.
 #[inline(always)]
-fn last_step<P: Below, const N: usize>(platforms: P, arcs: &Arcs, work: &mut Work) {
-    for k in 0..N {
+fn last_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
+    for k in 0..width.lanes() {
         let jet = jet(platforms, arcs, work, k);
         work.step[k] = jet.reverted(work.step[k], work.inverse[k]);
     }
 }
 
 #[inline(always)]
-fn impact<P: Below, const N: usize, const TIMED: bool>(
+fn impact<P: Below, const TIMED: bool>(
+    width: impl Width,
     platforms: P,
     arcs: &Arcs,
     work: &Work,
     impacts: &mut Impacts,
 ) {
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let delta = work.step[k];
         let time = work.time[k] + delta;
         let (sin, cos) = rotated(work.sin[k], work.cos[k], delta);
@@ -280,7 +282,7 @@ fn impact<P: Below, const N: usize, const TIMED: bool>(
         impacts.cos[k] = cos;
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
     }
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let (wrapped, turns) = nearby_wrapped_of_lane(impacts.angle[k]);
         impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
         if TIMED {

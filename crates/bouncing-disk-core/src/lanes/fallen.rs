@@ -7,7 +7,7 @@ use pulp::{Simd, WithSimd};
 
 use super::platform::Platform;
 use super::search::{Forms, Times};
-use super::{Arcs, Impacts, LANES, Mask, ROW, Row, kept, mask, pairs};
+use super::{Arcs, Impacts, LANES, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
 use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::gap::CrestForm;
 
@@ -24,10 +24,10 @@ pub(super) struct Fallen {
 
 impl Forms for Fallen {
     #[inline(always)]
-    fn evaluate<S: Simd, const N: usize>(&mut self, times: &mut Times) {
+    fn evaluate<S: Simd>(&mut self, width: impl Width, times: &mut Times) {
         let Times { time, sin, cos, .. } = &mut *times;
-        pairs::<S, N>(sin, cos, |k| self.start[k] + time[k]);
-        for k in 0..N {
+        pairs::<S>(width, sin, cos, |k| self.start[k] + time[k]);
+        for k in 0..width.lanes() {
             let form =
                 CrestForm { peak: times.peak[k], angle: self.start[k], speed: self.speed[k], depth: 0.0 };
             let jet = form.jet_of_pair(times.time[k], times.sin[k], times.cos[k]);
@@ -37,8 +37,8 @@ impl Forms for Fallen {
     }
 
     #[inline(always)]
-    fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
-        for k in 0..N {
+    fn land<S: Simd>(&mut self, width: impl Width, times: &Times, impacts: &mut Impacts) {
+        for k in 0..width.lanes() {
             let time = times.time[k];
             let velocity = (self.speed[k] - time) - times.peak[k] * times.cos[k];
             let (wrapped, turns) = nearby_wrapped_of_lane(self.start[k] + time);
@@ -81,19 +81,20 @@ pub(super) struct Behind {
 }
 
 /// The windows of arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must be searched.
-pub(super) struct Windows<'a, const N: usize> {
+pub(super) struct Windows<'a> {
+    pub(super) width: Sixteens,
     pub(super) fallen: &'a Fallen,
     pub(super) behind: &'a mut Behind,
     pub(super) times: &'a mut Times,
 }
 
-impl<const N: usize> WithSimd for Windows<'_, N> {
+impl WithSimd for Windows<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { fallen, behind: platforms, times } = self;
-        for k in 0..N {
+        let Self { width, fallen, behind: platforms, times } = self;
+        for k in 0..width.lanes() {
             let (speed, peak, retention) = (fallen.speed[k], platforms.peak[k], platforms.retention[k]);
             let (turned, _) = nearby_wrapped_of_lane(fallen.start[k]);
             let behind = mask(turned > CREST) & mask(turned < retention) & mask(speed > -peak);

@@ -10,7 +10,9 @@ use super::low::{Low, Verdicts};
 use super::platform::{Below, Platform, Platforms};
 use super::search::{Search, Times};
 use super::short::Short;
-use super::{Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, lanes_of};
+use super::{
+    Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
+};
 use crate::error::Error;
 use crate::flight::FASTEST_ARC;
 use queue::Queue;
@@ -135,10 +137,11 @@ impl Flyer {
             let (ground, Rows { arcs, impacts, .. }) = batches[number].parts();
             match ground {
                 Ground::Shared(platforms) => {
-                    dispatch.run(Fly::<_, LANES> { platforms: *platforms, arcs, work, impacts, timed });
+                    dispatch.run(Fly { width: Whole, platforms: *platforms, arcs, work, impacts, timed });
                 }
                 Ground::Own(platforms) => {
-                    dispatch.run(Fly::<_, LANES> {
+                    dispatch.run(Fly {
+                        width: Whole,
                         platforms: platforms.as_ref(),
                         arcs,
                         work,

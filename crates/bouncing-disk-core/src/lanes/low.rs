@@ -7,7 +7,7 @@ use pulp::{Simd, WithSimd};
 
 use super::platform::{Below, Platform};
 use super::search::{Forms, Times};
-use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask, pairs};
+use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
 use crate::elementary::{CREST, nearby_wrapped_of_lane};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, LaunchForm};
@@ -45,11 +45,11 @@ impl Verdicts {
 
 impl Forms for Low {
     #[inline(always)]
-    fn evaluate<S: Simd, const N: usize>(&mut self, times: &mut Times) {
+    fn evaluate<S: Simd>(&mut self, width: impl Width, times: &mut Times) {
         let Times { time, sin, cos, .. } = &mut *times;
-        pairs::<S, N>(sin, cos, |k| self.angle[k] + time[k]);
-        self.turn::<S, N>(times);
-        for k in 0..N {
+        pairs::<S>(width, sin, cos, |k| self.angle[k] + time[k]);
+        self.turn::<S>(width, times);
+        for k in 0..width.lanes() {
             let (form, of_time) = (self.form(times, k), (self.versine[k], self.sine_of_time[k]));
             times.gap[k] = form.gap_of(times.time[k], of_time);
             times.slope[k] = form.slope_of(times.time[k], of_time);
@@ -57,9 +57,9 @@ impl Forms for Low {
     }
 
     #[inline(always)]
-    fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts) {
-        self.turn::<S, N>(times);
-        for k in 0..N {
+    fn land<S: Simd>(&mut self, width: impl Width, times: &Times, impacts: &mut Impacts) {
+        self.turn::<S>(width, times);
+        for k in 0..width.lanes() {
             // The velocity is the slope of the launch form at the impact.
             let time = times.time[k];
             let velocity = self.form(times, k).slope_of(time, (self.versine[k], self.sine_of_time[k]));
@@ -93,20 +93,21 @@ impl Forms for Low {
 }
 
 /// The windows of launches.
-pub(super) struct Windows<'a, P, const N: usize> {
+pub(super) struct Windows<'a, P> {
+    pub(super) width: Sixteens,
     pub(super) platforms: P,
     pub(super) low: &'a Low,
     pub(super) times: &'a mut Times,
     pub(super) verdicts: &'a mut Verdicts,
 }
 
-impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
+impl<P: Below> WithSimd for Windows<'_, P> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { platforms, low, times, verdicts } = self;
-        for k in 0..N {
+        let Self { width, platforms, low, times, verdicts } = self;
+        for k in 0..width.lanes() {
             let platform = platforms.lane(k);
             let (angle, speed, peak) = (low.angle[k], low.speed[k], platform.peak);
             let (sine, cosine) = (low.sine[k], low.cosine[k]);
@@ -143,33 +144,61 @@ impl<P: Below, const N: usize> WithSimd for Windows<'_, P, N> {
     }
 }
 
-/// The first step of `GapForm::dip` for launches whose windows are those of a dip: whether the middle of the window is below
-/// the platform beyond doubt (open, the window then ends there), or the tangent there shows that there is no dip.
-pub(super) struct Dips<'a, const N: usize> {
+/// Evaluations in which it is decided whether a launch dips below the platform; few need more.
+const DIP_EVALUATIONS: usize = 3;
+
+/// The first steps of `GapForm::dip` for launches whose windows are those of a dip: whether one of them is below the platform
+/// beyond doubt (open, the window then ends there), or the tangent at one of them shows that there is no dip.
+pub(super) struct Dips<'a> {
+    pub(super) width: Sixteens,
     pub(super) low: &'a mut Low,
     pub(super) times: &'a mut Times,
     pub(super) verdicts: &'a mut Verdicts,
 }
 
-impl<const N: usize> WithSimd for Dips<'_, N> {
+impl WithSimd for Dips<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { low, times, verdicts } = self;
-        for k in 0..N {
+        let Self { width, low, times, verdicts } = self;
+        let from = times.lo;
+        for k in 0..width.lanes() {
             times.time[k] = 0.5 * (times.lo[k] + times.hi[k]);
+            verdicts.open[k] = 0;
+            verdicts.clears[k] = 0;
+            verdicts.dips[k] = u64::MAX;
         }
-        low.evaluate::<S, N>(times);
-        for k in 0..N {
-            let (lo, hi, t) = (times.lo[k], times.hi[k], times.time[k]);
-            let (gap, slope) = (times.gap[k], times.slope[k]);
-            let far = if slope < 0.0 { hi } else { lo };
-            verdicts.open[k] = mask(clears(-gap, times.peak[k]));
-            verdicts.clears[k] = mask(gap > 0.0) & mask(gap + slope * (far - t) > 0.0);
-            times.hi[k] = t;
-            times.time[k] = lo;
+        for _ in 0..DIP_EVALUATIONS {
+            low.evaluate::<S>(width, times);
+            for k in 0..width.lanes() {
+                let (lo, hi, t) = (times.lo[k], times.hi[k], times.time[k]);
+                let (gap, slope) = (times.gap[k], times.slope[k]);
+                let undecided = verdicts.dips[k];
+                let falls = mask(slope < 0.0);
+                let far = if falls != 0 { hi } else { lo };
+                let open = undecided & mask(clears(-gap, times.peak[k]));
+                let clears = undecided & mask(gap > 0.0) & mask(gap + slope * (far - t) > 0.0);
+                let shorter_lo = if undecided & falls != 0 { t } else { lo };
+                let shorter_hi = if undecided & !falls | open != 0 { t } else { hi };
+                let newton = t - slope / times.jet(k).curvature;
+                let inside = mask(newton > shorter_lo) & mask(newton < shorter_hi);
+                let next = if inside != 0 { newton } else { 0.5 * (shorter_lo + shorter_hi) };
+                // What is below the platform by less than the rounding, or in too short a window, is left to one flight.
+                let on = undecided & mask(gap > 0.0) & !clears & mask(shorter_hi - shorter_lo > 1.0e-9);
+                times.lo[k] = shorter_lo;
+                times.hi[k] = shorter_hi;
+                times.time[k] = if on != 0 { next } else { t };
+                verdicts.open[k] |= open;
+                verdicts.clears[k] |= clears;
+                verdicts.dips[k] = on;
+            }
+            if verdicts.dips.iter().take(width.lanes()).fold(0, |any, dips| any | dips) == 0 {
+                break;
+            }
         }
+        times.lo = from;
+        times.time = from;
     }
 }
 
@@ -190,9 +219,9 @@ impl Low {
     }
 
     #[inline(always)]
-    fn turn<S: Simd, const N: usize>(&mut self, times: &Times) {
-        pairs::<S, N>(&mut self.versine, &mut self.sine_of_time, |k| 0.5 * times.time[k]);
-        for k in 0..N {
+    fn turn<S: Simd>(&mut self, width: impl Width, times: &Times) {
+        pairs::<S>(width, &mut self.versine, &mut self.sine_of_time, |k| 0.5 * times.time[k]);
+        for k in 0..width.lanes() {
             let half = (self.versine[k], self.sine_of_time[k]);
             (self.versine[k], self.sine_of_time[k]) = LaunchForm::versine_and_sine_of_half(half);
         }

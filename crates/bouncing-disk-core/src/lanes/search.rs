@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::{Dispatch, Impacts, LANES, Mask, ROW, Row, Who, mask, wide};
+use super::{Dispatch, Impacts, LANES, Mask, ROW, Row, Sixteens, Who, Width, mask};
 use crate::elementary::rotated;
 use crate::gap::Jet;
 
@@ -12,10 +12,10 @@ const EVALUATIONS: u8 = 8;
 /// Flights in one of the forms of the gap.
 pub(super) trait Forms: Clone {
     /// Evaluates gaps, slopes and the pairs of the phases at the times reached.
-    fn evaluate<S: Simd, const N: usize>(&mut self, times: &mut Times);
+    fn evaluate<S: Simd>(&mut self, width: impl Width, times: &mut Times);
 
     /// The impacts of flights whose times and pairs are those of the impact.
-    fn land<S: Simd, const N: usize>(&mut self, times: &Times, impacts: &mut Impacts);
+    fn land<S: Simd>(&mut self, width: impl Width, times: &Times, impacts: &mut Impacts);
 
     /// Copies number `from` of others.
     fn copy(&mut self, to: usize, others: &Self, from: usize);
@@ -69,7 +69,7 @@ impl Times {
 
     /// Gap and derivatives at the time evaluated last.
     #[inline(always)]
-    fn jet(&self, k: usize) -> Jet {
+    pub(super) fn jet(&self, k: usize) -> Jet {
         let platform = self.peak[k] * self.sin[k];
         Jet {
             gap: self.gap[k],
@@ -82,7 +82,8 @@ impl Times {
 }
 
 /// Evaluations, each but the first after a step where the root is not near, and another such step if `steps_on`.
-pub(super) struct Advance<'a, F, const N: usize> {
+pub(super) struct Advance<'a, F> {
+    pub(super) width: Sixteens,
     pub(super) forms: &'a mut F,
     pub(super) times: &'a mut Times,
     pub(super) evaluations: u8,
@@ -90,46 +91,47 @@ pub(super) struct Advance<'a, F, const N: usize> {
 }
 
 /// The last step, and the impacts.
-pub(super) struct Finish<'a, F, const N: usize> {
+pub(super) struct Finish<'a, F> {
+    pub(super) width: Sixteens,
     pub(super) forms: &'a mut F,
     pub(super) times: &'a mut Times,
     pub(super) impacts: &'a mut Impacts,
 }
 
-impl<F: Forms, const N: usize> WithSimd for Advance<'_, F, N> {
+impl<F: Forms> WithSimd for Advance<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { forms, times, evaluations, steps_on } = self;
+        let Self { width, forms, times, evaluations, steps_on } = self;
         for evaluation in 1..=evaluations {
-            forms.evaluate::<S, N>(times);
-            for k in 0..N {
+            forms.evaluate::<S>(width, times);
+            for k in 0..width.lanes() {
                 times.near[k] = mask(times.jet(k).is_near_root());
             }
             if steps_on || evaluation < evaluations {
-                step::<N>(times);
+                step(width, times);
             }
         }
     }
 }
 
 #[inline(always)]
-fn step<const N: usize>(times: &mut Times) {
-    for k in 0..N {
+fn step(width: impl Width, times: &mut Times) {
+    for k in 0..width.lanes() {
         times.root[k] = times.jet(k).radicand().sqrt();
     }
-    for k in 0..N {
+    for k in 0..width.lanes() {
         times.step[k] = times.jet(k).quadratic_step(times.root[k]);
     }
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let jet = times.jet(k);
         let root = times.root[k];
         let model = jet.corrected_step_of_lane(times.step[k], root);
         let newton = -(jet.gap * (1.0 / jet.slope));
         times.step[k] = if root > 0.0 { model } else { newton };
     }
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let (gap, slope, t) = (times.gap[k], times.slope[k], times.time[k]);
         let above = gap > 0.0;
         let lo = if above { t } else { times.lo[k] };
@@ -143,21 +145,21 @@ fn step<const N: usize>(times: &mut Times) {
     }
 }
 
-impl<F: Forms, const N: usize> WithSimd for Finish<'_, F, N> {
+impl<F: Forms> WithSimd for Finish<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { forms, times, impacts } = self;
-        for k in 0..N {
+        let Self { width, forms, times, impacts } = self;
+        for k in 0..width.lanes() {
             times.step[k] = times.jet(k).last_step();
         }
-        for k in 0..N {
+        for k in 0..width.lanes() {
             let delta = times.step[k];
             (times.sin[k], times.cos[k]) = rotated(times.sin[k], times.cos[k], delta);
             times.time[k] += delta;
         }
-        forms.land::<S, N>(times, impacts);
+        forms.land::<S>(width, times, impacts);
     }
 }
 
@@ -218,7 +220,8 @@ impl<F: Forms> Search<F> {
     ) {
         while self.active > left {
             let (forms, times) = (&mut self.forms, &mut self.times);
-            wide!(self.active, N => dispatch.run(Advance::<F, N> { forms, times, evaluations: 1, steps_on: true }));
+            let width = Sixteens::holding(self.active);
+            dispatch.run(Advance { width, forms, times, evaluations: 1, steps_on: true });
             for k in (0..self.active).rev() {
                 if self.times.near[k] != 0 {
                     self.near.take(&self.forms, &self.times, self.who[k], k);
@@ -275,7 +278,7 @@ impl<F: Forms> Near<F> {
             return;
         }
         let Self { forms, times, impacts, .. } = self;
-        wide!(self.len, N => dispatch.run(Finish::<F, N> { forms, times, impacts }));
+        dispatch.run(Finish { width: Sixteens::holding(self.len), forms, times, impacts });
         for k in 0..self.len {
             landed(self.who[k], &self.impacts, k);
         }

@@ -7,7 +7,7 @@ use core::f64::consts::{PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::platform::Platform;
-use super::{Impacts, LANES, Launches, Mask, ROW, Row, kept, mask};
+use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask};
 use crate::elementary::{sine_deficit_ratio, versine_ratio};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, ShortForm};
@@ -52,31 +52,33 @@ pub(super) struct Short {
 }
 
 /// Newton's iteration on gap/h of the first `count` flights, and their impacts.
-pub(super) struct Solve<'a, const N: usize> {
+pub(super) struct Solve<'a> {
     pub(super) short: &'a mut Short,
     pub(super) count: usize,
     pub(super) impacts: &'a mut Impacts,
 }
 
-impl<const N: usize> WithSimd for Solve<'_, N> {
+impl WithSimd for Solve<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { short, count, impacts } = self;
-        for k in 0..N {
+        let width = Sixteens::holding(count);
+        for k in 0..width.lanes() {
             short.time[k] = form(short, k).expected();
             // What lies behind the launches only adds to the work.
             short.inside[k] = short.pulled[k] & mask(k < count);
             short.landed[k] = 0;
         }
         for _ in 0..STEPS {
-            step::<N>(short);
-            if short.inside.iter().take(N).zip(&short.landed).all(|(inside, landed)| inside & !landed == 0) {
+            step(width, short);
+            let flying = short.inside.iter().zip(&short.landed).take(width.lanes());
+            if flying.fold(0, |any, (inside, landed)| any | (inside & !landed)) == 0 {
                 break;
             }
         }
-        impact::<N>(short, impacts);
+        impact(width, short, impacts);
     }
 }
 
@@ -96,11 +98,11 @@ const fn within_short(end: f64) -> f64 {
 }
 
 #[inline(always)]
-fn step<const N: usize>(short: &mut Short) {
-    for k in 0..N {
+fn step(width: impl Width, short: &mut Short) {
+    for k in 0..width.lanes() {
         (short.ratio[k], short.slope[k]) = form(short, k).at(short.time[k]);
     }
-    for k in 0..N {
+    for k in 0..width.lanes() {
         let h = short.time[k];
         let inside = short.inside[k] & mask(h > 0.0) & mask(h < within_short(short.end[k]));
         let (ratio, velocity) = (short.ratio[k], short.slope[k]);
@@ -119,8 +121,8 @@ fn step<const N: usize>(short: &mut Short) {
 }
 
 #[inline(always)]
-fn impact<const N: usize>(short: &Short, impacts: &mut Impacts) {
-    for k in 0..N {
+fn impact(width: impl Width, short: &Short, impacts: &mut Impacts) {
+    for k in 0..width.lanes() {
         let h = short.time[k];
         let h2 = h * h;
         let (sin_h, versine) = (h - h2 * h * sine_deficit_ratio(h), h2 * versine_ratio(h));

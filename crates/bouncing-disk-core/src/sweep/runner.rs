@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{Landing, SweepEvent, advance};
 use crate::error::Error;
-use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Purpose, Row};
+use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Purpose};
 use crate::map::Orbit;
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
@@ -132,7 +132,6 @@ where
     fn in_lanes(&mut self, set: InstructionSet) {
         // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates from rest has no
         // impact that leads to it.
-        const WITHOUT_LOSS: Row = [1.0; LANES];
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return };
         let mut flyer = Box::new(Flyer::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
@@ -149,7 +148,10 @@ where
             }
             let used = &mut batches[..self.runs.len().div_ceil(LANES)];
             for batch in &mut *used {
-                batch.rebound(flyer.dispatch(), &WITHOUT_LOSS);
+                let rows = batch.rebounding();
+                for (speed, velocity) in rows.speed.iter_mut().zip(&rows.impacts.velocity) {
+                    *speed = -velocity;
+                }
             }
             flyer.fly(used, self.runs.len(), |lane, error| failures.push((lane, error)));
             // From the last lane, so that an orbit that is moved into a gap has been advanced.

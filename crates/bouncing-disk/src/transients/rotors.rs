@@ -4,12 +4,23 @@ use bouncing_disk_core::{Flights, LaneImpacts, LaneLoop};
 
 use crate::dimensionless::Dimensionless;
 use crate::rotor::Bounce;
-use crate::transient::{Run, seconds};
+use crate::transient::{Interval, Run, seconds};
 
 const LANES: usize = Flights::LANES;
 
 /// One number of every lane.
 type Row = [f64; LANES];
+
+/// The bit of each lane.
+const BIT: [u64; LANES] = {
+    let mut bits = [0; LANES];
+    let mut lane = 0;
+    while lane < LANES {
+        bits[lane] = 1 << lane;
+        lane += 1;
+    }
+    bits
+};
 
 /// What is carried along with the flights of all lanes.
 #[derive(Debug, Clone)]
@@ -31,14 +42,16 @@ pub(super) struct Rotors {
     periods: Row,
     /// Angle turned in the last flight.
     turned: Row,
-    /// The present interval of the curve: its end (s), and the angle turned in it.
+    /// The present interval of the curve: its index and end (s), the angle turned in it, and its duration (s).
+    index: [u64; LANES],
     end: Row,
     sum: Row,
+    width: Row,
     /// Times (s) of the last impact and of the one before.
     reached: Row,
     before: Row,
     impacts: [u64; LANES],
-    /// Bits are set in lanes whose last flight ends beyond the present interval, or beyond the duration.
+    /// All bits are set in lanes whose last flight ends beyond the present interval, or beyond the duration.
     passed: [u64; LANES],
 }
 
@@ -59,6 +72,8 @@ impl Rotors {
             turned: ROW,
             end: ROW,
             sum: ROW,
+            width: ROW,
+            index: [0; LANES],
             reached: ROW,
             before: ROW,
             impacts: [0; LANES],
@@ -67,7 +82,7 @@ impl Rotors {
     }
 
     /// Begins to carry a transient.
-    pub(super) fn begin(&mut self, lane: usize, run: &Run) {
+    pub(super) fn begin(&mut self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
         let system: &Dimensionless = run.rotor.system();
         self.restitution[lane] = system.restitution();
         self.friction[lane] = system.friction();
@@ -76,20 +91,29 @@ impl Rotors {
         self.unit[lane] = run.unit.time;
         self.start[lane] = run.start;
         self.duration[lane] = run.duration;
-        self.load_motion(lane, run);
+        self.width[lane] = run.bins.width;
+        self.take(lane, run, curve);
     }
 
-    /// Takes over the motion from a transient that is about to fly.
-    pub(super) fn load_motion(&mut self, lane: usize, run: &Run) {
+    /// Takes over motion and curve from a transient that is about to fly.
+    pub(super) fn take(&mut self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
         self.speed[lane] = run.rotor.speed();
         self.periods[lane] = run.rotor.time().periods as f64;
         self.impacts[lane] = run.impacts;
-        self.reached[lane] = run.bins.reached;
-        self.load_interval(lane, run);
+        self.set_interval(lane, run.bins.present);
+        self.reached[lane] = run.bins.present.reached;
+        std::mem::swap(curve, &mut run.bins.turned);
     }
 
-    fn load_interval(&mut self, lane: usize, run: &Run) {
-        (self.end[lane], self.sum[lane]) = run.bins.present();
+    const fn set_interval(&mut self, lane: usize, interval: Interval) {
+        self.index[lane] = interval.index as u64;
+        self.end[lane] = interval.end;
+        self.sum[lane] = interval.turned;
+    }
+
+    /// The present interval, up to a time.
+    const fn interval(&self, lane: usize, reached: f64) -> Interval {
+        Interval { index: self.index[lane] as usize, end: self.end[lane], turned: self.sum[lane], reached }
     }
 
     /// Whether the last impact comes at the end of the transient or after it.
@@ -101,7 +125,7 @@ impl Rotors {
     pub(super) fn move_lane(batches: &mut [Self], from: usize, to: usize) {
         let (source, own) = (batches[from / LANES].clone(), from % LANES);
         let (target, to) = (&mut batches[to / LANES], to % LANES);
-        let rows: [(&mut Row, &Row); 15] = [
+        let rows: [(&mut Row, &Row); 16] = [
             (&mut target.restitution, &source.restitution),
             (&mut target.friction, &source.friction),
             (&mut target.load, &source.load),
@@ -115,6 +139,7 @@ impl Rotors {
             (&mut target.turned, &source.turned),
             (&mut target.end, &source.end),
             (&mut target.sum, &source.sum),
+            (&mut target.width, &source.width),
             (&mut target.reached, &source.reached),
             (&mut target.before, &source.before),
         ];
@@ -122,22 +147,26 @@ impl Rotors {
             row[to] = source[own];
         }
         target.impacts[to] = source.impacts[own];
+        target.index[to] = source.index[own];
     }
 
-    /// Hands the curve back to the transient, up to the last impact.
-    pub(super) fn store_curve(&self, lane: usize, run: &mut Run) {
-        run.bins.set_present(self.sum[lane], self.reached[lane]);
+    /// Gives the curve back to its transient, up to the last impact.
+    pub(super) fn give_back(&self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
+        run.bins.present = self.interval(lane, self.reached[lane]);
         run.impacts = self.impacts[lane];
+        std::mem::swap(curve, &mut run.bins.turned);
     }
 
     /// Adds a flight that ends in another interval.
-    pub(super) fn pass_interval(&mut self, lane: usize, run: &mut Run) {
-        if self.reached[lane] <= self.end[lane] {
+    #[inline]
+    pub(super) fn pass_interval(&mut self, lane: usize, curve: &mut [f64]) {
+        let to = self.reached[lane];
+        if to <= self.end[lane] {
             return;
         }
-        run.bins.set_present(self.sum[lane], self.before[lane]);
-        run.bins.add(self.reached[lane], self.turned[lane]);
-        self.load_interval(lane, run);
+        let mut interval = self.interval(lane, self.before[lane]);
+        interval.pass(curve, self.width[lane], to, self.turned[lane]);
+        self.set_interval(lane, interval);
     }
 
     /// Whole periods up to the last impact, and the angular speed after it.
@@ -145,8 +174,14 @@ impl Rotors {
         (self.periods[lane] as u64, self.speed[lane])
     }
 
-    pub(super) const fn passed(&self) -> &[u64; LANES] {
-        &self.passed
+    /// The lanes to look at after an impact, one bit for each: where an interval or the transient ends, or where the disk
+    /// may come to rest.
+    pub(super) fn attended(&self, may_rest: &[u64; LANES]) -> u64 {
+        self.passed
+            .iter()
+            .zip(may_rest)
+            .zip(&BIT)
+            .fold(0, |all, ((passed, rests), bit)| all | ((passed | rests) & bit))
     }
 }
 
@@ -168,7 +203,7 @@ impl LaneLoop for Carry<'_> {
 fn bounce(impacts: &LaneImpacts<'_>, rotors: &mut Rotors) {
     for lane in 0..LANES {
         let bounce = Bounce {
-            duration: impacts.duration[lane],
+            duration: impacts.duration(lane),
             // As `Dimensionless::platform_angular_speed`.
             platform_speed: rotors.twist_cosine[lane] * impacts.cos[lane]
                 - rotors.twist_sine[lane] * impacts.sin[lane],
@@ -194,6 +229,6 @@ fn count(impacts: &LaneImpacts<'_>, rotors: &mut Rotors) {
         rotors.before[lane] = rotors.reached[lane];
         rotors.reached[lane] = to;
         rotors.impacts[lane] += 1;
-        rotors.passed[lane] = u64::from(beyond | (to >= rotors.duration[lane]));
+        rotors.passed[lane] = u64::from(beyond | (to >= rotors.duration[lane])).wrapping_neg();
     }
 }

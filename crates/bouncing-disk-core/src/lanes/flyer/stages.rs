@@ -8,7 +8,7 @@ use crate::lanes::low::{self, Dips};
 use crate::lanes::platform::Platform;
 use crate::lanes::search::{Advance, Finish, Forms, Search};
 use crate::lanes::short::{self, Fate};
-use crate::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Who, lanes_of, wide};
+use crate::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Sixteens, Who, lanes_of};
 
 /// Evaluations of low and fallen flights before those that need more are left to the search.
 const AT_ONCE: u8 = 2;
@@ -23,7 +23,7 @@ impl Flyer {
             return;
         }
         let (short, impacts) = (&mut self.slow.rows, &mut self.slow_impacts);
-        wide!(count, N => self.dispatch.run(short::Solve::<N> { short, count, impacts }));
+        self.dispatch.run(short::Solve { short, count, impacts });
         self.slow.len = 0;
         for k in 0..count {
             let who = self.slow.who[k];
@@ -41,12 +41,13 @@ impl Flyer {
         if count == 0 {
             return;
         }
+        let width = Sixteens::holding(count);
         let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, verdicts, .. } = self;
         if let Some(platforms) = shared {
-            wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
+            dispatch.run(low::Windows { width, platforms, low, times, verdicts });
         } else {
             let platforms = &self.low_platforms;
-            wide!(count, N => dispatch.run(low::Windows::<_, N> { platforms, low, times, verdicts }));
+            dispatch.run(low::Windows { width, platforms, low, times, verdicts });
         }
         let all = Lanes::first(count);
         let open = lanes_of(&verdicts.open) & all;
@@ -63,7 +64,7 @@ impl Flyer {
         }
         let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, .. } = self;
         let (evaluations, steps_on) = (AT_ONCE, false);
-        wide!(count, N => dispatch.run(Advance::<_, N> { forms: low, times, evaluations, steps_on }));
+        dispatch.run(Advance { width, forms: low, times, evaluations, steps_on });
         self.low.len = 0;
         let near = lanes_of(&times.near) & open;
         for k in open.without(near) {
@@ -81,7 +82,7 @@ impl Flyer {
         let Self {
             dispatch, low: Queue { rows: forms, .. }, low_windows: times, low_impacts: impacts, ..
         } = self;
-        wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
+        dispatch.run(Finish { width, forms, times, impacts });
         for k in near {
             land(batches, self.low.who[k], &self.low_impacts, k, self.timed);
         }
@@ -93,10 +94,11 @@ impl Flyer {
         if count == 0 {
             return;
         }
+        let width = Sixteens::holding(count);
         let Self {
             dispatch, dips: Queue { rows: low, .. }, dip_windows: times, dip_verdicts: verdicts, ..
         } = self;
-        wide!(count, N => dispatch.run(Dips::<N> { low, times, verdicts }));
+        dispatch.run(Dips { width, low, times, verdicts });
         self.dips.len = 0;
         for k in 0..count {
             let who = self.dips.who[k];
@@ -118,14 +120,15 @@ impl Flyer {
         if count == 0 {
             return;
         }
+        let width = Sixteens::holding(count);
         let Self { dispatch, timed, above: Queue { rows: arcs, .. }, work, above_impacts: impacts, .. } =
             self;
         let timed = *timed;
         if let Some(platforms) = shared {
-            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
+            dispatch.run(Fly { width, platforms, arcs, work, impacts, timed });
         } else {
             let platforms = &self.above_platforms;
-            wide!(count, N => dispatch.run(Fly::<_, N> { platforms, arcs, work, impacts, timed }));
+            dispatch.run(Fly { width, platforms, arcs, work, impacts, timed });
         }
         self.above.len = 0;
         let landed = work.landed() & Lanes::first(count);
@@ -154,10 +157,11 @@ impl Flyer {
         if count == 0 {
             return;
         }
+        let width = Sixteens::holding(count);
         let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, fallen_windows: times, .. } = self;
-        wide!(count, N => dispatch.run(fallen::Windows::<N> { fallen, behind, times }));
+        dispatch.run(fallen::Windows { width, fallen, behind, times });
         let (evaluations, steps_on) = (AT_ONCE, false);
-        wide!(count, N => dispatch.run(Advance::<_, N> { forms: fallen, times, evaluations, steps_on }));
+        dispatch.run(Advance { width, forms: fallen, times, evaluations, steps_on });
         self.fallen.len = 0;
         let all = Lanes::first(count);
         let open = lanes_of(&behind.open) & all;
@@ -179,7 +183,7 @@ impl Flyer {
             fallen_impacts: impacts,
             ..
         } = self;
-        wide!(count, N => dispatch.run(Finish::<_, N> { forms, times, impacts }));
+        dispatch.run(Finish { width, forms, times, impacts });
         for k in near {
             land(batches, self.fallen.who[k], &self.fallen_impacts, k, self.timed);
         }
