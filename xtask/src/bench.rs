@@ -64,7 +64,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let run = measured(options)?;
     say!("{}", table::aligned(&table::rows(&run, baseline.as_ref())).trim_end())?;
     say!(
-        "\na ratio is a time over that of the reference kernel, measured before and after in the same program"
+        "\na ratio is a time over that of its reference kernel, measured before and after in the same program"
     )?;
     if run.machine.processors < 2 {
         say!("one processor was available: the times with two threads show no speed-up")?;

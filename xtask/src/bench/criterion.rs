@@ -9,7 +9,7 @@ use std::process::Command;
 use anyhow::{Context as _, bail};
 use serde::Deserialize;
 
-use super::record::Measured;
+use super::record::{Measured, Reference};
 
 /// One bench program.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ const fn program(package: &'static str, bench: &'static str) -> Program {
     Program { package, bench }
 }
 
-/// All of them. Each measures the reference kernel before and after its own benches.
+/// All of them. Each measures the reference kernels before and after its own benches.
 pub(super) const PROGRAMS: [Program; 7] = [
     program("bouncing-disk-core", "limit"),
     program("bouncing-disk-core", "impact"),
@@ -44,8 +44,6 @@ pub(super) const NAMES: [&str; PROGRAMS.len()] = {
     names
 };
 
-/// The names of the reference kernel.
-const REFERENCE: [&str; 2] = ["reference/before", "reference/after"];
 /// Arguments of a short run: a second for each bench.
 const QUICK: [&str; 4] = ["--warm-up-time", "0.3", "--measurement-time", "0.7"];
 
@@ -127,20 +125,32 @@ impl Program {
         let mut times = BTreeMap::new();
         collect(&folder, &mut times)
             .with_context(|| format!("--bench {} has left no results that can be read", self.bench))?;
-        let references = REFERENCE.map(|name| times.remove(name));
-        let [Some([_, before, _]), Some([_, after, _])] = references else {
-            bail!("--bench {} has not measured {}", self.bench, REFERENCE.join(" and "));
+        let mut references = BTreeMap::new();
+        for reference in Reference::ALL {
+            let mut of = |moment: &str| -> anyhow::Result<f64> {
+                let name = format!("reference/{}/{moment}", reference.name());
+                let Some([_, median, _]) = times.remove(&name) else {
+                    bail!("--bench {} has not measured {name}", self.bench);
+                };
+                Ok(median)
+            };
+            let (before, after) = (of("before")?, of("after")?);
+            let mean = 0.5 * (before + after);
+            references.insert(reference.name(), (mean, (before - after).abs() / mean));
+        }
+        let measured = |name: &str, [low_ns, median_ns, high_ns]: Times| {
+            let reference = Reference::of(name);
+            let (reference_ns, reference_drift) = references[reference.name()];
+            Measured {
+                low_ns: rounded(low_ns),
+                median_ns: rounded(median_ns),
+                high_ns: rounded(high_ns),
+                reference,
+                reference_ns: rounded(reference_ns),
+                reference_drift: rounded(reference_drift),
+            }
         };
-        let reference_ns = 0.5 * (before + after);
-        let reference_drift = rounded((before - after).abs() / reference_ns);
-        let measured = |[low_ns, median_ns, high_ns]: Times| Measured {
-            low_ns: rounded(low_ns),
-            median_ns: rounded(median_ns),
-            high_ns: rounded(high_ns),
-            reference_ns: rounded(reference_ns),
-            reference_drift,
-        };
-        Ok(times.into_iter().map(|(name, times)| (name, measured(times))).collect())
+        Ok(times.into_iter().map(|(name, times)| (name.clone(), measured(&name, times))).collect())
     }
 }
 
@@ -218,18 +228,31 @@ mod tests {
         let folder = program.folder(&results);
         write(&folder, "w1/scalar", 1_000, 150_000.0);
         let error = program.read(&results).expect_err("no reference");
-        assert!(format!("{error:#}").contains("reference/before"), "{error:#}");
-        write(&folder, "reference/before", 10, 98.0);
-        write(&folder, "reference/after", 10, 102.0);
+        assert!(format!("{error:#}").contains("reference/chain/before"), "{error:#}");
+        write(&folder, "reference/chain/before", 10, 98.0);
+        write(&folder, "reference/chain/after", 10, 102.0);
+        write(&folder, "reference/lanes/before", 100, 208.0);
+        write(&folder, "reference/lanes/after", 100, 192.0);
+        write(&folder, "w1/lanes/Avx2", 1_000, 10_000.0);
         let benches = program.read(&results).expect("readable");
         let expected = Measured {
             low_ns: 135.0,
             median_ns: 150.0,
             high_ns: 165.0,
+            reference: Reference::Chain,
             reference_ns: 10.0,
             reference_drift: 0.04,
         };
-        assert_eq!(benches.into_iter().collect::<Vec<_>>(), [("w1/scalar".to_owned(), expected)]);
+        let in_lanes = Measured {
+            low_ns: 9.0,
+            median_ns: 10.0,
+            high_ns: 11.0,
+            reference: Reference::Lanes,
+            reference_ns: 2.0,
+            reference_drift: 0.08,
+        };
+        let expected = [("w1/lanes/Avx2".to_owned(), in_lanes), ("w1/scalar".to_owned(), expected)];
+        assert_eq!(benches.into_iter().collect::<Vec<_>>(), expected);
         fs::write(folder.join("w1_scalar/new/estimates.json"), b"{}").expect("writable");
         let error = program.read(&results).expect_err("malformed");
         assert!(format!("{error:#}").contains("estimates.json"), "{error:#}");

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::bail;
 
-use super::record::Record;
+use super::record::{Record, Reference};
 use super::table::{self, digits, time};
 
 const TEMPLATE: &str = include_str!("performance.md");
@@ -188,6 +188,11 @@ fn run_table(run: &Record, baseline: Option<&Record>) -> String {
     row("processors used", &|run| run.machine.processors.to_string());
     row("compiler", &|run| run.machine.compiler.clone());
     row("source", &|run| format!("`{}`", run.machine.source));
+    for reference in Reference::ALL {
+        row(&format!("reference `{}`", reference.name()), &|run| {
+            run.reference_ns(reference).map_or_else(|| NOT_MEASURED.to_owned(), time)
+        });
+    }
     row("length of the run", &|run| if run.quick { "short" } else { "full" }.to_owned());
     text
 }
@@ -233,7 +238,7 @@ mod tests {
         let run = record(&[("growth/cells/100", 400.0), ("growth/cells/10000", 300.0)]);
         let page = page(&run, Some(&run)).expect("complete");
         assert!(page.contains("| 10,000 | 300 ns | 0.75 |"), "{page}");
-        assert!(page.contains("| `growth/cells/100` | 400 ns | cell | 40.0 | 40.0 |"), "{page}");
+        assert!(page.contains("| `growth/cells/100` | 400 ns | cell | chain | 40.0 | 40.0 |"), "{page}");
     }
 
     #[test]

@@ -43,6 +43,41 @@ pub(crate) struct FigureTimes {
     pub(crate) paper_s: f64,
 }
 
+/// The kernel that a time is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Reference {
+    /// Links that wait for each other, as the impacts of one orbit do.
+    Chain,
+    /// Polynomials of many numbers, which fill the arithmetic units as flights in lockstep do.
+    Lanes,
+}
+
+impl Reference {
+    pub(crate) const ALL: [Self; 2] = [Self::Chain, Self::Lanes];
+
+    /// The one for a bench.
+    pub(crate) fn of(bench: &str) -> Self {
+        const IN_LOCKSTEP: [&str; 7] = [
+            "w1/lanes/",
+            "limit/pair/lanes/",
+            "w2/ensemble/",
+            "w3/threads_",
+            "w3/panel_",
+            "growth/cells/",
+            "figures/",
+        ];
+        if IN_LOCKSTEP.iter().any(|prefix| bench.starts_with(prefix)) { Self::Lanes } else { Self::Chain }
+    }
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Chain => "chain",
+            Self::Lanes => "lanes",
+        }
+    }
+}
+
 /// The time of one bench.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -51,7 +86,9 @@ pub(crate) struct Measured {
     pub(crate) low_ns: f64,
     pub(crate) median_ns: f64,
     pub(crate) high_ns: f64,
-    /// Time (ns) of the reference kernel in the same program: the mean of before and after.
+    /// The reference kernel.
+    pub(crate) reference: Reference,
+    /// Its time (ns) in the same program: the mean of before and after.
     pub(crate) reference_ns: f64,
     /// How much the reference differed between before and after, relative to its mean.
     pub(crate) reference_drift: f64,
@@ -87,11 +124,12 @@ pub(crate) struct Change {
 }
 
 impl Change {
-    pub(crate) fn between(baseline: &Measured, now: &Measured) -> Self {
-        Self {
+    /// None where they are ratios to different kernels.
+    pub(crate) fn between(baseline: &Measured, now: &Measured) -> Option<Self> {
+        (baseline.reference == now.reference).then(|| Self {
             relative: now.ratio() / baseline.ratio() - 1.0,
             uncertainty: now.uncertainty() + baseline.uncertainty(),
-        }
+        })
     }
 }
 
@@ -99,6 +137,13 @@ impl Record {
     /// The median time of a bench in nanoseconds.
     pub(crate) fn median_ns(&self, name: &str) -> Option<f64> {
         Some(self.benches.get(name)?.median_ns)
+    }
+
+    /// Time (ns) of a reference kernel: the mean over the benches that are compared with it.
+    pub(crate) fn reference_ns(&self, reference: Reference) -> Option<f64> {
+        let times = || self.benches.values().filter(|bench| bench.reference == reference);
+        let sum: f64 = times().map(|bench| bench.reference_ns).sum();
+        Some(sum / times().count() as f64).filter(|mean| mean.is_finite())
     }
 
     /// Reads the record that `command` stores.
@@ -132,6 +177,7 @@ pub(crate) mod tests {
             low_ns: 0.99 * median_ns,
             median_ns,
             high_ns: 1.01 * median_ns,
+            reference: Reference::Chain,
             reference_ns: 10.0,
             reference_drift: 0.02,
         };
@@ -185,8 +231,10 @@ pub(crate) mod tests {
         now.median_ns *= 2.0;
         now.high_ns *= 2.0;
         now.reference_ns *= 2.0;
-        let change = Change::between(&before.benches["a"], &now);
+        let change = Change::between(&before.benches["a"], &now).expect("the same kernel");
         assert!((change.relative - 0.5).abs() < 1e-12, "{change:?}");
         assert!((change.uncertainty - 0.04).abs() < 1e-12, "{change:?}");
+        now.reference = Reference::Lanes;
+        assert_eq!(Change::between(&before.benches["a"], &now), None);
     }
 }

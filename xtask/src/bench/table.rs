@@ -3,7 +3,7 @@
 use super::record::{Change, Measured, Record};
 
 /// The heads of the columns.
-const HEADS: [&str; 6] = ["bench", "time", "per", "ratio", "baseline", "change"];
+const HEADS: [&str; 7] = ["bench", "time", "per", "reference", "ratio", "baseline", "change"];
 
 /// What one element of a bench is.
 pub(super) fn element(name: &str) -> &'static str {
@@ -62,7 +62,7 @@ fn change(change: Change) -> String {
 }
 
 /// The rows of the table, one for each bench of the run or the baseline.
-pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 6]> {
+pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 7]> {
     let none = || "-".to_owned();
     let known = |name: &String| baseline.and_then(|baseline| baseline.benches.get(name));
     let mut rows: Vec<_> = run
@@ -74,9 +74,12 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 6]> 
                 name.clone(),
                 time(now.median_ns),
                 element(name).to_owned(),
+                now.reference.name().to_owned(),
                 digits(now.ratio()),
                 before.map_or_else(none, |before| digits(before.ratio())),
-                before.map_or_else(none, |before| change(Change::between(before, now))),
+                before.map_or_else(none, |before| {
+                    Change::between(before, now).map_or_else(|| "other reference".to_owned(), change)
+                }),
             ]
         })
         .collect();
@@ -87,6 +90,7 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 6]> 
             name.clone(),
             none(),
             element(name).to_owned(),
+            before.reference.name().to_owned(),
             none(),
             ratio,
             "not measured now".to_owned(),
@@ -96,15 +100,15 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 6]> 
 }
 
 /// The table with aligned columns: names to the left, numbers to the right.
-pub(super) fn aligned(rows: &[[String; 6]]) -> String {
+pub(super) fn aligned(rows: &[[String; 7]]) -> String {
     let heads = HEADS.map(str::to_owned);
     let all = || std::iter::once(&heads).chain(rows);
     let width = |column: usize| all().map(|row| row[column].chars().count()).max().unwrap_or_default();
-    let widths: [usize; 6] = std::array::from_fn(width);
+    let widths: [usize; 7] = std::array::from_fn(width);
     all()
         .map(|row| {
             let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| match column {
-                0 | 2 => format!("{cell:<width$}"),
+                0 | 2 | 3 => format!("{cell:<width$}"),
                 _ => format!("{cell:>width$}"),
             });
             format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
@@ -113,8 +117,8 @@ pub(super) fn aligned(rows: &[[String; 6]]) -> String {
 }
 
 /// The table in Markdown.
-pub(super) fn markdown(rows: &[[String; 6]]) -> String {
-    let mut text = format!("| {} |\n| --- | ---: | --- | ---: | ---: | ---: |\n", HEADS.join(" | "));
+pub(super) fn markdown(rows: &[[String; 7]]) -> String {
+    let mut text = format!("| {} |\n| --- | ---: | --- | --- | ---: | ---: | ---: |\n", HEADS.join(" | "));
     for [name, rest @ ..] in rows {
         text.push_str(&format!("| `{name}` | {} |\n", rest.join(" | ")));
     }
@@ -135,10 +139,10 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "bench            time  per           ratio  baseline            change",
-                "w1/scalar      150 ns  impact         15.0      10.0     +50.0 % ± 4.0",
-                "w3/scalar     2.50 µs  cell            250         -                 -",
-                "w2/one_motor        -  motor second      -     20000  not measured now",
+                "bench            time  per           reference  ratio  baseline            change",
+                "w1/scalar      150 ns  impact        chain       15.0      10.0     +50.0 % ± 4.0",
+                "w3/scalar     2.50 µs  cell          chain        250         -                 -",
+                "w2/one_motor        -  motor second  chain          -     20000  not measured now",
             ]
         );
         let same = aligned(&rows(&run, Some(&run)));

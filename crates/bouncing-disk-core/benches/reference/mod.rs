@@ -1,5 +1,7 @@
-//! The yardstick: arithmetic of the solver's kind (a dependent chain of a polynomial, a square root and a division) that
-//! must never change. Machines differ and share their processors; the ratio of two times measured in one run differs less.
+//! The yardsticks, which must never change: a dependent chain of arithmetic of the solver's kind (a polynomial, a square root and a
+//! division), and polynomials of many numbers at once. Machines differ and share their processors; the ratio of two times
+//! measured in one run differs less. What waits for its own results hardly notices a neighbour on the same core, what fills
+//! the core's arithmetic units does.
 
 use std::hint::black_box;
 
@@ -8,22 +10,42 @@ use criterion::{Criterion, Throughput};
 /// Links of the chain per timed call; the time is that of one.
 const LINKS: u64 = 64;
 
-/// One link of the chain; it takes [0, 1] into itself.
+/// Numbers whose polynomials are computed side by side; the time is that of one.
+const NUMBERS: usize = 256;
+
+/// It takes [0, 1] into itself.
+#[inline(always)]
+fn polynomial(z: f64) -> f64 {
+    1.0 + z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5_040.0 + z * (1.0 / 362_880.0))))
+}
+
+/// One link; it takes [0, 1] into itself.
 fn link(x: f64) -> f64 {
     let z = x * x;
-    let polynomial =
-        1.0 + z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5_040.0 + z * (1.0 / 362_880.0))));
-    let root = (polynomial + z).sqrt();
+    let root = (polynomial(z) + z).sqrt();
     (1.0 + x) / (1.0 + root + x * x)
 }
 
-/// Measures the kernel as `reference/<moment>`: once before and once after what a bench binary measures, since the load of
-/// the machine changes while it runs.
+/// Four polynomials of every number, one of the other; the compiler makes them vectors of the baseline.
+#[inline(never)]
+fn polynomials(numbers: &mut [f64; NUMBERS]) {
+    for x in numbers {
+        *x = polynomial(polynomial(polynomial(polynomial(*x))));
+    }
+}
+
+/// Measures both kernels as `reference/<kernel>/<moment>`: once before and once after what a bench binary measures, since the load
+/// of the machine changes while it runs.
 pub(crate) fn measure(c: &mut Criterion, moment: &str) {
     let mut group = c.benchmark_group("reference");
     group.throughput(Throughput::Elements(LINKS));
-    group.bench_function(moment, |bencher| {
+    group.bench_function(format!("chain/{moment}"), |bencher| {
         bencher.iter(|| (0..LINKS).fold(black_box(0.5), |x, _| link(x)));
+    });
+    group.throughput(Throughput::Elements(NUMBERS as u64));
+    let mut numbers: [f64; NUMBERS] = std::array::from_fn(|k| k as f64 / NUMBERS as f64);
+    group.bench_function(format!("lanes/{moment}"), |bencher| {
+        bencher.iter(|| polynomials(black_box(&mut numbers)))
     });
     group.finish();
 }
