@@ -7,6 +7,8 @@ mod picture;
 mod statements;
 mod windows;
 
+use rayon::prelude::*;
+
 pub use self::data::Fig07Data;
 use crate::claim::Claim;
 use crate::draw::Figure;
@@ -38,13 +40,20 @@ impl Experiment for Fig07 {
         let cells = quality.choose(150, 1_000);
         let (rows, columns) = quality.choose((320, 100), (1_600, 400));
         progress.start(5 * cells as u64 + 2 * rows as u64, "rows");
-        let panels = forcings
-            .into_iter()
-            .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
-            .collect::<Result<Vec<_>, _>>()?;
-        let windows = windows::windows(&printed, (rows, columns), progress)?;
-        let chaotic = panels::map(forcings[3], printed.restitution)?;
-        let decay = panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))?;
+        // Side by side, for each has parts in which one thing follows from another.
+        let panels = || {
+            forcings
+                .into_par_iter()
+                .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        let decay = || {
+            let chaotic = panels::map(forcings[3], printed.restitution)?;
+            panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
+        };
+        let windows = || windows::windows(&printed, (rows, columns), progress);
+        let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
+        let (panels, windows, decay) = (panels?, windows?, decay?);
         Ok(Fig07Data {
             restitution: printed.restitution,
             window_top: WINDOW_TOP,

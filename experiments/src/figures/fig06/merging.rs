@@ -75,8 +75,11 @@ pub(super) fn merging(
 ) -> Result<Merging, ExperimentError> {
     let starts = starts(first, inputs)?;
     let restitution = inputs.restitution;
-    let (survived, lost) = bracket(&starts, restitution, impacts)?;
-    let (survived_in_a_tenth, lost_in_a_tenth) = bracket(&starts, restitution, impacts / 10)?;
+    let (whole, tenth) = rayon::join(
+        || bracket(&starts, restitution, impacts),
+        || bracket(&starts, restitution, impacts / 10),
+    );
+    let ((survived, lost), (survived_in_a_tenth, lost_in_a_tenth)) = (whole?, tenth?);
     let forcings: Vec<f64> = (0..16).map(|i| 0.5600 + 0.0001 * f64::from(i)).collect();
     let lives =
         lives(&orbits(&forcings, &starts, restitution)?, impacts / 10).map_err(ExperimentError::model)?;

@@ -129,20 +129,26 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         })
         .collect::<Result<_, _>>()?;
     progress.start(4, "searches");
-    let merging = merging::merging(first, inputs, quality.choose(40_000, 400_000))?;
-    progress.advance(1);
     let not_chattering = forcings
         .iter()
         .zip(&chattering)
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
         .map(|(forcing, _)| *forcing)
         .collect();
-    let single_tosses = chattering::single_tosses(&cycles, &section, settings.policy)?;
-    progress.advance(1);
+    // Side by side, for in each of them one step follows from another.
     let some: Vec<f64> = forcings.iter().copied().step_by(10).collect();
-    let policies = chattering::policies(&some, inputs, settings)?;
-    progress.advance(1);
-    let doublings = period_doublings(restitution, 7).map_err(ExperimentError::model)?;
+    let merging = || merging::merging(first, inputs, quality.choose(40_000, 400_000));
+    let others = || -> Result<_, ExperimentError> {
+        let single_tosses = chattering::single_tosses(&cycles, &section, settings.policy)?;
+        progress.advance(1);
+        let policies = chattering::policies(&some, inputs, settings)?;
+        progress.advance(1);
+        let doublings = period_doublings(restitution, 7).map_err(ExperimentError::model)?;
+        progress.advance(1);
+        Ok((single_tosses, policies, doublings))
+    };
+    let (merging, others) = rayon::join(merging, others);
+    let (merging, (single_tosses, policies, doublings)) = (merging?, others?);
     progress.advance(1);
     let doublings: Vec<f64> = doublings.into_iter().map(|doubling| doubling.axial_forcing).collect();
     let at_doubling = doublings.first().copied().unwrap_or(f64::NAN);
