@@ -167,7 +167,7 @@ impl Vibration {
     /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs. The sign
     /// of a gap is taken from the crest form where that is beyond doubt, else from the launch form.
     #[inline(never)]
-    fn bracket_before_crest_of_launch(
+    pub(crate) fn bracket_before_crest_of_launch(
         &self,
         low: &LaunchForm,
         evaluations: &mut u32,

@@ -188,7 +188,7 @@ impl WithSimd for Dips<'_> {
                 let on = undecided & mask(gap > 0.0) & !clears & mask(shorter_hi - shorter_lo > 1.0e-9);
                 times.lo[k] = shorter_lo;
                 times.hi[k] = shorter_hi;
-                times.time[k] = if on != 0 { next } else { t };
+                times.time[k] = next;
                 verdicts.open[k] |= open;
                 verdicts.clears[k] |= clears;
                 verdicts.dips[k] = on;
@@ -235,5 +235,66 @@ impl Low {
         self.speed[k] = launches.speed[lane];
         self.sine[k] = peak * launches.from.sin[lane];
         self.cosine[k] = peak * launches.from.cos[lane];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flight::Launch;
+    use crate::lanes::{Dispatch, InstructionSet};
+    use crate::phase::Phase;
+    use crate::testing::golden_spread;
+    use crate::vibration::Vibration;
+
+    /// Launches about as fast as the platform at its fastest: what is decided of their windows is what one flight decides.
+    #[test]
+    fn windows_are_those_of_single_flights() {
+        let vibration = Vibration::new(2.0).expect("legal");
+        let (platform, width) = (Platform::from(&vibration), Sixteens::holding(LANES));
+        let dispatch = Dispatch::new(InstructionSet::best());
+        let (mut low, mut times, mut verdicts) = (Low::new(), Times::new(), Verdicts::new());
+        let (mut dips, mut open, mut clear) = (0, 0, 0);
+        for block in 0..2_000 {
+            let launches: [_; LANES] = core::array::from_fn(|k| {
+                let number = (block * LANES + k) as u64;
+                let angle = vibration.separation_angle - 2.0 * golden_spread(number);
+                let phase = Phase::new(angle).expect("finite");
+                let speed = 1.9 + 0.8 * golden_spread(7 * number) - vibration.velocity(phase);
+                Launch::new(phase, speed.max(0.0)).expect("legal")
+            });
+            for (k, launch) in launches.iter().enumerate() {
+                low.angle[k] = launch.phase().angle();
+                low.speed[k] = launch.relative_speed();
+                low.sine[k] = platform.peak * launch.phase().sin();
+                low.cosine[k] = platform.peak * launch.phase().cos();
+            }
+            let (forms, windows, verdict) = (&mut low, &mut times, &mut verdicts);
+            dispatch.run(Windows {
+                width,
+                platforms: platform,
+                low: forms,
+                times: windows,
+                verdicts: verdict,
+            });
+            let (was_open, was_clear, may_dip) = (verdicts.open, verdicts.clears, verdicts.dips);
+            let concave = times.clone();
+            dispatch.run(Dips { width, low: &mut low, times: &mut times, verdicts: &mut verdicts });
+            for k in 0..LANES {
+                let decided = if may_dip[k] != 0 { &verdicts } else { continue };
+                assert_eq!((was_open[k], was_clear[k]), (0, 0), "dips are what is left");
+                let single = vibration.bracket_before_crest_of_launch(&low.form(&concave, k), &mut 0);
+                let found = single.map(|(bracket, guess)| (bracket.lo, bracket.hi, guess));
+                if decided.open[k] != 0 {
+                    assert_eq!(found, Some((times.lo[k], times.hi[k], times.time[k])), "{:?}", launches[k]);
+                    open += 1;
+                } else if decided.clears[k] != 0 {
+                    assert_eq!(found, None, "{:?}", launches[k]);
+                    clear += 1;
+                }
+                dips += 1;
+            }
+        }
+        assert!(open > 500 && clear > 500 && open + clear > dips * 9 / 10, "{open} and {clear} of {dips}");
     }
 }
