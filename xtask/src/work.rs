@@ -25,7 +25,7 @@ pub(crate) struct Finished {
 ///
 /// The figures are taken by threads of their own and only their parallel parts run in the pool of computing
 /// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run time
-/// would count for both.
+/// would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and 7 do.)
 pub(crate) fn make_all(
     entries: &[&dyn Entry],
     quality: Quality,

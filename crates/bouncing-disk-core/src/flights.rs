@@ -48,7 +48,8 @@ pub struct Flights {
     placed: Vec<bool>,
 }
 
-/// The impacts of one batch of [`Flights`]; those of lanes that have not flown mean nothing.
+/// The impacts of one batch of [`Flights`]; those of lanes that have not flown since their launch was
+/// set mean nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneImpacts<'a> {
     /// Phases (rad), in [0, 2 pi).
@@ -61,9 +62,9 @@ pub struct LaneImpacts<'a> {
     pub velocity: &'a [f64; LANES],
     /// How often the phase passed 0 (mod 2 pi) during the flight; where this is negative it is rounding, and none.
     pub turns: &'a [f64; LANES],
-    /// Phases (rad) of the launches.
-    pub launched: &'a [f64; LANES],
-    /// As in [`Impacts`].
+    /// Phases (rad) that the flights left from.
+    launched: &'a [f64; LANES],
+    /// Durations, or `Impacts::BETWEEN_PHASES`.
     duration: &'a [f64; LANES],
 }
 

@@ -88,21 +88,25 @@ impl Width for Whole {
     }
 }
 
-/// Whole sixteens of lanes: vectors without a remainder.
+/// Lanes that are taken together: vectors without a remainder.
+const SIXTEEN: usize = 16;
+
+/// Whole sixteens of lanes.
 #[derive(Debug, Clone, Copy)]
 struct Sixteens(usize);
 
 impl Sixteens {
     /// As few as hold so many flights.
     const fn holding(count: usize) -> Self {
-        Self(count.div_ceil(16))
+        Self(count.div_ceil(SIXTEEN))
     }
 }
 
 impl Width for Sixteens {
     #[inline(always)]
     fn lanes(self) -> usize {
-        16 * self.0.min(LANES / 16)
+        // Never more; the compiler sees that rows have so many.
+        SIXTEEN * self.0.min(LANES / SIXTEEN)
     }
 }
 

@@ -198,7 +198,7 @@ pub(crate) fn seconds(periods: f64, ahead: f64, unit: f64) -> f64 {
 /// The angle turned in each of a number of equal intervals of time.
 #[derive(Debug)]
 pub(crate) struct Bins {
-    /// The intervals that have passed.
+    /// The angles turned in the intervals that have passed.
     pub(crate) turned: Vec<f64>,
     /// Duration of an interval (s).
     pub(crate) width: f64,

@@ -11,8 +11,8 @@ use crate::system::System;
 use crate::transient::{Run, SpeedCurve, TransientSettings, transient};
 use rotors::{Carry, Rotors};
 
-/// With fewer transients under way they are advanced one by one: a step of the lanes costs nearly the same however many of
-/// them are in use, for motors as much as about this many single flights (docs/numerics.md, section 9).
+/// With fewer transients under way they are advanced one by one: what a step of the lanes costs however few of them are in use
+/// is as much as about this many single flights (docs/numerics.md, section 9).
 const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.
@@ -198,6 +198,7 @@ impl<'a> Worker<'a> {
             // From the last lane, so that a transient that is moved into a gap has been judged.
             for batch in (0..used).rev() {
                 let first = batch * Flights::LANES;
+                // The flights name the lanes in their order, and those of later batches have been taken.
                 let failed = failures.iter().rev().map_while(|(lane, _)| lane.checked_sub(first));
                 let mut waiting =
                     failed.fold(rotors[batch].attended(&may_rest[batch]), |bits, own| bits | 1 << own);

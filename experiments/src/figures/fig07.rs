@@ -45,7 +45,7 @@ impl Experiment for Fig07 {
             forcings
                 .into_par_iter()
                 .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
-                .collect::<Result<Vec<_>, _>>()
+                .collect::<Vec<_>>()
         };
         let decay = || {
             let chaotic = panels::map(forcings[3], printed.restitution)?;
@@ -53,7 +53,9 @@ impl Experiment for Fig07 {
         };
         let windows = || windows::windows(&printed, (rows, columns), progress);
         let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
-        let (panels, windows, decay) = (panels?, windows?, decay?);
+        // The first error in the order of the panels, whichever comes first in time.
+        let panels = panels.into_iter().collect::<Result<_, _>>()?;
+        let (windows, decay) = (windows?, decay?);
         Ok(Fig07Data {
             restitution: printed.restitution,
             window_top: WINDOW_TOP,

@@ -190,7 +190,7 @@ fn run_table(run: &Record, baseline: Option<&Record>) -> String {
     row("source", &|run| format!("`{}`", run.machine.source));
     for reference in Reference::ALL {
         row(&format!("reference `{}`", reference.name()), &|run| {
-            run.reference_ns(reference).map_or_else(|| NOT_MEASURED.to_owned(), time)
+            run.reference_ns(reference).map_or_else(|| "-".to_owned(), time)
         });
     }
     row("length of the run", &|run| if run.quick { "short" } else { "full" }.to_owned());

@@ -65,7 +65,7 @@ impl Reference {
             "w3/threads_",
             "w3/panel_",
             "growth/cells/",
-            "figures/",
+            "figures/fig07/",
         ];
         if IN_LOCKSTEP.iter().any(|prefix| bench.starts_with(prefix)) { Self::Lanes } else { Self::Chain }
     }
@@ -193,6 +193,24 @@ pub(crate) mod tests {
             figures: None,
             build_s: None,
         }
+    }
+
+    #[test]
+    fn what_runs_in_lockstep_is_compared_with_lanes() {
+        let lanes = ["w1/lanes/Avx2", "limit/pair/lanes/Baseline", "w2/ensemble/threads_1", "w3/threads_2"];
+        let more = ["w3/panel_1000/threads_1", "growth/cells/900", "figures/fig07/draft/threads_1"];
+        assert!(lanes.iter().chain(&more).all(|bench| Reference::of(bench) == Reference::Lanes));
+        let chain = [
+            "w1/scalar",
+            "limit/pair/chained",
+            "w2/one_motor",
+            "w3/scalar",
+            "growth/impacts/1000",
+            "impact/grazing",
+        ];
+        assert!(chain.iter().all(|bench| Reference::of(bench) == Reference::Chain));
+        let record = record(&[("w1/scalar", 150.0)]);
+        assert_eq!(Reference::ALL.map(|reference| record.reference_ns(reference)), [Some(10.0), None]);
     }
 
     fn stored(name: &str, text: &[u8]) -> anyhow::Result<Record> {

@@ -70,13 +70,14 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 7]> 
         .iter()
         .map(|(name, now)| {
             let before: Option<&Measured> = known(name);
+            let same = before.filter(|before| before.reference == now.reference);
             [
                 name.clone(),
                 time(now.median_ns),
                 element(name).to_owned(),
                 now.reference.name().to_owned(),
                 digits(now.ratio()),
-                before.map_or_else(none, |before| digits(before.ratio())),
+                same.map_or_else(none, |before| digits(before.ratio())),
                 before.map_or_else(none, |before| {
                     Change::between(before, now).map_or_else(|| "other reference".to_owned(), change)
                 }),
@@ -127,6 +128,7 @@ pub(super) fn markdown(rows: &[[String; 7]]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::record::Reference;
     use super::super::record::tests::record;
     use super::*;
 
@@ -145,6 +147,10 @@ mod tests {
                 "w2/one_motor        -  motor second  chain          -     20000  not measured now",
             ]
         );
+        let mut other = run.clone();
+        other.benches.get_mut("w1/scalar").expect("there").reference = Reference::Lanes;
+        let [.., ratio, before, change] = &rows(&run, Some(&other))[0];
+        assert_eq!([ratio, before, change], ["15.0", "-", "other reference"]);
         let same = aligned(&rows(&run, Some(&run)));
         assert!(same.contains("+0.0 % ± 4.0 (noise)"), "{same}");
     }

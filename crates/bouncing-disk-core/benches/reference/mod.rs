@@ -26,9 +26,9 @@ fn link(x: f64) -> f64 {
     (1.0 + x) / (1.0 + root + x * x)
 }
 
-/// Four polynomials of every number, one of the other; the compiler makes them vectors of the baseline.
+/// Replaces every number by four polynomials of it, one of the other; the compiler makes them vectors of the baseline.
 #[inline(never)]
-fn polynomials(numbers: &mut [f64; NUMBERS]) {
+fn step(numbers: &mut [f64; NUMBERS]) {
     for x in numbers {
         *x = polynomial(polynomial(polynomial(polynomial(*x))));
     }
@@ -44,9 +44,7 @@ pub(crate) fn measure(c: &mut Criterion, moment: &str) {
     });
     group.throughput(Throughput::Elements(NUMBERS as u64));
     let mut numbers: [f64; NUMBERS] = std::array::from_fn(|k| k as f64 / NUMBERS as f64);
-    group.bench_function(format!("lanes/{moment}"), |bencher| {
-        bencher.iter(|| polynomials(black_box(&mut numbers)))
-    });
+    group.bench_function(format!("lanes/{moment}"), |bencher| bencher.iter(|| step(black_box(&mut numbers))));
     group.finish();
 }
 

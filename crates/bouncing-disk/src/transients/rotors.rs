@@ -11,17 +11,6 @@ const LANES: usize = Flights::LANES;
 /// One number of every lane.
 type Row = [f64; LANES];
 
-/// The bit of each lane.
-const BIT: [u64; LANES] = {
-    let mut bits = [0; LANES];
-    let mut lane = 0;
-    while lane < LANES {
-        bits[lane] = 1 << lane;
-        lane += 1;
-    }
-    bits
-};
-
 /// What is carried along with the flights of all lanes.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
@@ -102,7 +91,7 @@ impl Rotors {
         self.impacts[lane] = run.impacts;
         self.set_interval(lane, run.bins.present);
         self.reached[lane] = run.bins.present.reached;
-        std::mem::swap(curve, &mut run.bins.turned);
+        *curve = std::mem::take(&mut run.bins.turned);
     }
 
     const fn set_interval(&mut self, lane: usize, interval: Interval) {
@@ -154,7 +143,7 @@ impl Rotors {
     pub(super) fn give_back(&self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
         run.bins.present = self.interval(lane, self.reached[lane]);
         run.impacts = self.impacts[lane];
-        std::mem::swap(curve, &mut run.bins.turned);
+        run.bins.turned = std::mem::take(curve);
     }
 
     /// Adds a flight that ends in another interval.
@@ -177,11 +166,8 @@ impl Rotors {
     /// The lanes to look at after an impact, one bit for each: where an interval or the transient ends, or where the disk
     /// may come to rest.
     pub(super) fn attended(&self, may_rest: &[u64; LANES]) -> u64 {
-        self.passed
-            .iter()
-            .zip(may_rest)
-            .zip(&BIT)
-            .fold(0, |all, ((passed, rests), bit)| all | ((passed | rests) & bit))
+        let lanes = self.passed.iter().zip(may_rest).enumerate();
+        lanes.fold(0, |all, (lane, (passed, rests))| all | ((passed | rests) & (1 << lane)))
     }
 }
 

@@ -135,9 +135,9 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
         .map(|(forcing, _)| *forcing)
         .collect();
-    // Side by side, for in each of them one step follows from another.
+    // Side by side, for in most of them one step follows from another.
     let some: Vec<f64> = forcings.iter().copied().step_by(10).collect();
-    let merging = || merging::merging(first, inputs, quality.choose(40_000, 400_000));
+    let crisis = || merging::merging(first, inputs, quality.choose(40_000, 400_000));
     let others = || -> Result<_, ExperimentError> {
         let single_tosses = chattering::single_tosses(&cycles, &section, settings.policy)?;
         progress.advance(1);
@@ -147,7 +147,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         progress.advance(1);
         Ok((single_tosses, policies, doublings))
     };
-    let (merging, others) = rayon::join(merging, others);
+    let (merging, others) = rayon::join(crisis, others);
     let (merging, (single_tosses, policies, doublings)) = (merging?, others?);
     progress.advance(1);
     let doublings: Vec<f64> = doublings.into_iter().map(|doubling| doubling.axial_forcing).collect();
