@@ -44,8 +44,8 @@ pub(super) const NAMES: [&str; PROGRAMS.len()] = {
     names
 };
 
-/// Arguments of a short run: a second for each bench.
-const QUICK: [&str; 4] = ["--warm-up-time", "0.3", "--measurement-time", "0.7"];
+/// Arguments of one repetition: a second or two for each bench.
+const REPETITION: [&str; 4] = ["--warm-up-time", "0.5", "--measurement-time", "1"];
 
 /// What criterion says of a bench.
 #[derive(Deserialize)]
@@ -99,7 +99,7 @@ impl Program {
     }
 
     /// Measures everything in this program anew.
-    pub(super) fn run(self, root: &Path, results: &Path, quick: bool) -> anyhow::Result<()> {
+    pub(super) fn run(self, root: &Path, results: &Path) -> anyhow::Result<()> {
         let folder = self.folder(results);
         match fs::remove_dir_all(&folder) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -108,10 +108,7 @@ impl Program {
             _ => {}
         }
         let mut command = self.cargo(&["--"]);
-        if quick {
-            command.args(QUICK);
-        }
-        command.current_dir(root).env("CRITERION_HOME", &folder);
+        command.args(REPETITION).current_dir(root).env("CRITERION_HOME", &folder);
         let status = command.status().context("cannot start cargo")?;
         if !status.success() {
             bail!("cargo bench --package {} --bench {} failed: {status}", self.package, self.bench);

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::bail;
 
+use super::REPETITIONS;
 use super::record::{Record, Reference};
 use super::table::{self, digits, time};
 
@@ -193,7 +194,9 @@ fn run_table(run: &Record, baseline: Option<&Record>) -> String {
             run.reference_ns(reference).map_or_else(|| "-".to_owned(), time)
         });
     }
-    row("length of the run", &|run| if run.quick { "short" } else { "full" }.to_owned());
+    row("measured", &|run| {
+        if run.quick { "once".to_owned() } else { format!("least of {REPETITIONS}") }
+    });
     text
 }
 

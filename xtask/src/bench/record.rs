@@ -105,6 +105,15 @@ impl Measured {
         0.5 * (self.high_ns - self.low_ns) / self.median_ns + 0.5 * self.reference_drift
     }
 
+    fn keep_least(&mut self, other: &Self) {
+        if other.median_ns < self.median_ns {
+            (self.low_ns, self.median_ns, self.high_ns) = (other.low_ns, other.median_ns, other.high_ns);
+        }
+        if other.reference_ns < self.reference_ns {
+            (self.reference_ns, self.reference_drift) = (other.reference_ns, other.reference_drift);
+        }
+    }
+
     fn is_sound(&self) -> bool {
         let times = [self.low_ns, self.median_ns, self.high_ns, self.reference_ns];
         times.iter().all(|time| time.is_finite() && *time > 0.0)
@@ -144,6 +153,14 @@ impl Record {
         let times = || self.benches.values().filter(|bench| bench.reference == reference);
         let sum: f64 = times().map(|bench| bench.reference_ns).sum();
         Some(sum / times().count() as f64).filter(|mean| mean.is_finite())
+    }
+
+    /// Takes over measurements, of each bench and each reference those with the least median: others on the machine only add
+    /// time.
+    pub(crate) fn keep_least(&mut self, benches: BTreeMap<String, Measured>) {
+        for (name, measured) in benches {
+            self.benches.entry(name).and_modify(|kept| kept.keep_least(&measured)).or_insert(measured);
+        }
     }
 
     /// Reads the record that `command` stores.
@@ -238,6 +255,19 @@ pub(crate) mod tests {
         assert!(format!("{error:#}").contains("w1/scalar"), "{error:#}");
         let error = Record::read(Path::new("/nowhere/baseline.json"), "the command").expect_err("missing");
         assert!(format!("{error:#}").contains("/nowhere/baseline.json"), "{error:#}");
+    }
+
+    #[test]
+    fn the_least_of_several_measurements_is_kept() {
+        let mut kept = record(&[("a", 150.0), ("b", 20.0)]);
+        let mut slower = record(&[("a", 160.0), ("c", 5.0)]);
+        let bench = slower.benches.get_mut("a").expect("there");
+        (bench.reference_ns, bench.reference_drift) = (9.0, 0.5);
+        kept.keep_least(slower.benches);
+        let medians = ["a", "b", "c"].map(|name| kept.median_ns(name));
+        assert_eq!(medians, [Some(150.0), Some(20.0), Some(5.0)]);
+        let least = record(&[("a", 150.0)]).benches["a"];
+        assert_eq!(kept.benches["a"], Measured { reference_ns: 9.0, reference_drift: 0.5, ..least });
     }
 
     #[test]
