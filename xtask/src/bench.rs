@@ -27,8 +27,8 @@ const PAGE_FILE: &str = "performance.md";
 /// The folder of criterion's results, in the target folder.
 const RESULTS_FOLDER: &str = "performance";
 
-/// How often everything is measured; the least median is kept.
-pub(crate) const REPETITIONS: u32 = 4;
+/// How often everything is measured at least; the least median is kept.
+const REPETITIONS: u32 = 4;
 
 /// The options of `cargo xtask bench`.
 #[derive(Args)]
@@ -103,22 +103,17 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     let machine = machine(&root)?;
     let fresh =
         Record { machine, quick: options.quick, benches: Default::default(), figures: None, build_s: None };
-    // Single programs renew their part of the last run, if that was one of the same source and kind.
+    // Single programs add to the last run, if that was one of the same source and kind.
     let last =
         (!options.programs.is_empty()).then(|| Record::read(&stored, "cargo xtask bench").ok()).flatten();
     let mut record =
         last.filter(|last| last.machine == fresh.machine && last.quick == fresh.quick).unwrap_or(fresh);
     let selected = |name: &str| options.programs.is_empty() || options.programs.iter().any(|own| own == name);
     // All programs again and again: a neighbour on the machine mostly stays for some minutes.
-    for repetition in 0..if options.quick { 1 } else { REPETITIONS } {
+    for _ in 0..if options.quick { 1 } else { REPETITIONS } {
         for program in PROGRAMS.into_iter().filter(|program| selected(program.name())) {
             program.run(&root, &results)?;
-            let benches = program.read(&results)?;
-            if repetition == 0 {
-                record.benches.extend(benches);
-            } else {
-                record.keep_least(benches);
-            }
+            record.keep_least(program.read(&results)?);
             // Now, so that a run that is broken off loses no more than one program.
             OutputFolder::create(results.clone())?.write("run.json", &record.to_json()?)?;
         }

@@ -148,11 +148,10 @@ impl Record {
         Some(self.benches.get(name)?.median_ns)
     }
 
-    /// Time (ns) of a reference kernel: the mean over the benches that are compared with it.
+    /// Time (ns) of a reference kernel: the least of all programs. The one of the figures is compiled for less speed.
     pub(crate) fn reference_ns(&self, reference: Reference) -> Option<f64> {
-        let times = || self.benches.values().filter(|bench| bench.reference == reference);
-        let sum: f64 = times().map(|bench| bench.reference_ns).sum();
-        Some(sum / times().count() as f64).filter(|mean| mean.is_finite())
+        let benches = self.benches.values().filter(|bench| bench.reference == reference);
+        benches.map(|bench| bench.reference_ns).reduce(f64::min)
     }
 
     /// Takes over measurements, of each bench and each reference those with the least median: others on the machine only add
