@@ -185,7 +185,7 @@ pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f
     let least = (MAJORANT * peak * speed) * (speed2 * speed2);
     // More than the bound by far more than the rounding of both.
     let inaccurate = least > (1.000_001 * COMPLETION_ERROR) * (pull * reach) * (reach2 * reach2);
-    bounces_on(pull, speed, restitution) | ((speed > 0.0) & inaccurate)
+    bounces_on(pull, speed, restitution) | inaccurate
 }
 
 /// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.

@@ -223,7 +223,7 @@ impl WithSimd for Rebound<'_> {
 mod tests {
     use super::*;
     use crate::phase::Phase;
-    use crate::testing::golden_spread;
+    use crate::testing::{golden_spread, launch_that_may_dip};
 
     fn launch(k: u64) -> (Vibration, Launch) {
         let peak = match k % 5 {
@@ -319,11 +319,8 @@ mod tests {
         for block in 0..1_500 {
             let launches: Vec<_> = (0..all as u64)
                 .filter_map(|lane| {
-                    let k = 256 * block + lane;
-                    let angle = vibration.separation_angle - 2.0 * golden_spread(k);
-                    let phase = Phase::new(angle).expect("finite");
-                    let disk_speed = 1.9 + 0.8 * golden_spread(7 * k);
-                    Launch::new(phase, disk_speed - vibration.velocity(phase)).ok()
+                    let (phase, speed) = launch_that_may_dip(&vibration, 256 * block + lane);
+                    Launch::new(phase, speed).ok()
                 })
                 .collect();
             launches.iter().enumerate().for_each(|(lane, launch)| flights.set_launch(lane, *launch));

@@ -133,11 +133,11 @@ impl Program {
             };
             let (before, after) = (of("before")?, of("after")?);
             let mean = 0.5 * (before + after);
-            references.insert(reference.name(), (mean, (before - after).abs() / mean));
+            references.insert(reference, (mean, (before - after).abs() / mean));
         }
         let measured = |name: &str, [low_ns, median_ns, high_ns]: Times| {
             let reference = Reference::of(name);
-            let (reference_ns, reference_drift) = references[reference.name()];
+            let (reference_ns, reference_drift) = references[&reference];
             Measured {
                 low_ns: rounded(low_ns),
                 median_ns: rounded(median_ns),

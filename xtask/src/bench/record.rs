@@ -44,7 +44,7 @@ pub(crate) struct FigureTimes {
 }
 
 /// The kernel that a time is compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Reference {
     /// Links that wait for each other, as the impacts of one orbit do.

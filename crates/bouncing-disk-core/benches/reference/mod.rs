@@ -26,7 +26,7 @@ fn link(x: f64) -> f64 {
     (1.0 + x) / (1.0 + root + x * x)
 }
 
-/// Replaces every number by four polynomials of it, one of the other; the compiler makes them vectors of the baseline.
+/// Applies the polynomial four times over to every number; the compiler makes vectors of the baseline of them.
 #[inline(never)]
 fn step(numbers: &mut [f64; NUMBERS]) {
     for x in numbers {

@@ -243,8 +243,7 @@ mod tests {
     use super::*;
     use crate::flight::Launch;
     use crate::lanes::{Dispatch, InstructionSet};
-    use crate::phase::Phase;
-    use crate::testing::golden_spread;
+    use crate::testing::launch_that_may_dip;
     use crate::vibration::Vibration;
 
     /// Launches about as fast as the platform at its fastest: what is decided of their windows is what one flight decides.
@@ -257,10 +256,7 @@ mod tests {
         let (mut dips, mut open, mut clear) = (0, 0, 0);
         for block in 0..2_000 {
             let launches: [_; LANES] = core::array::from_fn(|k| {
-                let number = (block * LANES + k) as u64;
-                let angle = vibration.separation_angle - 2.0 * golden_spread(number);
-                let phase = Phase::new(angle).expect("finite");
-                let speed = 1.9 + 0.8 * golden_spread(7 * number) - vibration.velocity(phase);
+                let (phase, speed) = launch_that_may_dip(&vibration, (block * LANES + k) as u64);
                 Launch::new(phase, speed.max(0.0)).expect("legal")
             });
             for (k, launch) in launches.iter().enumerate() {
