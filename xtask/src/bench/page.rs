@@ -21,6 +21,8 @@ struct Aim {
     /// The same as the floor where there is only one number.
     goal: f64,
     value: Option<f64>,
+    /// The same from the middle of all measurements.
+    middle: Option<f64>,
     /// Whether the run was long enough for a verdict.
     decides: bool,
 }
@@ -44,8 +46,9 @@ impl Aim {
         let number = |value: f64| if value >= 1.0e3 { grouped(value) } else { digits(value) };
         let goal = if self.reaches(self.floor, self.goal) { "-".to_owned() } else { number(self.goal) };
         let value = self.value.map_or_else(|| NOT_MEASURED.to_owned(), number);
+        let middle = self.middle.map_or_else(|| "-".to_owned(), number);
         let (what, unit, floor) = (self.what, self.unit, number(self.floor));
-        format!("| {what} | {unit} | {floor} | {goal} | {value} | {} |\n", self.verdict())
+        format!("| {what} | {unit} | {floor} | {goal} | {value} | {middle} | {} |\n", self.verdict())
     }
 }
 
@@ -58,39 +61,62 @@ fn grouped(value: f64) -> String {
     table::with_commas(((value / scale).round() * scale) as usize)
 }
 
+/// Which of the times of a bench is meant.
+type Time = fn(&Record, &str) -> Option<f64>;
+
 /// How much faster two threads are; only where two processors were there.
-fn speed_up(run: &Record, prefix: &str) -> Option<f64> {
-    let of = |threads: usize| run.median_ns(&format!("{prefix}threads_{threads}"));
+fn speed_up(run: &Record, prefix: &str, time: Time) -> Option<f64> {
+    let of = |threads: usize| time(run, &format!("{prefix}threads_{threads}"));
     (run.machine.processors >= 2).then(|| Some(of(1)? / of(2)?)).flatten()
 }
 
 fn aims(run: &Record) -> Vec<Aim> {
     let two = run.machine.processors >= 2;
-    let ns = |name: &str| run.median_ns(name);
-    let rate = |name: &str| ns(name).map(|ns| 1.0e9 / ns);
     let decides = !run.quick;
-    let aim = |what, unit, rate, (floor, goal), value| Aim { what, unit, rate, floor, goal, value, decides };
-    let panel = ns("w3/panel_1000/threads_2").filter(|_| two).map(|ns| ns * 1.0e6 / 1.0e9);
-    let figures = run.figures.filter(|_| two);
-    let build = run.build_s.filter(|_| two);
+    let aim = |what, unit, rate, (floor, goal), value, middle| Aim {
+        what,
+        unit,
+        rate,
+        floor,
+        goal,
+        value,
+        middle,
+        decides,
+    };
+    let both = |of: &dyn Fn(Time) -> Option<f64>| (of(Record::median_ns), of(Record::middle_ns));
+    let time = |what, aims, name: &str| {
+        let (value, middle) = both(&|time| time(run, name));
+        aim(what, "ns an impact", false, aims, value, middle)
+    };
+    let rate = |what, unit, aims, name: &str| {
+        let (value, middle) = both(&|time| time(run, name).map(|ns| 1.0e9 / ns));
+        aim(what, unit, true, aims, value, middle)
+    };
+    let panel =
+        |time: Time| time(run, "w3/panel_1000/threads_2").filter(|_| two).map(|ns| ns * 1.0e6 / 1.0e9);
+    let (panel, panel_middle) = both(&panel);
+    let (faster, faster_middle) = both(&|time| speed_up(run, "w3/panel_1000/", time));
+    let once =
+        |what, floor, value: Option<f64>| aim(what, "s", false, (floor, floor), value.filter(|_| two), None);
     vec![
-        aim("W1, one after the other", "ns an impact", false, (130.0, 95.0), ns("w1/scalar")),
-        aim("W1, in lockstep, AVX-512", "ns an impact", false, (8.0, 5.0), ns("w1/lanes/Avx512")),
-        aim("W1, in lockstep, AVX2", "ns an impact", false, (12.0, 9.0), ns("w1/lanes/Avx2")),
-        aim("W1, in lockstep, baseline", "ns an impact", false, (22.0, 22.0), ns("w1/lanes/Baseline")),
-        aim("W2, one motor", "motor s/s", true, (5_500.0, 5_500.0), rate("w2/one_motor")),
-        aim("W2, ensemble, a core", "motor s/s", true, (4.0e4, 4.0e4), rate("w2/ensemble/threads_1")),
-        aim("W3, a core", "cells/s", true, (3.0e6, 8.0e6), rate("w3/threads_1")),
-        aim("panel of 1000 x 1000 cells, two threads", "s", false, (0.2, 0.2), panel),
-        aim("W3, two threads over one", "times", true, (1.9, 1.9), speed_up(run, "w3/panel_1000/")),
-        aim("all figures, draft, two processors", "s", false, (15.0, 15.0), figures.map(|f| f.draft_s)),
-        aim("all figures, paper, two processors", "s", false, (120.0, 120.0), figures.map(|f| f.paper_s)),
-        aim("release build of xtask from nothing, two processors", "s", false, (180.0, 180.0), build),
+        time("W1, one after the other", (130.0, 95.0), "w1/scalar"),
+        time("W1, in lockstep, AVX-512", (8.0, 5.0), "w1/lanes/Avx512"),
+        time("W1, in lockstep, AVX2", (12.0, 9.0), "w1/lanes/Avx2"),
+        time("W1, in lockstep, baseline", (22.0, 22.0), "w1/lanes/Baseline"),
+        rate("W2, one motor", "motor s/s", (5_500.0, 5_500.0), "w2/one_motor"),
+        rate("W2, ensemble, a core", "motor s/s", (4.0e4, 4.0e4), "w2/ensemble/threads_1"),
+        rate("W3, a core", "cells/s", (3.0e6, 8.0e6), "w3/threads_1"),
+        aim("panel of 1000 x 1000 cells, two threads", "s", false, (0.2, 0.2), panel, panel_middle),
+        aim("W3, two threads over one", "times", true, (1.9, 1.9), faster, faster_middle),
+        once("all figures, draft, two processors", 15.0, run.figures.map(|figures| figures.draft_s)),
+        once("all figures, paper, two processors", 120.0, run.figures.map(|figures| figures.paper_s)),
+        once("release build of xtask from nothing, two processors", 180.0, run.build_s),
     ]
 }
 
 fn aims_table(run: &Record) -> String {
-    let head = "| | unit | floor | goal | measured | |\n| --- | --- | ---: | ---: | ---: | --- |\n";
+    let head =
+        "| | unit | floor | goal | measured | middle | |\n| --- | --- | ---: | ---: | ---: | ---: | --- |\n";
     aims(run).iter().fold(head.to_owned(), |text, aim| text + &aim.row())
 }
 
@@ -143,7 +169,8 @@ fn threads_table(run: &Record) -> String {
     let mut text = "| | one thread | two threads | times faster |\n| --- | ---: | ---: | ---: |\n".to_owned();
     for prefix in prefixes {
         let of = |threads: usize| run.median_ns(&format!("{prefix}threads_{threads}")).map(time);
-        if let (Some(one), Some(two), Some(faster)) = (of(1), of(2), speed_up(run, prefix)) {
+        if let (Some(one), Some(two), Some(faster)) = (of(1), of(2), speed_up(run, prefix, Record::median_ns))
+        {
             let _ =
                 writeln!(text, "| `{}` | {one} | {two} | {faster:.2} |", prefix.trim_end_matches(['_', '/']));
         }
@@ -238,7 +265,10 @@ mod tests {
         let run = record(&[("growth/cells/100", 400.0), ("growth/cells/10000", 300.0)]);
         let page = page(&run, Some(&run)).expect("complete");
         assert!(page.contains("| 10,000 | 300 ns | 0.75 |"), "{page}");
-        assert!(page.contains("| `growth/cells/100` | 400 ns | cell | chain | 40.0 | 40.0 |"), "{page}");
+        assert!(
+            page.contains("| `growth/cells/100` | 400 ns | 400 ns of 1 | cell | chain | 40.0 | 40.0 |"),
+            "{page}"
+        );
     }
 
     #[test]
@@ -247,24 +277,27 @@ mod tests {
         let line = |text: &str, start: &str| {
             text.lines().find(|line| line.starts_with(start)).expect("listed").to_owned()
         };
-        let mut run = record(&[("w1/scalar", 100.0), ("w3/panel_1000/threads_2", 100.0)]);
+        let mut run = record(&[("w1/scalar", 120.0), ("w3/panel_1000/threads_2", 100.0)]);
+        run.keep_least(record(&[("w1/scalar", 100.0)]).benches);
         let scalar = line(&rows(&run), "| W1, one after");
         assert_eq!(
             scalar,
-            "| W1, one after the other | ns an impact | 130 | 95.0 | 100 | floor met, goal not |"
+            "| W1, one after the other | ns an impact | 130 | 95.0 | 100 | 110 | floor met, goal not |"
         );
-        assert!(line(&rows(&run), "| W1, in lockstep, AVX2").ends_with("not measured in this run | - |"));
-        assert!(line(&rows(&run), "| panel").ends_with("| 0.100 | met |"));
+        assert!(line(&rows(&run), "| W1, in lockstep, AVX2").ends_with("not measured in this run | - | - |"));
+        assert!(line(&rows(&run), "| panel").ends_with("| 0.100 | 0.100 | met |"));
         run.build_s = Some(190.0);
-        assert!(line(&rows(&run), "| release build").ends_with("| 190 | **not met** |"));
+        assert!(line(&rows(&run), "| release build").ends_with("| 190 | - | **not met** |"));
         // Two threads on one processor are no measurement of two threads.
         run.machine.processors = 1;
-        assert!(line(&rows(&run), "| release build").ends_with("not measured in this run | - |"));
-        assert!(line(&rows(&run), "| panel").ends_with("not measured in this run | - |"));
+        assert!(line(&rows(&run), "| release build").ends_with("not measured in this run | - | - |"));
+        assert!(line(&rows(&run), "| panel").ends_with("not measured in this run | - | - |"));
         run.benches = record(&[("w1/scalar", 140.0)]).benches;
-        assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | **not met** |"));
+        assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | 140 | **not met** |"));
         run.quick = true;
-        assert!(line(&rows(&run), "| W1, one after").ends_with("| 140 | no verdict from a short run |"));
+        assert!(
+            line(&rows(&run), "| W1, one after").ends_with("| 140 | 140 | no verdict from a short run |")
+        );
     }
 
     #[test]

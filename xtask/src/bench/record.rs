@@ -79,13 +79,15 @@ impl Reference {
 }
 
 /// The time of one bench.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Measured {
     /// Median time (ns) of one element, with the ends of its 95 % confidence interval.
     pub(crate) low_ns: f64,
     pub(crate) median_ns: f64,
     pub(crate) high_ns: f64,
+    /// The medians (ns) of all measurements in their order; the least of them is the one above.
+    pub(crate) medians_ns: Vec<f64>,
     /// The reference kernel.
     pub(crate) reference: Reference,
     /// Its time (ns) in the same program: the mean of before and after.
@@ -105,7 +107,16 @@ impl Measured {
         0.5 * (self.high_ns - self.low_ns) / self.median_ns + 0.5 * self.reference_drift
     }
 
+    /// The median (ns) of the medians of all measurements: what a single one is as likely to be below as above.
+    pub(crate) fn middle_ns(&self) -> f64 {
+        let mut medians = self.medians_ns.clone();
+        medians.sort_by(f64::total_cmp);
+        let half = medians.len() / 2;
+        if medians.len() % 2 == 1 { medians[half] } else { 0.5 * (medians[half - 1] + medians[half]) }
+    }
+
     fn keep_least(&mut self, other: &Self) {
+        self.medians_ns.extend(&other.medians_ns);
         if other.median_ns < self.median_ns {
             (self.low_ns, self.median_ns, self.high_ns) = (other.low_ns, other.median_ns, other.high_ns);
         }
@@ -120,6 +131,8 @@ impl Measured {
             && self.low_ns <= self.median_ns
             && self.median_ns <= self.high_ns
             && self.reference_drift.is_finite()
+            && self.medians_ns.contains(&self.median_ns)
+            && self.medians_ns.iter().all(|median| median.is_finite() && *median >= self.median_ns)
     }
 }
 
@@ -143,9 +156,14 @@ impl Change {
 }
 
 impl Record {
-    /// The median time of a bench in nanoseconds.
+    /// The least median time (ns) of a bench.
     pub(crate) fn median_ns(&self, name: &str) -> Option<f64> {
         Some(self.benches.get(name)?.median_ns)
+    }
+
+    /// The median (ns) of all its medians.
+    pub(crate) fn middle_ns(&self, name: &str) -> Option<f64> {
+        Some(self.benches.get(name)?.middle_ns())
     }
 
     /// Time (ns) of a reference kernel: the least of all programs. The one of the figures is compiled for less speed.
@@ -170,7 +188,7 @@ impl Record {
             format!("{shown} does not have the form of this version; `{command}` makes it anew")
         })?;
         if let Some((name, _)) = record.benches.iter().find(|(_, measured)| !measured.is_sound()) {
-            bail!("{}: the times of {name} are not positive numbers in rising order", path.display());
+            bail!("{shown}: the times of {name} do not belong together, or are no positive numbers");
         }
         Ok(record)
     }
@@ -193,6 +211,7 @@ pub(crate) mod tests {
             low_ns: 0.99 * median_ns,
             median_ns,
             high_ns: 1.01 * median_ns,
+            medians_ns: vec![median_ns],
             reference: Reference::Chain,
             reference_ns: 10.0,
             reference_drift: 0.02,
@@ -252,6 +271,9 @@ pub(crate) mod tests {
         record.benches.get_mut("w1/scalar").expect("there").reference_ns = 0.0;
         let error = stored("unsound", &record.to_json().expect("JSON")).expect_err("no time is zero");
         assert!(format!("{error:#}").contains("w1/scalar"), "{error:#}");
+        let mut record = self::record(&[("w1/scalar", 150.0)]);
+        record.benches.get_mut("w1/scalar").expect("there").medians_ns = vec![140.0, 150.0];
+        stored("foreign", &record.to_json().expect("JSON")).expect_err("140 is less than the least");
         let error = Record::read(Path::new("/nowhere/baseline.json"), "the command").expect_err("missing");
         assert!(format!("{error:#}").contains("/nowhere/baseline.json"), "{error:#}");
     }
@@ -265,14 +287,19 @@ pub(crate) mod tests {
         kept.keep_least(slower.benches);
         let medians = ["a", "b", "c"].map(|name| kept.median_ns(name));
         assert_eq!(medians, [Some(150.0), Some(20.0), Some(5.0)]);
-        let least = record(&[("a", 150.0)]).benches["a"];
-        assert_eq!(kept.benches["a"], Measured { reference_ns: 9.0, reference_drift: 0.5, ..least });
+        let mut least = record(&[("a", 150.0)]).benches["a"].clone();
+        (least.reference_ns, least.reference_drift) = (9.0, 0.5);
+        least.medians_ns = vec![150.0, 160.0];
+        assert_eq!(kept.benches["a"], least);
+        assert_eq!(["a", "b"].map(|name| kept.middle_ns(name)), [Some(155.0), Some(20.0)]);
+        kept.keep_least(record(&[("a", 140.0)]).benches);
+        assert_eq!((kept.median_ns("a"), kept.middle_ns("a")), (Some(140.0), Some(150.0)));
     }
 
     #[test]
     fn a_change_is_one_of_ratios() {
         let (before, after) = (record(&[("a", 100.0)]), record(&[("a", 150.0)]));
-        let mut now = after.benches["a"];
+        let mut now = after.benches["a"].clone();
         // A machine that is half as fast.
         now.low_ns *= 2.0;
         now.median_ns *= 2.0;

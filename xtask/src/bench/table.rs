@@ -3,7 +3,10 @@
 use super::record::{Change, Measured, Record};
 
 /// The heads of the columns.
-const HEADS: [&str; 7] = ["bench", "time", "per", "reference", "ratio", "baseline", "change"];
+const HEADS: [&str; 8] = ["bench", "time", "middle", "per", "reference", "ratio", "baseline", "change"];
+
+/// The cells of a row.
+pub(super) type Row = [String; HEADS.len()];
 
 /// What one element of a bench is.
 pub(super) fn element(name: &str) -> &'static str {
@@ -62,7 +65,7 @@ fn change(change: Change) -> String {
 }
 
 /// The rows of the table, one for each bench of the run or the baseline.
-pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 7]> {
+pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<Row> {
     let none = || "-".to_owned();
     let known = |name: &String| baseline.and_then(|baseline| baseline.benches.get(name));
     let mut rows: Vec<_> = run
@@ -74,6 +77,7 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 7]> 
             [
                 name.clone(),
                 time(now.median_ns),
+                format!("{} of {}", time(now.middle_ns()), now.medians_ns.len()),
                 element(name).to_owned(),
                 now.reference.name().to_owned(),
                 digits(now.ratio()),
@@ -90,6 +94,7 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 7]> 
         rows.push([
             name.clone(),
             none(),
+            none(),
             element(name).to_owned(),
             before.reference.name().to_owned(),
             none(),
@@ -101,15 +106,15 @@ pub(super) fn rows(run: &Record, baseline: Option<&Record>) -> Vec<[String; 7]> 
 }
 
 /// The table with aligned columns: names to the left, numbers to the right.
-pub(super) fn aligned(rows: &[[String; 7]]) -> String {
+pub(super) fn aligned(rows: &[Row]) -> String {
     let heads = HEADS.map(str::to_owned);
     let all = || std::iter::once(&heads).chain(rows);
     let width = |column: usize| all().map(|row| row[column].chars().count()).max().unwrap_or_default();
-    let widths: [usize; 7] = std::array::from_fn(width);
+    let widths: [usize; HEADS.len()] = std::array::from_fn(width);
     all()
         .map(|row| {
             let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| match column {
-                0 | 2 | 3 => format!("{cell:<width$}"),
+                0 | 3 | 4 => format!("{cell:<width$}"),
                 _ => format!("{cell:>width$}"),
             });
             format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
@@ -118,8 +123,9 @@ pub(super) fn aligned(rows: &[[String; 7]]) -> String {
 }
 
 /// The table in Markdown.
-pub(super) fn markdown(rows: &[[String; 7]]) -> String {
-    let mut text = format!("| {} |\n| --- | ---: | --- | --- | ---: | ---: | ---: |\n", HEADS.join(" | "));
+pub(super) fn markdown(rows: &[Row]) -> String {
+    let mut text =
+        format!("| {} |\n| --- | ---: | ---: | --- | --- | ---: | ---: | ---: |\n", HEADS.join(" | "));
     for [name, rest @ ..] in rows {
         text.push_str(&format!("| `{name}` | {} |\n", rest.join(" | ")));
     }
@@ -134,17 +140,18 @@ mod tests {
 
     #[test]
     fn a_table_shows_both_runs_and_what_is_lost() {
-        let run = record(&[("w1/scalar", 150.0), ("w3/scalar", 2_500.0)]);
+        let mut run = record(&[("w1/scalar", 160.0), ("w3/scalar", 2_500.0)]);
+        run.keep_least(record(&[("w1/scalar", 150.0)]).benches);
         let baseline = record(&[("w1/scalar", 100.0), ("w2/one_motor", 200_000.0)]);
         let text = aligned(&rows(&run, Some(&baseline)));
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(
             lines,
             [
-                "bench            time  per           reference  ratio  baseline            change",
-                "w1/scalar      150 ns  impact        chain       15.0      10.0     +50.0 % ± 4.0",
-                "w3/scalar     2.50 µs  cell          chain        250         -                 -",
-                "w2/one_motor        -  motor second  chain          -     20000  not measured now",
+                "bench            time        middle  per           reference  ratio  baseline            change",
+                "w1/scalar      150 ns   155 ns of 2  impact        chain       15.0      10.0     +50.0 % ± 4.0",
+                "w3/scalar     2.50 µs  2.50 µs of 1  cell          chain        250         -                 -",
+                "w2/one_motor        -             -  motor second  chain          -     20000  not measured now",
             ]
         );
         let mut other = run.clone();
