@@ -15,7 +15,7 @@ use anyhow::{Context as _, bail};
 use bouncing_disk_experiments::output::OutputFolder;
 use clap::Args;
 
-use crate::output::say;
+use crate::output::{complain, say};
 use crate::workspace::{DOCS_FOLDER, in_workspace};
 use criterion::PROGRAMS;
 use record::{FigureTimes, Machine, Record};
@@ -28,7 +28,7 @@ const PAGE_FILE: &str = "performance.md";
 const RESULTS_FOLDER: &str = "performance";
 
 /// How often everything is measured at least; the least median is kept.
-const REPETITIONS: u32 = 4;
+const REPETITIONS: u32 = 8;
 
 /// The options of `cargo xtask bench`.
 #[derive(Args)]
@@ -106,8 +106,15 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     // Single programs add to the last run, if that was one of the same source and kind.
     let last =
         (!options.programs.is_empty()).then(|| Record::read(&stored, "cargo xtask bench").ok()).flatten();
-    let mut record =
-        last.filter(|last| last.machine == fresh.machine && last.quick == fresh.quick).unwrap_or(fresh);
+    let mut record = match last {
+        Some(last) if last.machine == fresh.machine && last.quick == fresh.quick => last,
+        Some(last) => {
+            let source = last.machine.source;
+            complain!("the last run, of {source}, was of another source, machine or kind: a new one begins");
+            fresh
+        }
+        None => fresh,
+    };
     let selected = |name: &str| options.programs.is_empty() || options.programs.iter().any(|own| own == name);
     // All programs again and again: a neighbour on the machine mostly stays for some minutes.
     for _ in 0..if options.quick { 1 } else { REPETITIONS } {
@@ -149,7 +156,18 @@ fn results_folder() -> anyhow::Result<PathBuf> {
 
 fn machine(root: &Path) -> anyhow::Result<Machine> {
     let compiler = said(Command::new("rustc").arg("--version")).context("cannot start rustc")?;
-    let source = said(Command::new("git").args(["describe", "--always", "--dirty"]).current_dir(root));
+    let git = || {
+        let mut git = Command::new("git");
+        git.current_dir(root);
+        git
+    };
+    // What this command writes is not what it measures.
+    let products = [BASELINE_FOLDER.to_owned(), format!("{DOCS_FOLDER}/{PAGE_FILE}")];
+    let products = products.map(|product| format!(":(exclude){product}"));
+    let changes =
+        said(git().args(["status", "--porcelain", "--untracked-files=no", "--", "."]).args(products));
+    let source = said(git().args(["describe", "--always"]))
+        .and_then(|source| Ok(if changes?.is_empty() { source } else { format!("{source}-dirty") }));
     let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
         let line = text.lines().find(|line| line.starts_with("model name"))?;
         Some(line.split_once(':')?.1.trim().to_owned())

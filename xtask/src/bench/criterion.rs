@@ -44,8 +44,9 @@ pub(super) const NAMES: [&str; PROGRAMS.len()] = {
     names
 };
 
-/// Arguments of one repetition: a second or two for each bench.
-const REPETITION: [&str; 4] = ["--warm-up-time", "0.5", "--measurement-time", "1"];
+/// Arguments of one repetition: less than a second for most benches, so that some fall between the bursts of a neighbour on
+/// the machine.
+const REPETITION: [&str; 4] = ["--warm-up-time", "0.2", "--measurement-time", "0.4"];
 
 /// What criterion says of a bench.
 #[derive(Deserialize)]
