@@ -27,7 +27,7 @@ const PAGE_FILE: &str = "performance.md";
 /// The folder of criterion's results, in the target folder.
 const RESULTS_FOLDER: &str = "performance";
 
-/// How often everything is measured at least; the least median is kept.
+/// How often everything is measured at least.
 const REPETITIONS: u32 = 8;
 
 /// The options of `cargo xtask bench`.
@@ -104,16 +104,23 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     let fresh =
         Record { machine, quick: options.quick, benches: Default::default(), figures: None, build_s: None };
     // Single programs add to the last run, if that was one of the same source and kind.
-    let last =
-        (!options.programs.is_empty()).then(|| Record::read(&stored, "cargo xtask bench").ok()).flatten();
-    let mut record = match last {
-        Some(last) if last.machine == fresh.machine && last.quick == fresh.quick => last,
-        Some(last) => {
-            let source = last.machine.source;
-            complain!("the last run, of {source}, was of another source, machine or kind: a new one begins");
-            fresh
+    let mut record = if options.programs.is_empty() || !stored.exists() {
+        fresh
+    } else {
+        match Record::read(&stored, "cargo xtask bench") {
+            Ok(last) if last.machine == fresh.machine && last.quick == fresh.quick => last,
+            Ok(last) => {
+                let (quick, source) = (if last.quick { "short " } else { "" }, last.machine.source);
+                complain!(
+                    "the last {quick}run, of {source}, was not of this source, machine and kind: a new one begins"
+                );
+                fresh
+            }
+            Err(error) => {
+                complain!("{error:#}: a new run begins");
+                fresh
+            }
         }
-        None => fresh,
     };
     let selected = |name: &str| options.programs.is_empty() || options.programs.iter().any(|own| own == name);
     // All programs again and again: a neighbour on the machine mostly stays for some minutes.

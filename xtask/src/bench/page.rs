@@ -222,7 +222,7 @@ fn run_table(run: &Record, baseline: Option<&Record>) -> String {
             run.reference_ns(reference).map_or_else(|| "-".to_owned(), time)
         });
     }
-    row("measured", &|run| if run.quick { "once" } else { "least of several" }.to_owned());
+    row("measured", &|run| if run.quick { "once" } else { "several times" }.to_owned());
     text
 }
 

@@ -272,8 +272,12 @@ pub(crate) mod tests {
         let error = stored("unsound", &record.to_json().expect("JSON")).expect_err("no time is zero");
         assert!(format!("{error:#}").contains("w1/scalar"), "{error:#}");
         let mut record = self::record(&[("w1/scalar", 150.0)]);
-        record.benches.get_mut("w1/scalar").expect("there").medians_ns = vec![140.0, 150.0];
-        stored("foreign", &record.to_json().expect("JSON")).expect_err("140 is less than the least");
+        for foreign in [vec![], vec![160.0], vec![140.0, 150.0]] {
+            record.benches.get_mut("w1/scalar").expect("there").medians_ns = foreign;
+            let error =
+                stored("foreign", &record.to_json().expect("JSON")).expect_err("150 is not the least");
+            assert!(format!("{error:#}").contains("w1/scalar"), "{error:#}");
+        }
         let error = Record::read(Path::new("/nowhere/baseline.json"), "the command").expect_err("missing");
         assert!(format!("{error:#}").contains("/nowhere/baseline.json"), "{error:#}");
     }
