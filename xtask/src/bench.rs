@@ -127,7 +127,7 @@ fn measured(options: &Options) -> anyhow::Result<Record> {
     for _ in 0..if options.quick { 1 } else { REPETITIONS } {
         for program in PROGRAMS.into_iter().filter(|program| selected(program.name())) {
             program.run(&root, &results)?;
-            record.keep_least(program.read(&results)?);
+            record.add(program.read(&results)?);
             // Now, so that a run that is broken off loses no more than one program.
             OutputFolder::create(results.clone())?.write("run.json", &record.to_json()?)?;
         }

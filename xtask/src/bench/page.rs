@@ -280,7 +280,7 @@ mod tests {
             text.lines().find(|line| line.starts_with(start)).expect("listed").to_owned()
         };
         let mut run = record(&[("w1/scalar", 180.0), ("w3/panel_1000/threads_2", 100.0)]);
-        run.keep_least(record(&[("w1/scalar", 90.0)]).benches);
+        run.add(record(&[("w1/scalar", 90.0)]).benches);
         let scalar = line(&rows(&run), "| W1, one after");
         // The least time decides, not the middle.
         assert_eq!(scalar, "| W1, one after the other | ns an impact | 130 | 95.0 | 90.0 | 135 | met |");
@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn two_threads_are_held_against_one_by_the_least_times_and_by_the_middles() {
         let mut run = record(&[("w3/threads_1", 400.0), ("w3/threads_2", 200.0)]);
-        run.keep_least(record(&[("w3/threads_1", 300.0), ("w3/threads_2", 240.0)]).benches);
+        run.add(record(&[("w3/threads_1", 300.0), ("w3/threads_2", 240.0)]).benches);
         let table = threads_table(&run);
         assert!(table.contains("| `w3` | 300 ns | 200 ns | 1.50 | 1.59 |"), "{table}");
         run.machine.processors = 1;

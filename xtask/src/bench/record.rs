@@ -82,11 +82,11 @@ impl Reference {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Measured {
-    /// Median time (ns) of one element, with the ends of its 95 % confidence interval.
+    /// Least median time (ns) of one element, with the ends of its 95 % confidence interval.
     pub(crate) low_ns: f64,
     pub(crate) median_ns: f64,
     pub(crate) high_ns: f64,
-    /// The medians (ns) of all measurements in their order; the least of them is the one above.
+    /// The medians (ns) of all measurements in their order, the least one among them.
     pub(crate) medians_ns: Vec<f64>,
     /// The reference kernel.
     pub(crate) reference: Reference,
@@ -115,7 +115,7 @@ impl Measured {
         if medians.len() % 2 == 1 { medians[half] } else { 0.5 * (medians[half - 1] + medians[half]) }
     }
 
-    fn keep_least(&mut self, other: &Self) {
+    fn add(&mut self, other: &Self) {
         self.medians_ns.extend(&other.medians_ns);
         if other.median_ns < self.median_ns {
             (self.low_ns, self.median_ns, self.high_ns) = (other.low_ns, other.median_ns, other.high_ns);
@@ -174,9 +174,9 @@ impl Record {
 
     /// Takes over measurements, of each bench and each reference those with the least median: others on the machine only add
     /// time.
-    pub(crate) fn keep_least(&mut self, benches: BTreeMap<String, Measured>) {
+    pub(crate) fn add(&mut self, benches: BTreeMap<String, Measured>) {
         for (name, measured) in benches {
-            self.benches.entry(name).and_modify(|kept| kept.keep_least(&measured)).or_insert(measured);
+            self.benches.entry(name).and_modify(|kept| kept.add(&measured)).or_insert(measured);
         }
     }
 
@@ -288,7 +288,7 @@ pub(crate) mod tests {
         let mut slower = record(&[("a", 160.0), ("c", 5.0)]);
         let bench = slower.benches.get_mut("a").expect("there");
         (bench.reference_ns, bench.reference_drift) = (9.0, 0.5);
-        kept.keep_least(slower.benches);
+        kept.add(slower.benches);
         let medians = ["a", "b", "c"].map(|name| kept.median_ns(name));
         assert_eq!(medians, [Some(150.0), Some(20.0), Some(5.0)]);
         let mut least = record(&[("a", 150.0)]).benches["a"].clone();
@@ -296,7 +296,7 @@ pub(crate) mod tests {
         least.medians_ns = vec![150.0, 160.0];
         assert_eq!(kept.benches["a"], least);
         assert_eq!(["a", "b"].map(|name| kept.middle_ns(name)), [Some(155.0), Some(20.0)]);
-        kept.keep_least(record(&[("a", 140.0)]).benches);
+        kept.add(record(&[("a", 140.0)]).benches);
         assert_eq!((kept.median_ns("a"), kept.middle_ns("a")), (Some(140.0), Some(150.0)));
     }
 

@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn a_table_shows_both_runs_and_what_is_lost() {
         let mut run = record(&[("w1/scalar", 160.0), ("w3/scalar", 2_500.0)]);
-        run.keep_least(record(&[("w1/scalar", 150.0)]).benches);
+        run.add(record(&[("w1/scalar", 150.0)]).benches);
         let baseline = record(&[("w1/scalar", 100.0), ("w2/one_motor", 200_000.0)]);
         let text = aligned(&rows(&run, Some(&baseline)));
         let lines: Vec<_> = text.lines().collect();
