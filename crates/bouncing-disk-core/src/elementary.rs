@@ -220,6 +220,23 @@ pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
     (wrapped + share(TAU), turns - share(1.0))
 }
 
+/// The phase of an impact, in [0, 2 pi), and how many turns were taken away, from its unwrapped angle in [-2 pi, 6 pi].
+///
+/// [`nearby_wrapped`], but for the seam: an angle that lies below zero by less than the spacing of doubles below 2 pi
+/// rounds to 2 pi itself. That is phase 0 of the next turn, and the turn counts.
+#[inline(always)]
+pub(crate) fn impact_phase(angle: f64) -> (f64, f64) {
+    let (wrapped, turns) = nearby_wrapped(angle);
+    if wrapped < TAU { (wrapped, turns) } else { (0.0, turns + 1.0) }
+}
+
+/// [`impact_phase`], bit for bit, without a branch.
+#[inline(always)]
+pub(crate) fn impact_phase_of_lane(angle: f64) -> (f64, f64) {
+    let (wrapped, turns) = nearby_wrapped_of_lane(angle);
+    (if wrapped < TAU { wrapped } else { 0.0 }, turns + if wrapped < TAU { 0.0 } else { 1.0 })
+}
+
 /// The nearest whole number to `x`, for |x| below 2^51.
 #[inline(always)]
 pub(crate) fn nearest_whole(x: f64) -> f64 {

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// An argument lies outside its legal range.
-    #[error("{field} = {value} is outside its legal range {legal}")]
+    #[error("{field} = {value:e} is outside its legal range {legal}")]
     OutOfRange {
         /// The name of the argument.
         field: &'static str,
@@ -16,7 +16,7 @@ pub enum Error {
     },
     /// A disk at rest on the platform does not leave it at this phase: the platform is not falling away.
     #[error(
-        "a disk at rest on the platform (peak acceleration {peak_acceleration} g) does not lift off at phase {phase} rad"
+        "a disk at rest on the platform (peak acceleration {peak_acceleration:e} g) does not lift off at phase {phase:e} rad"
     )]
     NoLiftOff {
         /// Launch phase in radians.
@@ -26,7 +26,7 @@ pub enum Error {
     },
     /// The flight would last longer than the period counter can hold exactly.
     #[error(
-        "a launch at relative speed {relative_speed} flies for {duration} rad, more than the largest duration {limit} rad"
+        "a launch at relative speed {relative_speed:e} flies for {duration:e} rad, more than the largest duration {limit:e} rad"
     )]
     FlightTooLong {
         /// Launch speed relative to the platform, in units of g/omega.
@@ -37,17 +37,17 @@ pub enum Error {
         limit: f64,
     },
     /// The root finder used up its evaluations. This is a defect of the solver; please report the numbers.
-    #[error("no convergence after {evaluations} evaluations: gap {gap} at phase {phase} rad")]
+    #[error("no convergence after {evaluations} evaluations: gap {gap:e} after {time:e} rad")]
     NoConvergence {
         /// Evaluations of the gap.
         evaluations: u32,
-        /// Last phase tried in radians.
-        phase: f64,
+        /// Last time tried, in radians after the start of the search.
+        time: f64,
         /// The gap there, in units of g/omega^2.
         gap: f64,
     },
     /// An iteration (an orbit search, a refinement) did not settle.
-    #[error("{what} did not settle after {iterations} iterations; last residual {residual}")]
+    #[error("{what} did not settle after {iterations} iterations; last residual {residual:e}")]
     NotSettled {
         /// What was sought.
         what: &'static str,
@@ -55,6 +55,27 @@ pub enum Error {
         iterations: u32,
         /// Size of the last residual.
         residual: f64,
+    },
+    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
+    #[error(
+        "impact {index} of the solution has no speed (phase {phase:e} rad): a disk at rest is no periodic orbit"
+    )]
+    ImpactWithoutSpeed {
+        /// Which impact of the solution.
+        index: usize,
+        /// Its phase in radians.
+        phase: f64,
+    },
+    /// The solution that an iteration settled on takes no period of the platform: its impacts are the repetition of one
+    /// instant within rounding, not a periodic orbit.
+    #[error(
+        "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:e} g/omega)"
+    )]
+    NoPlatformPeriods {
+        /// Impacts of the solution.
+        impacts: usize,
+        /// The largest of their speeds, in units of g/omega.
+        speed: f64,
     },
 }
 

@@ -24,7 +24,7 @@ use core::f64::consts::{PI, TAU};
 use serde::Serialize;
 
 use crate::elementary::{
-    CREST, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
+    CREST, impact_phase, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
 use crate::error::Error;
 use crate::gap::{Bracket, CrestForm, GapForm, LaunchForm, Root, ShortForm};
@@ -135,7 +135,12 @@ impl Vibration {
     /// [`Self::first_impact`] for a speed that is known to be finite and not negative.
     #[inline]
     pub(crate) fn impact_after(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
-        self.impact_after_in_place(from, speed)
+        let impact = self.impact_after_in_place(from, speed);
+        #[cfg(debug_assertions)]
+        if let Ok(impact) = &impact {
+            self.assert_clock(from, speed, impact.into(), impact.duration());
+        }
+        impact
     }
 
     /// [`Self::impact_after`] as a part of its caller.
@@ -224,12 +229,24 @@ impl Vibration {
         disk_speed: f64,
         depth: f64,
         speed: f64,
+        evaluations: u32,
+    ) -> Result<Impact, Error> {
+        let radicand = disk_speed * disk_speed - 2.0 * depth;
+        let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
+        self.impact_after_arc(angle, (disk_speed + fall, fall), speed, evaluations)
+    }
+
+    /// The impact of a disk that comes down to the height of the crests with the speed `fall` at the time `free` after
+    /// `angle`; `speed` is only for the error.
+    #[inline(always)]
+    pub(crate) fn impact_after_arc(
+        &self,
+        angle: f64,
+        (free, fall): (f64, f64),
+        speed: f64,
         mut evaluations: u32,
     ) -> Result<Impact, Error> {
         let p = self.peak_acceleration();
-        let radicand = disk_speed * disk_speed - 2.0 * depth;
-        let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
-        let free = disk_speed + fall;
         if free > MAX_FLIGHT_DURATION {
             return Err(Error::FlightTooLong {
                 relative_speed: speed,
@@ -286,6 +303,11 @@ impl Vibration {
             return Err(Error::NoLiftOff { phase: angle, peak_acceleration: p });
         }
         let sine = p * from.sin();
+        if speed <= 0.0
+            && let Some(h) = self.brief_flight_from_rest(from)
+        {
+            return Ok(Some(self.brief_impact(from, h)));
+        }
         let flight = ShortForm { speed, sine, cosine: p * from.cos(), pull: 1.0 - sine };
         let mut evaluations = 0;
         let end = if away { self.retention_angle - angle } else { self.time_to_separation(angle) };
@@ -298,23 +320,69 @@ impl Vibration {
                 None => return Ok(None),
             },
         };
-        let h2 = h * h;
-        let (sin_h, versine) = (h - h2 * h * sine_deficit_ratio(h), h2 * versine_ratio(h));
-        let (s, c) = (from.sin(), from.cos());
-        let sum = angle + h;
-        let (wrapped, turns) = if sum >= TAU { (sum - TAU, 1) } else { (sum, 0) };
-        Ok(Some(Impact {
-            periods: 0,
-            remainder: h,
-            turns,
-            phase: Phase::from_parts(wrapped, s + (c * sin_h - s * versine), c - (s * sin_h + c * versine)),
-            velocity,
-            evaluations,
-        }))
+        let (phase, turns) = turned_by(from, h);
+        Ok(Some(Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations }))
     }
 }
 
+/// The phase `h` in [0, 1/2] rad later, and whether it has passed 0 on the way.
+#[inline(always)]
+pub(crate) fn turned_by(from: Phase, h: f64) -> (Phase, u64) {
+    let h2 = h * h;
+    let (sin_h, versine) = (h - h2 * h * sine_deficit_ratio(h), h2 * versine_ratio(h));
+    let (s, c) = (from.sin(), from.cos());
+    let sum = from.angle() + h;
+    let (wrapped, turns) = if sum >= TAU { (sum - TAU, 1) } else { (sum, 0) };
+    (Phase::from_parts(wrapped, s + (c * sin_h - s * versine), c - (s * sin_h + c * versine)), turns)
+}
+
+/// Where the platform falls away from a disk at rest with less acceleration than this share of 1 + P, that acceleration is
+/// not taken from 1 - P sin tau, most of which is then rounding.
+const DOUBTFUL_PULL: f64 = 1.0e-13;
+
 impl Vibration {
+    /// The duration of a flight from rest that starts while the platform has nearly stopped to fall away: the acceleration
+    /// c0 = P sin tau - 1 with which it does is then smaller than the rounding of that difference, and is taken from the
+    /// distances to the two phases where it vanishes. `None` for all other launches.
+    ///
+    /// Over so short a flight the acceleration is c0 + c1 h - h^2/2, c1 = P cos tau, which integrates to
+    /// gap = h^2 (c0/2 + c1 h/6 - h^2/24) (docs/numerics.md, section 2).
+    fn brief_flight_from_rest(&self, from: Phase) -> Option<f64> {
+        let p = self.peak_acceleration();
+        let angle = from.angle();
+        // P sin tau - P sin sigma as a product.
+        let (since, until) = (angle - self.separation_angle, self.retention_angle - angle);
+        let away = 2.0 * p * (sin_cos_bounded(0.5 * since).0 * sin_cos_bounded(0.5 * until).0);
+        let late = angle >= CREST;
+        let brief = late || p - 1.0 <= DOUBTFUL_PULL;
+        if !(brief && away <= DOUBTFUL_PULL * (1.0 + p)) {
+            return None;
+        }
+        // P cos tau, from the distance to the crest where the carried cosine is next to nothing.
+        let drift = p * sin_cos_bounded(CREST - angle).0;
+        let root = (drift * drift + 3.0 * away).sqrt();
+        Some(if late { 6.0 * away / (root - drift) } else { 2.0 * (drift + root) })
+    }
+
+    /// The impact of [`Self::brief_flight_from_rest`].
+    fn brief_impact(&self, from: Phase, h: f64) -> Impact {
+        let p = self.peak_acceleration();
+        let since = from.angle() - self.separation_angle;
+        let until = self.retention_angle - from.angle();
+        let away = 2.0 * p * (sin_cos_bounded(0.5 * since).0 * sin_cos_bounded(0.5 * until).0);
+        let drift = p * sin_cos_bounded(CREST - from.angle()).0;
+        let velocity = h * (away + h * (0.5 * drift - h * (1.0 / 6.0)));
+        let (phase, turns) = turned_by(from, h);
+        Impact {
+            periods: 0,
+            remainder: h,
+            turns,
+            phase,
+            velocity: if velocity < 0.0 { velocity } else { 0.0 },
+            evaluations: 0,
+        }
+    }
+
     /// The window of the first root within [`SHORT_FLIGHT`], piece by piece of constant curvature: convex while the
     /// platform falls `away`, else concave; the first piece reaches to `end`.
     fn short_bracket(
@@ -350,6 +418,34 @@ impl Vibration {
     }
 }
 
+#[cfg(debug_assertions)]
+impl Vibration {
+    /// Asserts that the `duration` of a flight is what the velocities at its ends say: a disk in free flight loses one unit
+    /// of speed a radian, whatever the phases are (docs/numerics.md, section 2). Debug builds only.
+    ///
+    /// An impact without velocity is a graze, whose slope is known to half of the digits only: it says nothing.
+    pub(crate) fn assert_clock(
+        &self,
+        from: Phase,
+        speed: f64,
+        impact: crate::map::ImpactState,
+        duration: f64,
+    ) {
+        let p = self.peak_acceleration();
+        let lost = speed + p * (from.cos() - impact.phase().cos()) - impact.velocity();
+        let rounding = CLOCK_ROUNDING * (1.0 + p + speed.abs() + duration);
+        assert!(
+            impact.velocity() >= 0.0 || (lost - duration).abs() <= rounding,
+            "a flight of {duration:e} rad loses {lost:e} of its speed: P = {p:e}, {from:?}, {speed:e}, {impact:?}"
+        );
+    }
+}
+
+/// Bound on the rounding of both sides of the law that `Vibration::assert_clock` states, relative to what they are computed
+/// from: some forty roundoffs, of which phases, speeds and their difference take some ten. A period is 2 pi.
+#[cfg(debug_assertions)]
+const CLOCK_ROUNDING: f64 = 1.0e-14;
+
 /// The impact of a form whose reference is the start of the flight itself, at `angle`.
 pub(crate) fn landed_within_a_turn(angle: f64, root: Root) -> Impact {
     let mut impact = landed(angle, angle, 0.0, root);
@@ -361,10 +457,14 @@ pub(crate) fn landed_within_a_turn(angle: f64, root: Root) -> Impact {
 /// `angle` would put it.
 #[inline(always)]
 pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact {
-    let (wrapped, turns) = nearby_wrapped(start + root.time);
-    // The sum of a seam: -1e-17 + 2 pi rounds to 2 pi itself.
-    let wrapped = if wrapped < TAU { wrapped } else { 0.0 };
+    let (wrapped, turns) = impact_phase(start + root.time);
     let turns = (periods + turns) as u64;
+    debug_assert!(
+        (turns as f64 * TAU + (wrapped - angle) - (periods * TAU + (start - angle) + root.time)).abs()
+            <= 1.0e-14 + 1.0e-15 * periods * TAU,
+        "time and phase disagree: from {angle:e}, {periods} periods, {start:e} + {:e}, {wrapped:e} after {turns} turns",
+        root.time
+    );
     let ahead = wrapped - angle;
     let (periods, remainder) = if ahead >= 0.0 {
         (turns, ahead)

@@ -19,6 +19,14 @@ const MAX_EVALUATIONS: u32 = 200;
 /// Evaluations after which a search may be a graze, where the gap is flat and series do not converge.
 const PATIENCE: u32 = 8;
 
+/// A flight this brief (rad) or briefer is 2 w/(1 - P sin tau) long, to all digits: the terms of a further evaluation would
+/// underflow.
+pub(crate) const BRIEFEST: f64 = 1.0e-290;
+
+/// Evaluations after which the search of a short flight bisects the logarithm of the time: a root tens of decades below the
+/// bracket's end is not come near by halving it.
+const PATIENCE_OF_SCALE: u32 = 64;
+
 /// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
 const GAP_ROUNDING: f64 = 4.5e-16;
 
@@ -27,6 +35,18 @@ const GAP_ROUNDING: f64 = 4.5e-16;
 pub(crate) struct Bracket {
     pub(crate) lo: f64,
     pub(crate) hi: f64,
+}
+
+impl Bracket {
+    /// A time between both ends that halves the number of doubles between them, give or take: what bisection needs where the
+    /// root may be any number of decades below the upper end. At most 12 steps lead to within a factor of two.
+    pub(crate) fn geometric_middle(self) -> f64 {
+        let arithmetic = 0.5 * (self.lo + self.hi);
+        // The bits of positive doubles are in their order.
+        let (lo, hi) = (self.lo.max(0.0).to_bits(), self.hi.max(0.0).to_bits());
+        let middle = f64::from_bits(lo + hi.saturating_sub(lo) / 2);
+        if middle > self.lo && middle < self.hi { middle } else { arithmetic }
+    }
 }
 
 /// An impact in the time of its gap form, with the phase pair and the relative velocity.
@@ -176,7 +196,7 @@ pub(crate) trait GapForm: Copy {
                 return Ok(Root { time: t, sin, cos, velocity, evaluations: used });
             }
             if used >= MAX_EVALUATIONS {
-                return Err(Error::NoConvergence { evaluations: used, phase: t, gap });
+                return Err(Error::NoConvergence { evaluations: used, time: t, gap });
             }
             let radicand = jet.radicand();
             let step = if radicand > 0.0 {
@@ -373,6 +393,12 @@ impl GapForm for LaunchForm {
     }
 }
 
+/// Whether a launch with `speed` against `pull` returns within [`BRIEFEST`].
+#[inline(always)]
+pub(crate) fn is_brief(speed: f64, pull: f64) -> bool {
+    speed < 0.5 * BRIEFEST * pull
+}
+
 /// gap(h)/h for h up to [`crate::flight::SHORT_FLIGHT`], in relative accuracy: the launch itself is divided out.
 #[derive(Clone, Copy)]
 pub(crate) struct ShortForm {
@@ -402,7 +428,7 @@ impl ShortForm {
 
     /// The gap's second derivative at h.
     #[inline(always)]
-    fn curvature(&self, h: f64) -> f64 {
+    pub(crate) fn curvature(&self, h: f64) -> f64 {
         let h2 = h * h;
         let sin_h = h - h2 * h * sine_deficit_ratio(h);
         (self.cosine * sin_h - self.pull) - self.sine * (h2 * versine_ratio(h))
@@ -437,6 +463,10 @@ impl ShortForm {
     #[inline(always)]
     pub(crate) fn root_in_first_piece(&self, end: f64, evaluations: &mut u32) -> Option<(f64, f64)> {
         let mut h = self.expected();
+        if is_brief(self.speed, self.pull) {
+            // The smallest of doubles is as near to no duration as there is.
+            return (end >= BRIEFEST).then_some((h.max(f64::from_bits(1)), -self.speed));
+        }
         for _ in 0..4 {
             if !(h > 0.0 && h < end) {
                 return None;
@@ -456,6 +486,7 @@ impl ShortForm {
     /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
     pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let mut h = 0.5 * (bracket.lo + bracket.hi);
+        let before = *evaluations;
         loop {
             let (ratio, velocity) = self.at(h);
             *evaluations += 1;
@@ -470,13 +501,15 @@ impl ShortForm {
             if Self::is_last(step, h, slope) {
                 return Ok((next, self.impact_velocity(h, velocity, step)));
             }
-            if bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * bracket.hi {
+            if bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * bracket.hi || bracket.hi <= f64::from_bits(1) {
                 return Ok((h, velocity.min(0.0)));
             }
             if *evaluations >= MAX_EVALUATIONS {
-                return Err(Error::NoConvergence { evaluations: *evaluations, phase: h, gap: ratio * h });
+                return Err(Error::NoConvergence { evaluations: *evaluations, time: h, gap: ratio * h });
             }
-            h = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
+            h = if *evaluations - before >= PATIENCE_OF_SCALE {
+                bracket.geometric_middle()
+            } else if slope < 0.0 && next > bracket.lo && next < bracket.hi {
                 next
             } else {
                 0.5 * (bracket.lo + bracket.hi)

@@ -72,6 +72,12 @@ impl From<Impact> for ImpactState {
     }
 }
 
+impl From<&Impact> for ImpactState {
+    fn from(impact: &Impact) -> Self {
+        Self { phase: impact.phase, velocity: impact.velocity }
+    }
+}
+
 /// The vertical impact map: vibration of the platform and coefficient of restitution.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ImpactMap {
@@ -101,7 +107,8 @@ impl ImpactMap {
         self.restitution
     }
 
-    /// The impact that follows the one in `state`, without any chattering policy.
+    /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is followed through ever
+    /// smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::survivor`] end a chatter.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), and those of
@@ -112,7 +119,7 @@ impl ImpactMap {
     }
 
     /// The impact that is so many [steps](Self::step) after the one in `state`, which itself is 0 steps after: the same bits as
-    /// one step after the other, and faster where the compiler would pass the state through memory.
+    /// one step after the other, and faster where the compiler would pass the state through memory. As there, no policy ends a chatter.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};

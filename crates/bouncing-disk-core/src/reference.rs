@@ -183,11 +183,7 @@ pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Res
             return Ok(impact(&mut gap, h, phase.angle()));
         }
         if gap.evaluations >= MAX_STEPS {
-            return Err(Error::NoConvergence {
-                evaluations: gap.evaluations,
-                phase: wrapped_angle(phase.angle() + h),
-                gap: sample.gap,
-            });
+            return Err(Error::NoConvergence { evaluations: gap.evaluations, time: h, gap: sample.gap });
         }
         h += step;
     }
@@ -216,7 +212,7 @@ fn refined(gap: &mut Gap, lo: f64, hi: f64, angle: f64) -> Result<ReferenceImpac
         &mut ExactOrNarrow,
     );
     if found.is_err() {
-        return Err(Error::NoConvergence { evaluations: gap.evaluations, phase: angle + lo, gap: above.1 });
+        return Err(Error::NoConvergence { evaluations: gap.evaluations, time: lo, gap: above.1 });
     }
     let h = if above.1 < -below.1 { above.0 } else { below.0 };
     Ok(impact(gap, h, angle))

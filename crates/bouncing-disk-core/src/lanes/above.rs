@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 
 use super::platform::Below;
 use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, Width, kept, lanes_of, mask, pairs, scaled_pairs};
-use crate::elementary::{CREST, nearby_wrapped_of_lane, nearest_whole, rotated};
+use crate::elementary::{CREST, impact_phase_of_lane, nearby_wrapped_of_lane, nearest_whole, rotated};
 use crate::gap::{CrestForm, Jet};
 
 /// Comparisons that decide which path a lane takes keep this far from a tie (turns; relative to the pull).
@@ -283,8 +283,8 @@ fn impact<P: Below, const TIMED: bool>(
         impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);
     }
     for k in 0..width.lanes() {
-        let (wrapped, turns) = nearby_wrapped_of_lane(impacts.angle[k]);
-        impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
+        let (wrapped, turns) = impact_phase_of_lane(impacts.angle[k]);
+        impacts.angle[k] = wrapped;
         if TIMED {
             impacts.turns[k] = arcs.free_periods[k] + turns;
             impacts.duration[k] = Impacts::BETWEEN_PHASES;

@@ -8,7 +8,7 @@ use pulp::{Simd, WithSimd};
 use super::platform::Platform;
 use super::search::{Forms, Times};
 use super::{Arcs, Impacts, LANES, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
-use crate::elementary::{CREST, nearby_wrapped_of_lane, sin_cos_of_lane};
+use crate::elementary::{CREST, impact_phase_of_lane, nearby_wrapped_of_lane, sin_cos_of_lane};
 use crate::gap::CrestForm;
 
 /// Arcs from the height of the crests.
@@ -41,8 +41,8 @@ impl Forms for Fallen {
         for k in 0..width.lanes() {
             let time = times.time[k];
             let velocity = (self.speed[k] - time) - times.peak[k] * times.cos[k];
-            let (wrapped, turns) = nearby_wrapped_of_lane(self.start[k] + time);
-            impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
+            let (wrapped, turns) = impact_phase_of_lane(self.start[k] + time);
+            impacts.angle[k] = wrapped;
             impacts.sin[k] = times.sin[k];
             impacts.cos[k] = times.cos[k];
             impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);

@@ -120,6 +120,33 @@ impl Flyer {
                 Err(error) => failed(who.batch as usize * LANES + lane, error),
             }
         }
+        #[cfg(debug_assertions)]
+        self.assert_clocks(batches, lanes);
+    }
+
+    /// Asserts that the velocities at both ends of the flights agree with their turns and durations. Debug builds only.
+    #[cfg(debug_assertions)]
+    fn assert_clocks(&self, batches: &[Batch], lanes: usize) {
+        if !self.timed {
+            return;
+        }
+        for number in 0..lanes {
+            // The impact of a lane that failed means nothing; such lanes are among the hard ones.
+            let (batch, lane) = (&batches[number / LANES], number % LANES);
+            let who = Who { batch: (number / LANES) as u32, lane: lane as u32 };
+            if self.hard.contains(&who) {
+                continue;
+            }
+            let (from, impact) = (batch.launch_phase(lane), batch.impact_state(lane));
+            let (turns, known) = (batch.impacts().turns[lane], batch.impacts().duration[lane]);
+            let by_phases = turns * core::f64::consts::TAU + (impact.phase().angle() - from.angle());
+            let duration = if known >= 0.0 { known } else { by_phases };
+            batch.vibrations[lane].assert_clock(from, batch.speed[lane], impact, duration);
+            debug_assert!(
+                (duration - by_phases).abs() <= 1.0e-14 * (1.0 + duration),
+                "{duration} {by_phases}"
+            );
+        }
     }
 
     /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the queues.

@@ -8,7 +8,7 @@ use pulp::{Simd, WithSimd};
 use super::platform::{Below, Platform};
 use super::search::{Forms, Times};
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
-use crate::elementary::{CREST, nearby_wrapped_of_lane};
+use crate::elementary::{CREST, impact_phase_of_lane};
 use crate::flight::SHORT_FLIGHT;
 use crate::gap::{CrestForm, LaunchForm};
 use crate::shortcuts::{clears, clears_by_tangents};
@@ -63,8 +63,8 @@ impl Forms for Low {
             // The velocity is the slope of the launch form at the impact.
             let time = times.time[k];
             let velocity = self.form(times, k).slope_of(time, (self.versine[k], self.sine_of_time[k]));
-            let (wrapped, turns) = nearby_wrapped_of_lane(self.angle[k] + time);
-            impacts.angle[k] = kept(mask(wrapped < TAU), wrapped);
+            let (wrapped, turns) = impact_phase_of_lane(self.angle[k] + time);
+            impacts.angle[k] = wrapped;
             impacts.sin[k] = times.sin[k];
             impacts.cos[k] = times.cos[k];
             impacts.velocity[k] = kept(mask(velocity < 0.0), velocity);

@@ -10,7 +10,7 @@ use super::platform::Platform;
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask};
 use crate::elementary::{sine_deficit_ratio, versine_ratio};
 use crate::flight::SHORT_FLIGHT;
-use crate::gap::{CrestForm, ShortForm};
+use crate::gap::{CrestForm, ShortForm, is_brief};
 use crate::shortcuts::clears;
 
 /// Steps of Newton's iteration, as in `root_in_first_piece`.
@@ -202,7 +202,9 @@ impl Short {
         self.end[k] = if away { retention - angle } else { to_separation };
         let next = if away { 2.0 * separation } else { -2.0 * separation };
         self.next_end[k] = self.end[k] + (PI + next);
-        self.pulled[k] = mask(!away && launches.speed[lane] > 0.0);
+        let pull = 1.0 - self.sine[k];
+        // Brief flights are left to the solver of one flight.
+        self.pulled[k] = mask(!away && launches.speed[lane] > 0.0 && !is_brief(launches.speed[lane], pull));
     }
 
     /// What became of the flight of number `k`.
