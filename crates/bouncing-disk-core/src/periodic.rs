@@ -8,9 +8,10 @@ use glam::DMat2;
 use roots::{Convergency, SearchError, find_root_brent};
 use serde::Serialize;
 
+use crate::chatter::ChatterPolicy;
 use crate::elementary::acos;
 use crate::error::{Error, within};
-use crate::map::{ImpactMap, ImpactState};
+use crate::map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::phase::Phase;
 use crate::vibration::Vibration;
 
@@ -93,6 +94,28 @@ impl PeriodicOrbit {
     }
 }
 
+/// A step of the multiple shooting: the equations matrix * step = right for the changes of all impacts, the derivative of the
+/// map around the orbit, the turns of the phase, and the largest distance of an impact from its target.
+struct Shooting {
+    matrix: Mat<f64>,
+    right: Mat<f64>,
+    monodromy: DMat2,
+    turns: u64,
+    worst: f64,
+}
+
+/// A solution of the multiple shooting, unless it is a disk at rest.
+fn accepted(orbit: PeriodicOrbit) -> Result<PeriodicOrbit, Error> {
+    if let Some(index) = orbit.states.iter().position(|state| state.velocity() >= 0.0) {
+        return Err(Error::ImpactWithoutSpeed { index, phase: orbit.states[index].phase().angle() });
+    }
+    if orbit.platform_periods == 0 {
+        let speed = orbit.states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
+        return Err(Error::NoPlatformPeriods { impacts: orbit.states.len(), speed });
+    }
+    Ok(orbit)
+}
+
 /// The smaller way round the circle from `from` to `to`, in (-pi, pi].
 fn phase_difference(to: f64, from: f64) -> f64 {
     let difference = to - from;
@@ -134,23 +157,26 @@ impl ImpactMap {
         (threshold * threshold + height * height).sqrt()
     }
 
-    /// The smallest period (in impacts, up to `longest`) with which an orbit from `state` repeats itself within
-    /// `tolerance` (rad, and relative speed), twice in a row; `None` if there is none or the disk comes to rest.
+    /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from `state` repeats
+    /// itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if there is none or the disk comes
+    /// to rest (judged by [`ChatterPolicy::Complete`]).
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact`], but for a disk that comes to rest.
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`].
     pub fn period_of(
         &self,
         state: ImpactState,
         longest: usize,
         tolerance: f64,
     ) -> Result<Option<usize>, Error> {
+        within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)")?;
         let mut states = vec![state];
+        let mut orbit = self.orbit(state, ChatterPolicy::Complete);
         for _ in 0..2 * longest {
-            match self.step(states[states.len() - 1]) {
-                Ok(impact) => states.push(impact.into()),
-                Err(Error::NoLiftOff { .. }) => return Ok(None),
-                Err(error) => return Err(error),
+            match orbit.advance()? {
+                Some(OrbitEvent::Impact(impact)) => states.push(impact.into()),
+                Some(OrbitEvent::Stick(_)) | None => return Ok(None),
             }
         }
         let near = |a: &ImpactState, b: &ImpactState| {
@@ -167,56 +193,96 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if Newton's
-    /// iteration does not converge; those of [`Vibration::first_impact`].
+    /// iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] if it converges to a
+    /// disk at rest; those of [`Vibration::first_impact`].
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         let n = guess.len();
         within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let mut states = guess.to_vec();
         let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(state.velocity().abs()));
         let mut residual = f64::INFINITY;
+        // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
+        let mut found = None;
         for _ in 0..MAX_NEWTON_STEPS {
-            let mut monodromy = DMat2::IDENTITY;
-            let mut turns = 0;
-            let mut matrix = Mat::<f64>::zeros(2 * n, 2 * n);
-            let mut right = Mat::<f64>::zeros(2 * n, 1);
-            let mut worst = 0.0_f64;
-            for (i, &state) in states.iter().enumerate() {
-                let impact = self.step(state)?;
-                let jacobian = self.jacobian(state, &impact);
-                monodromy = jacobian * monodromy;
-                turns += impact.turns;
-                let j = (i + 1) % n;
-                let target = states[j];
-                let phase = phase_difference(impact.phase.angle(), target.phase().angle());
-                let velocity = impact.velocity - target.velocity();
-                worst = worst.max(phase.abs()).max(velocity.abs() / scale);
-                // jacobian * d_i - d_j = -(residual)
-                for row in 0..2 {
-                    for column in 0..2 {
-                        matrix[(2 * i + row, 2 * i + column)] += jacobian.col(column)[row];
-                    }
-                    matrix[(2 * i + row, 2 * j + row)] -= 1.0;
-                }
-                right[(2 * i, 0)] = -phase;
-                right[(2 * i + 1, 0)] = -velocity;
-            }
+            let Shooting { matrix, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
+                Ok(shooting) => shooting,
+                Err(error) => return found.map_or(Err(error), accepted),
+            };
+            let orbit = || PeriodicOrbit { states: states.clone(), platform_periods: turns, monodromy };
             // A step after the residual has stopped shrinking only stirs the rounding.
             if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
-                return Ok(PeriodicOrbit { states, platform_periods: turns, monodromy });
+                return accepted(orbit());
+            }
+            if worst <= SHOOTING_RESIDUAL {
+                found = Some(orbit());
+            } else if let Some(found) = found {
+                return accepted(found);
             }
             residual = worst;
             let step = matrix.partial_piv_lu().solve(&right);
-            for (i, state) in states.iter_mut().enumerate() {
+            let moved = states.iter().enumerate().map(|(i, state)| {
                 let angle = state.phase().angle() + step[(2 * i, 0)];
                 let velocity = (state.velocity() + step[(2 * i + 1, 0)]).min(0.0);
-                *state = ImpactState::new(Phase::new(angle)?, velocity)?;
-            }
+                ImpactState::new(Phase::new(angle)?, velocity)
+            });
+            states = match moved.collect::<Result<_, _>>() {
+                Ok(states) => states,
+                Err(_) => {
+                    let singular = Error::NotSettled {
+                        what: "multiple shooting",
+                        iterations: MAX_NEWTON_STEPS,
+                        residual,
+                    };
+                    return found.map_or(Err(singular), accepted);
+                }
+            };
         }
         Err(Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual })
     }
 
+    /// The equations of one step of the multiple shooting, and how far `states` are from an orbit.
+    fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
+        let n = states.len();
+        let mut shooting = Shooting {
+            matrix: Mat::zeros(2 * n, 2 * n),
+            right: Mat::zeros(2 * n, 1),
+            monodromy: DMat2::IDENTITY,
+            turns: 0,
+            worst: 0.0,
+        };
+        for (i, &state) in states.iter().enumerate() {
+            let impact = self.step(state)?;
+            let jacobian = self.jacobian(state, &impact);
+            shooting.monodromy = jacobian * shooting.monodromy;
+            shooting.turns += impact.turns;
+            let j = (i + 1) % n;
+            let target = states[j];
+            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
+            let phase = phase_difference(landed, aimed);
+            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
+            if landed - aimed > PI {
+                shooting.turns += 1;
+            } else if aimed - landed > PI {
+                shooting.turns = shooting.turns.saturating_sub(1);
+            }
+            let velocity = impact.velocity - target.velocity();
+            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
+            // jacobian * d_i - d_j = -(residual)
+            for row in 0..2 {
+                for column in 0..2 {
+                    shooting.matrix[(2 * i + row, 2 * i + column)] += jacobian.col(column)[row];
+                }
+                shooting.matrix[(2 * i + row, 2 * j + row)] -= 1.0;
+            }
+            shooting.right[(2 * i, 0)] = -phase;
+            shooting.right[(2 * i + 1, 0)] = -velocity;
+        }
+        Ok(shooting)
+    }
+
     /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the period
-    /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest or shows no period.
+    /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by [`ChatterPolicy::Complete`]) or
+    /// shows no period.
     ///
     /// # Errors
     /// Those of [`Self::refine`] and [`Self::period_of`].
@@ -227,11 +293,7 @@ impl ImpactMap {
         longest: usize,
         tolerance: f64,
     ) -> Result<Option<PeriodicOrbit>, Error> {
-        let state = match self.iterate(state, transient as u64) {
-            Ok(state) => state,
-            Err(Error::NoLiftOff { .. }) => return Ok(None),
-            Err(error) => return Err(error),
-        };
+        let Some(state) = self.survivor(state, transient, ChatterPolicy::Complete)? else { return Ok(None) };
         let Some(period) = self.period_of(state, longest, tolerance)? else { return Ok(None) };
         let mut guess = vec![state];
         while guess.len() < period {

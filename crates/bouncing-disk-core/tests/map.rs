@@ -355,3 +355,87 @@ fn illegal_arguments_are_named() {
     assert!(matches!(vibration.first_impact(fast), Err(Error::FlightTooLong { .. })));
     assert!(map(0.5, 0.5).refine(&[]).is_err());
 }
+
+/// At Gamma = k (1 - r)/(1 + r) an orbit with one impact every k periods is born at phase 0, where the angle wraps: each of its
+/// flights lasts k whole periods, wherever the rounding puts the impact.
+#[test]
+fn orbits_at_their_birth_take_whole_periods() {
+    let (mut flights, mut refined) = (0, 0);
+    for k in 1..=4_u64 {
+        for step in 1..1_000_u32 {
+            let restitution = f64::from(step) / 1_000.0;
+            let birth = k as f64 * (1.0 - restitution) / (1.0 + restitution);
+            for forcing in [birth.next_down(), birth, birth.next_up(), birth * (1.0 + 1.0e-12)] {
+                let map =
+                    ImpactMap::new(Vibration::from_axial_forcing(forcing).unwrap(), restitution).unwrap();
+                let Some(state) = map.period_one(k) else { continue };
+                let impact = map.step(state).unwrap();
+                let duration = impact.duration();
+                if impact.velocity > 0.9 * state.velocity() {
+                    // An earlier impact forestalls the orbit.
+                    continue;
+                }
+                flights += 1;
+                // Next to a double root the phase moves with the square root of the rounding.
+                assert!(
+                    (duration - k as f64 * TAU).abs() < 1.0e-6,
+                    "{k} {restitution} {forcing}: {impact:?}"
+                );
+                match map.refine(&[state]) {
+                    Ok(orbit) => {
+                        assert_eq!(orbit.platform_periods, k, "{restitution} {forcing}");
+                        refined += 1;
+                    }
+                    Err(Error::NotSettled { .. } | Error::NoLiftOff { .. }) => {}
+                    Err(error) => panic!("{k} {restitution} {forcing}: {error}"),
+                }
+            }
+        }
+    }
+    assert!(flights > 8_000 && refined > flights * 9 / 10, "{refined} of {flights}");
+}
+
+/// A disk that chatters to rest has no period, however long its ever smaller impacts are followed.
+#[test]
+fn a_chattering_disk_has_no_period() {
+    for (forcing, restitution) in [(0.2, 0.5), (0.3, 0.3), (0.34, 0.5), (0.0, 0.9), (0.5, 0.2)] {
+        let map = ImpactMap::new(Vibration::from_axial_forcing(forcing).unwrap(), restitution).unwrap();
+        let state = ImpactState::from_normalised(3.0, 0.05).unwrap();
+        assert_eq!(map.period_of(state, 8, 1.0e-8), Ok(None), "{forcing} {restitution}");
+        for transient in [0, 5, 2_000] {
+            assert_eq!(map.settled_orbit(state, transient, 8, 1.0e-8), Ok(None), "{forcing} {restitution}");
+        }
+    }
+}
+
+/// A solution of the shooting equations without speed, or one that takes no time, is a disk at rest and refused by name.
+#[test]
+fn a_disk_at_rest_is_no_periodic_orbit() {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.2).unwrap(), 0.5).unwrap();
+    for speed in [1.0e-291, 1.0e-30, 1.0e-16] {
+        let state = ImpactState::new(Phase::new(3.0).unwrap(), -speed).unwrap();
+        let refused = map.refine(&[state]);
+        assert!(
+            matches!(
+                refused,
+                Err(Error::NoPlatformPeriods { impacts: 1, .. } | Error::ImpactWithoutSpeed { .. })
+            ),
+            "{speed}: {refused:?}"
+        );
+    }
+    // From the separation on: a launch without speed that flies.
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).unwrap(), 0.5).unwrap();
+    let phase = map.vibration().separation_phase().unwrap();
+    let refused = map.refine(&[ImpactState::new(phase, 0.0).unwrap()]);
+    assert!(refused.is_err(), "{refused:?}");
+}
+
+#[test]
+fn illegal_searches_of_a_period_are_named() {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.45).unwrap(), 0.5).unwrap();
+    let state = map.period_one(1).unwrap();
+    for (longest, tolerance) in [(0, 1e-8), (usize::MAX, 1e-8), (1 << 63, 1e-8), (8, f64::NAN), (8, -1.0)] {
+        assert!(matches!(map.period_of(state, longest, tolerance), Err(Error::OutOfRange { .. })));
+        assert!(matches!(map.settled_orbit(state, 0, longest, tolerance), Err(Error::OutOfRange { .. })));
+    }
+}
