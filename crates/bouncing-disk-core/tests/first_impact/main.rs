@@ -2,10 +2,13 @@
 #![allow(unreachable_pub, reason = "the modules of a test have no public interface")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod attack;
 mod campaign;
 mod cases;
 mod drops;
 mod elementary;
 mod launches;
+mod march;
 mod oracle;
 mod properties;
+mod seams;

@@ -162,6 +162,8 @@ pub struct Exact {
     disk_speed: High,
     peak: f64,
     speed: f64,
+    /// How high above the platform the disk starts: zero for a launch.
+    start_gap: f64,
     /// What one unit roundoff in the data does to the launch phase.
     launch_shift: f64,
     separation: bool,
@@ -223,6 +225,11 @@ enum Advance {
 }
 
 impl Exact {
+    /// A disk that starts `gap` above the platform, or on it.
+    pub fn dropped(case: &Case, gap: f64) -> Self {
+        Self { start_gap: gap, ..Self::new(case) }
+    }
+
     pub fn new(case: &Case) -> Self {
         let p = high(case.peak);
         let (tau, s0, c0, launch_shift) = if case.separation {
@@ -243,6 +250,7 @@ impl Exact {
             disk_speed,
             peak: case.peak,
             speed: case.speed,
+            start_gap: 0.0,
             launch_shift,
             separation: case.separation,
             half: high(0.5),
@@ -271,9 +279,56 @@ impl Exact {
     }
 
     fn point(&self, h: &High, (sin, cos): (High, High)) -> Point {
-        let gap = h * (&self.disk_speed - h * &self.half) - &self.p * (&sin - &self.s0);
+        if low(h) < 1.0e-2 {
+            return self.point_of_short_flight(h, sin, cos);
+        }
+        let gap =
+            high(self.start_gap) + h * (&self.disk_speed - h * &self.half) - &self.p * (&sin - &self.s0);
         let velocity = &self.disk_speed - h - &self.p * &cos;
         Point { gap, velocity, sin, cos }
+    }
+
+    /// [`Self::point`] with 1 - cos h and h - sin h as series: no digit of a short flight cancels.
+    fn point_of_short_flight(&self, h: &High, sin: High, cos: High) -> Point {
+        let factors = &tables().inverse_factorials;
+        let square = h * h;
+        let series = |first: usize| {
+            let mut sum = high(0.0);
+            for n in (first..TERMS).step_by(2).rev() {
+                sum = &factors[n] - sum * &square;
+            }
+            sum
+        };
+        let versine = series(2) * &square;
+        let deficit = series(3) * &square * h;
+        let speed = high(self.speed);
+        let gap = high(self.start_gap)
+            + h * (&speed - h * &self.half)
+            + &self.p * (&self.s0 * &versine + &self.c0 * &deficit);
+        let velocity = speed - h + &self.p * (&self.s0 * (h - &deficit) + &self.c0 * &versine);
+        Point { gap, velocity, sin, cos }
+    }
+
+    /// The duration of a flight that is so short that the pull at its start is that of all of it, to thirty digits: from a
+    /// `gap` and a velocity of any smallness, which the doubles of the march cannot square. `None` for other flights.
+    /// With it what one unit roundoff in P and the phase does to the pull, relative to it.
+    pub fn brief_flight(&self) -> Option<(High, f64)> {
+        let pull = high(1.0) - &self.p * &self.s0;
+        let (gap, speed) = (high(self.start_gap), high(self.speed));
+        let radicand = &speed * &speed + high(2.0) * &pull * &gap;
+        if radicand <= high(0.0) || (low(&pull) <= 0.0 && self.speed >= 0.0) {
+            return None;
+        }
+        let root = radicand.clone().sqrt();
+        let h = if self.speed > 0.0 { (&speed + root) / &pull } else { high(2.0) * &gap / (root - &speed) };
+        // The next term of the series relative to those before, and the rounding of the pull.
+        let force = low(&pull).abs().max(low(&(&speed / &h)).abs());
+        let share = low(&h) * self.peak / force;
+        let shift = U * self.peak * low(&self.s0).abs() + self.launch_shift * self.peak * low(&self.c0).abs();
+        // What the velocity and the pull take from each other counts, too.
+        let sizes = &speed * &speed + high(2.0) * &pull * &gap * high(low(&pull).signum());
+        let doubt = (shift / force + U) * low(&(sizes / &radicand)).max(1.0);
+        (low(&h) < 1.0e-40 && share < 1.0e-25).then_some((h, doubt))
     }
 
     /// Whether the platform is at its crest between the launch and the time `h`, not in a very short flight.
@@ -290,7 +345,8 @@ impl Exact {
         let by_phase = self.peak * low(&(&self.s0 * h + (&at.cos - &self.c0))).abs();
         // Behind a crest heights are counted from the crests, with a rounding of their own.
         let crest = if self.passes_crest(h) { self.peak } else { 0.0 };
-        let gap = U * (self.speed * low(h) + by_peak + crest) + self.launch_shift * by_phase;
+        let gap =
+            U * (self.start_gap + self.speed.abs() * low(h) + by_peak + crest) + self.launch_shift * by_phase;
         let slope = low(&at.velocity).abs();
         let curvature = low(&(&self.p * &at.sin - high(1.0))).abs();
         let time = if gap > 0.0 {
@@ -302,7 +358,7 @@ impl Exact {
         let phase = time + own + U * TAU;
         let velocity_by_peak = self.peak * low(&(&at.cos - &self.c0)).abs();
         let velocity_by_phase = self.peak * low(&(&at.sin - &self.s0)).abs();
-        let velocity = U * (self.speed + velocity_by_peak + slope)
+        let velocity = U * (self.speed.abs() + velocity_by_peak + slope)
             + self.launch_shift * velocity_by_phase
             + time * (curvature + self.peak * low(&at.cos).abs() * time);
         Limits { gap, phase, duration: time + own + U * low(h), velocity }
@@ -361,10 +417,31 @@ impl Exact {
         None
     }
 
+    /// The same where the gap is still concave at `from`: the first time before `end` at which it rises again.
+    fn lowest_beyond(&self, from: &High, end: &High) -> Option<(High, Point)> {
+        let mut before = from.clone();
+        loop {
+            let after = &before * high(2.0);
+            if low(&(end - &after)) <= 0.0 {
+                return None;
+            }
+            if low(&self.at(&after).velocity) > 0.0 {
+                let (mut falling, mut rising) = (before, after);
+                for _ in 0..100 {
+                    let middle = (&falling + &rising) * high(0.5);
+                    if low(&self.at(&middle).velocity) > 0.0 { rising = middle } else { falling = middle }
+                }
+                let at = self.at(&rising);
+                return Some((rising, at));
+            }
+            before = after;
+        }
+    }
+
     /// Where the search for a root starts: not at the launch from rest, where the gap has a double or triple zero
     /// but is convex until pi - sigma.
     fn search_start(&self) -> Result<High, String> {
-        if self.speed > 0.0 {
+        if self.speed > 0.0 || self.start_gap > 0.0 {
             return Ok(high(0.0));
         }
         let sigma = if self.separation { self.tau.clone() } else { separation_of(&self.p).0 };
@@ -378,13 +455,18 @@ impl Exact {
 
     /// The times at which the disk rises above the crests and comes down to their height, and its speed there.
     fn above_crests(&self) -> Option<(High, High, High)> {
-        let depth = &self.p * (high(1.0) - &self.s0);
+        let depth = &self.p * (high(1.0) - &self.s0) - high(self.start_gap);
         let radicand = &self.disk_speed * &self.disk_speed - high(2.0) * &depth;
-        if low(&radicand) <= 0.0 || low(&self.disk_speed) <= 0.0 {
+        let starts_above = low(&depth) < 0.0;
+        if low(&radicand) <= 0.0 || (low(&self.disk_speed) <= 0.0 && !starts_above) {
             return None;
         }
         let fall = radicand.sqrt();
         let until = &self.disk_speed + &fall;
+        if starts_above {
+            // Where this is lost in the rounding of both speeds, the disk is above the crests for no time worth a leap.
+            return (low(&until) > 1.0e-30 * low(&fall)).then(|| (high(0.0), until, fall));
+        }
         Some((high(2.0) * depth / &until, until, fall))
     }
 
@@ -546,7 +628,10 @@ impl Exact {
         if let Advance::Earlier(earlier) = self.first(&mut verdict)? {
             let end = low(&verdict.duration);
             let message = || format!("missed an impact at {} before {end}", low(&earlier));
-            let (dip, at) = self.lowest_after(&earlier).ok_or_else(message)?;
+            let (dip, at) = self
+                .lowest_after(&earlier)
+                .or_else(|| self.lowest_beyond(&earlier, &verdict.duration))
+                .ok_or_else(message)?;
             let depth = low(&at.gap);
             let limit = self.limits(&dip, &at).gap;
             if low(&dip) >= end || depth < -DIP_FACTOR * limit {
@@ -582,32 +667,33 @@ impl Exact {
         self.advance_from_launch(&start, &target, true, verdict)
     }
 
-    /// From `start` to `end` (a root if `to_root`), the gap in doubles written so that it has relative accuracy.
+    /// From `from` to `end` (a root if `to_root`), the gap in doubles written so that it has relative accuracy.
     fn advance_from_launch(
         &self,
-        start: &High,
+        from: &High,
         end: &High,
         to_root: bool,
         verdict: &mut Verdict,
     ) -> Result<Advance, String> {
         let (p, w, s0, c0) = (self.peak, self.speed, low(&self.s0), low(&self.c0));
+        let start = self.start_gap;
         let eval = |t: f64| {
             let (s, c) = libm::sincos(t);
             let half = libm::sin(0.5 * t);
             let versine = 2.0 * half * half;
             let deficit = sine_deficit(t, s);
-            let size = w * t + 0.5 * t * t + p * (s0.abs() * versine + c0.abs() * deficit);
+            let size = start + w.abs() * t + 0.5 * t * t + p * (s0.abs() * versine + c0.abs() * deficit);
             Sample {
-                gap: (w * t - 0.5 * t * t) + p * (s0 * versine + c0 * deficit),
+                gap: start + (w * t - 0.5 * t * t) + p * (s0 * versine + c0 * deficit),
                 gap_error: 32.0 * U * size,
                 velocity: (w - t) + p * (s0 * s + c0 * versine),
-                velocity_error: 32.0 * U * (w + t + p * (s0.abs() * s.abs() + c0.abs() * versine)),
+                velocity_error: 32.0 * U * (w.abs() + t + p * (s0.abs() * s.abs() + c0.abs() * versine)),
                 pull: 1.0 - p * (s0 * c + c0 * s),
                 pull_error: 16.0 * U * (1.0 + p),
                 third: p * (c0 * c - s0 * s),
             }
         };
-        self.advance(&high(0.0), low(start), end, to_root && !verdict.undecidable, eval, verdict)
+        self.advance(&high(0.0), low(from), end, to_root && !verdict.undecidable, eval, verdict)
     }
 
     /// From the time at which the disk comes down to the height of the crests.
@@ -725,7 +811,7 @@ fn check_form(impact: &Impact, own_shift: f64) -> Result<(), String> {
 }
 
 /// h - sin h, in relative accuracy.
-fn sine_deficit(h: f64, sine: f64) -> f64 {
+pub fn sine_deficit(h: f64, sine: f64) -> f64 {
     if h > 0.5 {
         return h - sine;
     }
@@ -739,20 +825,20 @@ fn sine_deficit(h: f64, sine: f64) -> f64 {
 }
 
 /// The gap in doubles, with bounds of its error.
-struct Sample {
-    gap: f64,
-    gap_error: f64,
-    velocity: f64,
-    velocity_error: f64,
+pub struct Sample {
+    pub gap: f64,
+    pub gap_error: f64,
+    pub velocity: f64,
+    pub velocity_error: f64,
     /// Minus the curvature, 1 - P sin, and P cos of the phase.
-    pull: f64,
-    pull_error: f64,
-    third: f64,
+    pub pull: f64,
+    pub pull_error: f64,
+    pub third: f64,
 }
 
 impl Sample {
     /// Whether the gap falls all the time from here to `ahead`.
-    fn falls_for(&self, peak: f64, ahead: f64) -> bool {
+    pub fn falls_for(&self, peak: f64, ahead: f64) -> bool {
         let bend = (self.pull_error - self.pull + (self.third.abs() + 0.5 * peak * ahead) * ahead)
             .min(peak - 1.0 + self.pull_error);
         self.velocity + self.velocity_error + bend.max(0.0) * ahead < 0.0
@@ -760,10 +846,11 @@ impl Sample {
 
     /// A step that cannot reach a root: the curvature is never below -(1 + P), and for a step of at most `s`
     /// not below P sin - P |cos| s - P s^2/2 - 1.
-    fn safe_step(&self, gap: f64, velocity: f64, peak: f64) -> f64 {
+    pub fn safe_step(&self, gap: f64, velocity: f64, peak: f64) -> f64 {
         let mut best = safe_time(gap, velocity, 1.0 + peak);
         let mut cap = best;
-        for _ in 0..12 {
+        // A disk that starts with next to no speed where nothing pulls at it needs many.
+        for _ in 0..400 {
             cap *= 4.0;
             if cap > PI {
                 break;

@@ -1,0 +1,167 @@
+//! Motions of disk and platform from starts and parameters that land on seams: time, speeds and energy must tell the same story.
+//!
+//! The energy balance alone does not see a clock that is wrong, so the duration of every flight is taken from the velocities at
+//! its ends: a disk in free flight loses one unit of axial speed a radian. The load's work must be that of this time.
+#![allow(unreachable_pub, reason = "the modules of a test have no public interface")]
+#![allow(dead_code, reason = "the generators are shared with the tests of the math core")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../../bouncing-disk-core/tests/first_impact/launches.rs"]
+mod launches;
+#[path = "../../bouncing-disk-core/tests/first_impact/seams.rs"]
+mod seams;
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use bouncing_disk::core::{ChatterPolicy, Error as CoreError, Phase};
+use bouncing_disk::{Dimensionless, DimensionlessParameters, Engine, Error, Event, EventRecord, Mode, Start};
+
+use launches::SplitMix;
+use seams::{angle, nearby, one_of, peak};
+
+/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics.md, section 6).
+const CLOSURE: f64 = 1.0e-13;
+
+/// Bound on what the rounding of two phases and four speeds leaves between two durations, relative to those.
+const CLOCK: f64 = 4.0e-14;
+
+fn system(random: &mut SplitMix) -> Dimensionless {
+    let restitution = one_of(random, &seams::RESTITUTIONS);
+    let friction = match random.next() % 4 {
+        0 => 0.0,
+        1 => one_of(random, &[1.0, 0.5, 0.1]),
+        2 => random.decades(-6.0, 3.0),
+        _ => random.unit(),
+    };
+    let exact = match random.next() % 5 {
+        0 => 0.0,
+        1 => one_of(random, &[1.0, 0.5, PI]),
+        // Where friction just holds a disk on a still platform.
+        2 => friction,
+        3 => random.decades(-12.0, 6.0),
+        _ => 3.0 * random.unit(),
+    };
+    let twist_speed = nearby(random, exact).max(0.0);
+    let lag = one_of(random, &[0.0, 0.0, PI, -PI, FRAC_PI_2, -FRAC_PI_2, 0.25 * PI, -0.26 * PI, 3.0]);
+    let load = match random.next() % 6 {
+        0 | 1 => 0.0,
+        // What friction can just carry.
+        2 => random.sign() * friction,
+        3 => random.sign() * random.decades(-12.0, 2.0),
+        _ => friction * random.uniform(-1.0, 1.0),
+    };
+    DimensionlessParameters {
+        peak_acceleration: peak(random, 1.0e4),
+        twist_speed,
+        phase_lag: nearby(random, lag),
+        friction,
+        restitution,
+        load: nearby(random, load),
+    }
+    .build()
+    .unwrap()
+}
+
+fn start(random: &mut SplitMix, system: &Dimensionless) -> Start {
+    let peak = system.peak_acceleration();
+    let phase = Phase::new(angle(random, peak)).unwrap();
+    let angular_speed = match random.next() % 4 {
+        0 => 0.0,
+        1 => nearby(random, system.platform_angular_speed(phase)),
+        2 => random.uniform(-2.0, 2.0) * (system.twist_speed() + 1.0),
+        _ => random.sign() * random.decades(-9.0, 3.0),
+    };
+    match random.next() % 3 {
+        0 => Start::Contact { phase, angular_speed },
+        1 => {
+            let case = seams::launch(random, 1.0e4, 400.0);
+            let relative_speed = case.speed.min(100.0 * (1.0 + peak));
+            Start::Launch { phase, relative_speed, angular_speed }
+        }
+        _ => {
+            let (case, gap) = seams::drop(random, 1.0e4);
+            Start::Flight {
+                phase,
+                gap: gap.min(1.0e8),
+                relative_velocity: case.speed.clamp(-1e6, 1e6),
+                angular_speed,
+            }
+        }
+    }
+}
+
+/// What the record of one event contradicts, if anything.
+fn contradiction(system: &Dimensionless, record: &EventRecord) -> Option<String> {
+    let closure = record.ledger.relative_closure();
+    if !(closure < CLOSURE) {
+        return Some(format!("the energy balance leaves {closure:e}"));
+    }
+    let span = record.span.radians();
+    let by_times = record.time.since(&record.spell.start).radians();
+    let rounding = CLOCK * (1.0 + span);
+    if (by_times - span).abs() > rounding {
+        return Some(format!("{by_times:e} rad by the times, {span:e} by the span"));
+    }
+    let flew = record.spell.state.mode == Mode::Flight && record.spell.chatter_speed.is_none();
+    if !(flew && matches!(record.event, Event::Impact { .. })) {
+        return None;
+    }
+    let (left, landed) = (record.spell.state, record.before);
+    let lost = left.axial_velocity - landed.axial_velocity;
+    let sizes = 1.0 + span + left.axial_velocity.abs() + system.peak_acceleration();
+    if (lost - span).abs() > CLOCK * sizes {
+        return Some(format!("a flight of {span:e} rad loses {lost:e} of its speed"));
+    }
+    let slowed = left.angular_speed - landed.angular_speed;
+    let expected = system.load() * lost;
+    let sizes = system.load().abs() * sizes + left.angular_speed.abs() + landed.angular_speed.abs();
+    if (slowed - expected).abs() > CLOCK * sizes {
+        return Some(format!("the load slows by {slowed:e} in a time for {expected:e}"));
+    }
+    let turned = lost * 0.5 * (left.angular_speed + landed.angular_speed);
+    let work = record.ledger.load_work;
+    let sizes = system.load().abs() * (turned.abs() + sizes * (1.0 + lost)) * (1.0 + lost);
+    ((work - system.load() * turned).abs() > CLOCK * sizes)
+        .then(|| format!("the load's work is {work:e}, not {:e}", system.load() * turned))
+}
+
+/// Events of motions that start on seams; how many there were.
+fn attack(seed: u64, motions: u64, events: usize) -> u64 {
+    let mut random = SplitMix::new(seed);
+    let mut seen = 0;
+    for motion in 0..motions {
+        let system = system(&mut random);
+        let start = start(&mut random, &system);
+        let policy =
+            one_of(&mut random, &[ChatterPolicy::Complete, ChatterPolicy::Complete, ChatterPolicy::Paper]);
+        let told =
+            |what: String| format!("seed {seed}, motion {motion}: {system:?} {start:?} {policy:?}: {what}");
+        let mut engine = match Engine::new(system, start, policy) {
+            Ok(engine) => engine,
+            Err(Error::Core(CoreError::NoLiftOff { .. } | CoreError::FlightTooLong { .. })) => continue,
+            Err(error) => panic!("{}", told(error.to_string())),
+        };
+        for _ in 0..events {
+            match engine.advance() {
+                Ok(Some(record)) => {
+                    seen += 1;
+                    if let Some(what) = contradiction(&system, &record) {
+                        panic!("{}", told(format!("{what}: {record:?}")));
+                    }
+                }
+                Ok(None) => break,
+                Err(
+                    Error::SlipTooLong { .. }
+                    | Error::Core(CoreError::FlightTooLong { .. } | CoreError::NoLiftOff { .. }),
+                ) => break,
+                Err(error) => panic!("{}", told(error.to_string())),
+            }
+        }
+    }
+    seen
+}
+
+#[test]
+fn motions_from_seams_keep_time_and_energy() {
+    assert!(attack(201, 6_000, 40) > 100_000);
+}
