@@ -27,7 +27,9 @@ mod sweep;
 mod testing;
 mod vibration;
 
-pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};
+pub use basin::{
+    ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
+};
 pub use chatter::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
 };
