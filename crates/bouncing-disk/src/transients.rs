@@ -168,7 +168,8 @@ impl<'a> Worker<'a> {
     /// Advances members together while there are enough of them.
     fn in_lanes(&mut self) {
         let batches = self.lanes.div_ceil(Flights::LANES);
-        let mut flights = Flights::new(self.set, batches);
+        // Without the memory for lanes they are advanced one by one.
+        let Ok(mut flights) = Flights::new(self.set, batches) else { return };
         let mut rotors = vec![Rotors::new(); batches];
         let mut may_rest = vec![[0; Flights::LANES]; batches];
         let mut failures: Vec<(usize, Error)> = Vec::new();
