@@ -42,5 +42,5 @@ pub use lanes::InstructionSet;
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use phase::Phase;
-pub use sweep::{Landing, SweepEvent, columns, lives, lyapunov_exponents, sweep};
+pub use sweep::{Landing, MAX_RECORDED, SweepEvent, columns, lives, lyapunov_exponents, sweep};
 pub use vibration::Vibration;
