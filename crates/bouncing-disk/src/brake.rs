@@ -6,6 +6,7 @@ use crate::error::{Error, finite, not_negative, positive};
 
 /// A disk that slides on a platform at rest, and how its angular speed changes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Braking {
     /// Angular acceleration (rad/s^2) of a disk with a positive angular speed: not positive, since it slows down.
     pub angular_acceleration: f64,

@@ -8,6 +8,7 @@ use crate::error::{Error, finite, not_negative, positive, restitution};
 ///
 /// The mass is not among them: it multiplies every equation. Energies come per unit mass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DiskParameters {
     /// Effective contact radius a_e (m), positive: where the friction force acts.
     pub contact_radius: f64,
