@@ -77,8 +77,8 @@ pub use fit::{ExponentialFit, RampFit};
 pub use ledger::EnergyLedger;
 pub use motor::{Ensemble, Spread, ensemble};
 pub use multi_toss::{
-    Collision, CollisionEvent, CollisionState, Collisions, MultiTossSettings, OrbitClass, TossOrbit,
-    multi_toss, period_one_rotary_speed,
+    Collision, CollisionEvent, CollisionState, Collisions, MAX_EXAMINED, MultiTossSettings, OrbitClass,
+    TossOrbit, multi_toss, period_one_rotary_speed,
 };
 pub use phase_time::{PhaseSpan, PhaseTime};
 pub use platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
