@@ -218,7 +218,7 @@ impl WithSimd for Rebound<'_> {
         for lane in 0..LANES {
             let (peak, given) = (peaks[lane], restitution[lane]);
             // Not a number would be the speed of a launch, and then the phase of an impact.
-            let restitution = kept(mask((given >= 0.0) & (given < 1.0)), given);
+            let restitution = kept(mask(given >= 0.0) & mask(given < 1.0), given);
             let speed = -restitution * impacts.velocity[lane];
             let pull = 1.0 - peak * impacts.sin[lane];
             speeds[lane] = speed;

@@ -186,11 +186,8 @@ fn saturating_fit(
     check_curve(times, speeds)?;
     let (time_scale, speed_scale) = (scale_for(times[times.len() - 1]), scale_for(largest(speeds)));
     let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
-    let (constant, steady, residual) = if time_scale == 1.0 && speed_scale == 1.0 {
-        scaled_fit(times, speeds, shape)
-    } else {
-        scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape)
-    };
+    let (constant, steady, residual) =
+        scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape);
     Ok((
         positive("fitted time (s)", constant / time_scale)?,
         finite("fitted steady speed (rad/s)", steady / speed_scale)?,

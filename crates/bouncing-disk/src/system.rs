@@ -229,6 +229,8 @@ mod tests {
             DiskParameters { gyration_radius: 0.0, ..DISK },
             DiskParameters { preload_acceleration: 0.0, ..DISK },
             DISK.with_load_torque(1.0, 0.0),
+            DISK.with_load_torque(1.0, -0.05),
+            DISK.with_load_torque(0.0, f64::INFINITY),
         ] {
             assert!(parameters.build().is_err());
         }

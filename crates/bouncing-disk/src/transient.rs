@@ -152,11 +152,7 @@ impl SpeedCurve {
 /// [`Error::OutOfRange`] for values that are not finite.
 pub(crate) fn mean(field: &'static str, values: &[f64]) -> Result<f64, Error> {
     let scale = scale_for(largest(values));
-    let sum = if scale == 1.0 {
-        values.iter().sum()
-    } else {
-        values.iter().map(|value| value * scale).sum::<f64>()
-    };
+    let sum = values.iter().map(|value| value * scale).sum::<f64>();
     finite(field, sum / values.len() as f64 / scale)
 }
 
