@@ -32,7 +32,7 @@ impl W3 {
         let start = ImpactState::from_normalised(0.8, 1.3).expect("legal state");
         let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
         let radius = orbit.trapping_radius(&map, 64).expect("it attracts");
-        Self { map, known: [KnownOrbit { orbit, radius }] }
+        Self { map, known: [KnownOrbit::new(orbit, radius).expect("legal radius")] }
     }
 
     fn grid(side: usize) -> Grid {
@@ -46,10 +46,11 @@ impl W3 {
 
     fn one_by_one(&self, grid: Grid) -> u32 {
         let mut sum = 0;
-        for row in 0..grid.speed.cells() {
-            for column in 0..grid.phase.cells() {
-                let angle = grid.phase.centre(column) * std::f64::consts::TAU;
-                let start = ImpactState::from_normalised(angle, grid.speed.centre(row)).expect("legal state");
+        for row in 0..grid.speed().cells() {
+            for column in 0..grid.phase().cells() {
+                let angle = grid.phase().centre(column) * std::f64::consts::TAU;
+                let start =
+                    ImpactState::from_normalised(angle, grid.speed().centre(row)).expect("legal state");
                 sum += u32::from(self.map.basin_label(start, &self.known, SETTINGS).expect("no failure"));
             }
         }

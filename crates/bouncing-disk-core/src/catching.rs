@@ -179,7 +179,7 @@ mod tests {
             let radius = orbit.trapping_radius(&map, 64).expect("attracts");
             assert!(radius > 0.3, "{radius}");
             let labels = |radius| {
-                let known = [KnownOrbit { orbit: orbit.clone(), radius }];
+                let known = [KnownOrbit::new(orbit.clone(), radius).expect("legal")];
                 map.basins(grid, &known, BasinSettings::default(), || ()).expect("no failure")
             };
             assert_eq!(labels(radius), labels(0.003), "Gamma {axial_forcing}");

@@ -77,6 +77,16 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
+    /// More was asked for than the limit allows or, where `count` is within it, than there is memory for.
+    #[error("no room for {count} {what}: at most {limit}, as far as the memory goes")]
+    TooLarge {
+        /// What was asked for.
+        what: &'static str,
+        /// How many of it.
+        count: u64,
+        /// The largest number.
+        limit: u64,
+    },
 }
 
 /// Checks that `value` lies in [`low`, `high`]; NaN does not.
@@ -88,4 +98,30 @@ pub(crate) fn within(
     legal: &'static str,
 ) -> Result<f64, Error> {
     if value >= low && value <= high { Ok(value) } else { Err(Error::OutOfRange { field, value, legal }) }
+}
+
+/// An empty vector with room for `count` <= `limit` items. The memory is asked for, so that its lack is an error; the limit is
+/// there because some systems promise memory that they do not have.
+pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<Vec<T>, Error> {
+    let refusal = Error::TooLarge { what, count, limit };
+    let mut room = Vec::new();
+    match usize::try_from(count) {
+        Ok(items) if count <= limit && room.try_reserve_exact(items).is_ok() => Ok(room),
+        _ => Err(refusal),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_that_is_not_there_is_an_error_with_its_size() {
+        for (count, limit) in [(11, 10), (u64::MAX, 10), (u64::MAX, u64::MAX), (1 << 60, u64::MAX)] {
+            let refusal = Error::TooLarge { what: "numbers", count, limit };
+            assert_eq!(room_for::<u64>("numbers", count, limit), Err(refusal));
+            assert!(refusal.to_string().contains(&count.to_string()), "{refusal}");
+        }
+        assert!(room_for::<u64>("numbers", 10, 10).is_ok_and(|room| room.capacity() >= 10));
+    }
 }

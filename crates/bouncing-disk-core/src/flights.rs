@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use crate::chatter::surely_bounces_on;
-use crate::error::Error;
+use crate::error::{Error, room_for};
 use crate::flight::Launch;
 use crate::lanes::{Batch, Flyer, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask};
 use crate::map::ImpactState;
@@ -29,7 +29,7 @@ pub trait LaneLoop {
 /// ```
 /// use bouncing_disk_core::{Flights, InstructionSet, Launch, Phase, Vibration};
 ///
-/// let mut flights = Flights::new(InstructionSet::best(), 1);
+/// let mut flights = Flights::new(InstructionSet::best(), 1)?;
 /// for lane in 0..10 {
 ///     flights.set_platform(lane, Vibration::new(2.0 + lane as f64)?);
 ///     flights.set_launch(lane, Launch::new(Phase::new(0.7)?, 3.0)?);
@@ -95,16 +95,22 @@ impl Flights {
     /// Number of lanes of a batch.
     pub const LANES: usize = LANES;
 
+    /// Largest number of batches.
+    pub const MAX_BATCHES: usize = 1 << 16;
+
     /// At least one batch of lanes on a platform at rest, to be computed with these instructions, or the next lower ones that
     /// the processor has. The impacts do not depend on them.
-    #[must_use]
-    pub fn new(set: InstructionSet, batches: usize) -> Self {
-        let batches = batches.max(1);
-        Self {
-            flyer: Box::new(Flyer::new(set, Purpose::Launches)),
-            batches: vec![Batch::new(Vibration::still()); batches],
-            placed: vec![false; batches],
-        }
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than [`Self::MAX_BATCHES`] batches or than there is memory for.
+    pub fn new(set: InstructionSet, batches: usize) -> Result<Self, Error> {
+        let count = batches.max(1);
+        let room = (count as u64, Self::MAX_BATCHES as u64);
+        let mut batches = room_for("batches of lanes", room.0, room.1)?;
+        batches.resize(count, Batch::new(Vibration::still()));
+        let mut placed = room_for("batches of lanes", room.0, room.1)?;
+        placed.resize(count, false);
+        Ok(Self { flyer: Box::new(Flyer::new(set, Purpose::Launches)), batches, placed })
     }
 
     /// Number of batches.
@@ -141,7 +147,7 @@ impl Flights {
     }
 
     /// Sets the next launch of every lane of a batch to what follows its impact with a coefficient of restitution of its own
-    /// in [0, 1).
+    /// in [0, 1); another number counts as zero.
     ///
     /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
@@ -210,7 +216,9 @@ impl WithSimd for Rebound<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { rows: Rebounding { peaks, impacts, speed: speeds }, restitution, may_rest } = self;
         for lane in 0..LANES {
-            let (peak, restitution) = (peaks[lane], restitution[lane]);
+            let (peak, given) = (peaks[lane], restitution[lane]);
+            // Not a number would be the speed of a launch, and then the phase of an impact.
+            let restitution = kept(mask(given >= 0.0) & mask(given < 1.0), given);
             let speed = -restitution * impacts.velocity[lane];
             let pull = 1.0 - peak * impacts.sin[lane];
             speeds[lane] = speed;
@@ -247,7 +255,7 @@ mod tests {
     fn rows_hold_what_single_flights_say() {
         for set in InstructionSet::available() {
             const ALL: usize = 3 * LANES - 5;
-            let mut flights = Flights::new(set, 3);
+            let mut flights = Flights::new(set, 3).expect("few");
             for block in 0..3_000 {
                 let launches: Vec<_> = (0..ALL).map(|lane| launch(200 * block + lane as u64)).collect();
                 for (lane, (vibration, launch)) in launches.iter().enumerate() {
@@ -292,7 +300,7 @@ mod tests {
     #[test]
     fn flights_of_any_number_are_those_of_single_ones() {
         for lanes in 1..=2 * LANES {
-            let mut flights = Flights::new(InstructionSet::best(), 2);
+            let mut flights = Flights::new(InstructionSet::best(), 2).expect("few");
             let launches: Vec<_> = (0..lanes).map(|lane| launch((997 * lanes + lane) as u64)).collect();
             for (lane, &(vibration, launch)) in launches.iter().enumerate() {
                 flights.set_platform(lane, vibration);
@@ -312,7 +320,7 @@ mod tests {
     #[test]
     fn launches_that_dip_are_those_of_single_flights() {
         let vibration = Vibration::new(2.0).expect("legal");
-        let mut flights = Flights::new(InstructionSet::best(), 4);
+        let mut flights = Flights::new(InstructionSet::best(), 4).expect("few");
         let all = 4 * LANES;
         (0..all).for_each(|lane| flights.set_platform(lane, vibration));
         let mut dips = 0;
@@ -335,8 +343,33 @@ mod tests {
     }
 
     #[test]
+    fn more_batches_than_there_is_room_for_are_refused() {
+        for batches in [Flights::MAX_BATCHES + 1, usize::MAX / 64, usize::MAX] {
+            let refusal = Flights::new(InstructionSet::best(), batches).expect_err("too many");
+            assert!(matches!(refusal, Error::TooLarge { count, .. } if count == batches as u64), "{refusal}");
+        }
+    }
+
+    /// A rebound with NaN launched disks that landed at no phase, and nobody was told.
+    #[test]
+    fn a_rebound_that_is_none_leaves_the_disk_where_it_hit() {
+        let (vibration, launch) = (Vibration::new(2.0).expect("legal"), launch(1).1);
+        for restitution in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.5, 1.0, 1e300] {
+            let mut flights = Flights::new(InstructionSet::best(), 1).expect("few");
+            for lane in 0..LANES {
+                flights.set_platform(lane, vibration);
+                flights.set_launch(lane, launch);
+            }
+            flights.fly(LANES, |lane, error| unreachable!("{lane}: {error}"));
+            let hit = flights.state(3).expect("exists");
+            flights.rebound(0, &[restitution; LANES], &mut [0; LANES]);
+            assert_eq!(flights.launch(3), Launch::new(hit.phase(), 0.0).ok(), "{restitution}");
+        }
+    }
+
+    #[test]
     fn lanes_that_do_not_exist_are_refused() {
-        let mut flights = Flights::new(InstructionSet::best(), 0);
+        let mut flights = Flights::new(InstructionSet::best(), 0).expect("few");
         assert_eq!(flights.batches(), 1, "at least one");
         let (vibration, launch) = launch(1);
         flights.set_platform(LANES, vibration);

@@ -27,7 +27,9 @@ mod sweep;
 mod testing;
 mod vibration;
 
-pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};
+pub use basin::{
+    ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
+};
 pub use chatter::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
 };
@@ -40,5 +42,5 @@ pub use lanes::InstructionSet;
 pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use phase::Phase;
-pub use sweep::{Landing, SweepEvent, columns, lives, lyapunov_exponents, sweep};
+pub use sweep::{Landing, MAX_RECORDED, SweepEvent, columns, lives, lyapunov_exponents, sweep};
 pub use vibration::Vibration;

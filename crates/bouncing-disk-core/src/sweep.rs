@@ -14,7 +14,7 @@ use crate::flight::Impact;
 use crate::map::{ImpactState, Orbit, OrbitEvent, Stick};
 use crate::phase::Phase;
 
-pub use measures::{columns, lives, lyapunov_exponents};
+pub use measures::{MAX_RECORDED, columns, lives, lyapunov_exponents};
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

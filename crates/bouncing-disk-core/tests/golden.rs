@@ -262,14 +262,15 @@ fn basin_labels() {
     let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
     let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
     let radius = orbit.trapping_radius(&map, 64).expect("it attracts");
-    let known = [KnownOrbit { orbit, radius }];
+    let known = [KnownOrbit::new(orbit, radius).expect("legal")];
     let axis = |high| Axis::new(0.0, high, CELLS).expect("legal");
     let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
     let one_by_one: Vec<Label> = (0..CELLS * CELLS)
         .map(|cell| {
-            let angle = grid.phase.centre(cell % CELLS) * TAU;
-            let start = ImpactState::from_normalised(angle, grid.speed.centre(cell / CELLS)).expect("legal");
+            let angle = grid.phase().centre(cell % CELLS) * TAU;
+            let start =
+                ImpactState::from_normalised(angle, grid.speed().centre(cell / CELLS)).expect("legal");
             map.basin_label(start, &known, settings).expect("no failure")
         })
         .collect();

@@ -274,7 +274,7 @@ fn basins_are_the_same_for_any_number_of_threads() {
     let orbit = map.settled_orbit(start, 2_000, 8, 1e-9).expect("no failure").expect("period 2");
     assert_eq!(orbit.period(), 2);
     let radius = orbit.trapping_radius(&map, 32).expect("attracts");
-    let known = [KnownOrbit { orbit, radius }];
+    let known = [KnownOrbit::new(orbit, radius).expect("legal")];
     let grid = Grid::new(Axis::new(0.0, 1.0, 37).expect("legal"), Axis::new(0.0, 2.0, 41).expect("legal"))
         .expect("legal");
     let labels = |threads: usize| {

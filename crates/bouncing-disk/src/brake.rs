@@ -6,6 +6,7 @@ use crate::error::{Error, finite, not_negative, positive};
 
 /// A disk that slides on a platform at rest, and how its angular speed changes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Braking {
     /// Angular acceleration (rad/s^2) of a disk with a positive angular speed: not positive, since it slows down.
     pub angular_acceleration: f64,
@@ -40,6 +41,13 @@ pub fn friction_from_braking(braking: &Braking) -> Result<f64, Error> {
     positive("contact_radius", braking.contact_radius)?;
     positive("gyration_radius", braking.gyration_radius)?;
     let inertia = braking.mass * braking.gyration_radius * braking.gyration_radius;
+    if !inertia.is_normal() {
+        return Err(Error::OutOfRange {
+            field: "moment of inertia",
+            value: inertia,
+            legal: "[2.3e-308, 1.7e308] (kg m^2)",
+        });
+    }
     not_negative(
         "friction",
         -inertia * braking.angular_acceleration / (braking.contact_radius * braking.normal_force),
@@ -77,6 +85,8 @@ mod tests {
             (Braking { contact_radius: 0.0, ..BRAKING }, "contact_radius"),
             (Braking { gyration_radius: f64::INFINITY, ..BRAKING }, "gyration_radius"),
             (Braking { contact_radius: 1e-320, ..BRAKING }, "friction"),
+            // Its square vanishes, and with it the friction did.
+            (Braking { gyration_radius: 1e-170, ..BRAKING }, "moment of inertia"),
         ] {
             let error = friction_from_braking(&braking).expect_err("illegal");
             assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");

@@ -14,6 +14,7 @@ use crate::error::{Error, finite, moderate, moderate_not_negative};
 
 /// The dimensionless parameters, not yet checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DimensionlessParameters {
     /// P = A omega^2/g = pi Gamma, in [0, 1e8].
     pub peak_acceleration: f64,
@@ -57,6 +58,7 @@ impl DimensionlessParameters {
 /// A friction coefficient other than zero only scales the rotary motion, so it is set to 1 here: angular speeds
 /// then come in units of mu g a_e/(a_g^2 omega).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ForcingParameters {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), in [0, 3.18e7].
     pub axial_forcing: f64,

@@ -8,6 +8,7 @@ use crate::error::{Error, finite, not_negative, positive, restitution};
 ///
 /// The mass is not among them: it multiplies every equation. Energies come per unit mass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DiskParameters {
     /// Effective contact radius a_e (m), positive: where the friction force acts.
     pub contact_radius: f64,
@@ -26,9 +27,11 @@ pub struct DiskParameters {
 }
 
 impl DiskParameters {
-    /// The same disk with a load `torque` (N m) on a disk of `mass` (kg).
+    /// The same disk with a load `torque` (N m) on a disk of `mass` (kg), positive: with any other mass the load is not a number,
+    /// and [`Self::build`] refuses it.
     #[must_use]
     pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Self {
+        let mass = if mass > 0.0 && mass.is_finite() { mass } else { f64::NAN };
         self.load_acceleration = torque / (mass * self.gyration_radius * self.gyration_radius);
         self
     }

@@ -68,6 +68,26 @@ pub(crate) fn moderate(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.abs() <= LARGEST, field, value, "[-1e100, 1e100] (dimensionless)")
 }
 
+/// An empty vector with room for `count` <= `limit` items. The memory is asked for, so that its lack is an error; the limit is
+/// there because some systems promise memory that they do not have.
+pub(crate) fn room_for<T>(what: &'static str, count: usize, limit: usize) -> Result<Vec<T>, Error> {
+    within_limit(what, count, limit)?;
+    let mut room = Vec::new();
+    match room.try_reserve_exact(count) {
+        Ok(()) => Ok(room),
+        Err(_) => Err(too_large(what, count, limit)),
+    }
+}
+
+/// Checks that a number of items is one that there may be.
+pub(crate) fn within_limit(what: &'static str, count: usize, limit: usize) -> Result<(), Error> {
+    if count <= limit { Ok(()) } else { Err(too_large(what, count, limit)) }
+}
+
+fn too_large(what: &'static str, count: usize, limit: usize) -> Error {
+    bouncing_disk_core::Error::TooLarge { what, count: count as u64, limit: limit as u64 }.into()
+}
+
 fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
     if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
 }

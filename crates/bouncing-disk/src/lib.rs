@@ -75,10 +75,10 @@ pub use error::Error;
 pub use event::{Event, EventRecord};
 pub use fit::{ExponentialFit, RampFit};
 pub use ledger::EnergyLedger;
-pub use motor::{Ensemble, Spread, ensemble};
+pub use motor::{Ensemble, MAX_MEMBERS, MAX_SPEEDS, Spread, ensemble};
 pub use multi_toss::{
-    Collision, CollisionEvent, CollisionState, Collisions, MultiTossSettings, OrbitClass, TossOrbit,
-    multi_toss, period_one_rotary_speed,
+    Collision, CollisionEvent, CollisionState, Collisions, MAX_EXAMINED, MultiTossSettings, OrbitClass,
+    TossOrbit, multi_toss, period_one_rotary_speed,
 };
 pub use phase_time::{PhaseSpan, PhaseTime};
 pub use platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};

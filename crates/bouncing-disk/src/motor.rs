@@ -10,14 +10,15 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::Phase;
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
-use crate::fit::ExponentialFit;
+use crate::error::{Error, finite, not_negative, room_for, within_limit};
+use crate::fit::{ExponentialFit, largest, scale_for};
 use crate::system::System;
-use crate::transient::{SpeedCurve, SplitMix, TransientSettings};
+use crate::transient::{SpeedCurve, SplitMix, TransientSettings, mean};
 use crate::transients::{TransientMember, transients};
 
 /// A mean over the members of an ensemble, with its spread.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedSpread")]
 pub struct Spread {
     /// Mean.
     pub mean: f64,
@@ -28,19 +29,62 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one value.
-    #[must_use]
-    pub fn of(values: &[f64]) -> Self {
+    /// Of at least one value, all finite.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for no value, one that is not finite, or a deviation that a double cannot hold.
+    pub fn of(values: &[f64]) -> Result<Self, Error> {
+        if values.is_empty() {
+            return Err(Error::OutOfRange { field: "number of values", value: 0.0, legal: "[1, inf)" });
+        }
+        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+            finite("value of a spread", value)?;
+        }
         let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares = values.iter().fold(0.0, |sum, value| sum + (value - mean) * (value - mean));
-        let deviation = if n > 1.0 { (squares / (n - 1.0)).sqrt() } else { 0.0 };
-        Self { mean, deviation, standard_error: deviation / n.sqrt() }
+        let mean = mean("mean", values)?;
+        let scale = scale_for(largest(values));
+        let squares = values.iter().fold(0.0, |sum, value| {
+            let difference = value * scale - mean * scale;
+            sum + difference * difference
+        });
+        let deviation = if n > 1.0 { (squares / (n - 1.0)).sqrt() / scale } else { 0.0 };
+        not_negative("deviation", deviation)?;
+        Ok(Self { mean, deviation, standard_error: deviation / n.sqrt() })
     }
 }
 
+/// What is read of a [`Spread`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedSpread {
+    mean: f64,
+    deviation: f64,
+    standard_error: f64,
+}
+
+impl TryFrom<UncheckedSpread> for Spread {
+    type Error = Error;
+
+    fn try_from(spread: UncheckedSpread) -> Result<Self, Error> {
+        Ok(Self {
+            mean: finite("mean", spread.mean)?,
+            deviation: not_negative("deviation", spread.deviation)?,
+            standard_error: not_negative("standard_error", spread.standard_error)?,
+        })
+    }
+}
+
+/// Most members of an ensemble.
+pub const MAX_MEMBERS: usize = 1_000_000;
+
+/// Most speeds of all members of an ensemble together.
+pub const MAX_SPEEDS: usize = 1 << 30;
+
 /// An ensemble of transients of one motor.
+///
+/// One that is read has members, and a fit for each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedEnsemble")]
 pub struct Ensemble {
     /// The curve of each member.
     pub curves: Vec<SpeedCurve>,
@@ -54,23 +98,57 @@ pub struct Ensemble {
     pub stall_acceleration: Spread,
 }
 
+/// What is read of an [`Ensemble`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedEnsemble {
+    curves: Vec<SpeedCurve>,
+    fits: Vec<ExponentialFit>,
+    steady_speed: Spread,
+    time_constant: Spread,
+    stall_acceleration: Spread,
+}
+
+impl TryFrom<UncheckedEnsemble> for Ensemble {
+    type Error = Error;
+
+    fn try_from(unchecked: UncheckedEnsemble) -> Result<Self, Error> {
+        let UncheckedEnsemble { curves, fits, steady_speed, time_constant, stall_acceleration } = unchecked;
+        let illegal = |field, value: usize, legal| Error::OutOfRange { field, value: value as f64, legal };
+        if curves.is_empty() {
+            return Err(illegal("members", 0, "[1, 1000000]"));
+        }
+        if fits.len() != curves.len() {
+            return Err(illegal("number of fits", fits.len(), "the number of curves"));
+        }
+        Ok(Self { curves, fits, steady_speed, time_constant, stall_acceleration })
+    }
+}
+
 /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up from
 /// `settings.seed`. The result is the same for any number of threads.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for no member or illegal settings; the errors of [`transient`](crate::transient()).
+/// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
+/// [`MAX_SPEEDS`] speeds of all together or than there is memory for; the errors of [`transient`](crate::transient()).
 pub fn ensemble(system: &System, settings: &TransientSettings, members: usize) -> Result<Ensemble, Error> {
-    settings.check()?;
+    settings.check_for(&system.scales())?;
     if members == 0 {
-        return Err(Error::OutOfRange { field: "members", value: 0.0, legal: "[1, inf)" });
+        return Err(Error::OutOfRange { field: "members", value: 0.0, legal: "[1, 1000000]" });
     }
+    let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
+    // The memory for them is asked for where they are computed.
+    within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
     let member = |index: usize| -> Result<TransientMember, Error> {
         // Half a step off zero, so that no member starts on a phase that is special.
         let phase = Phase::new(TAU * (index as f64 + 0.5) / members as f64)?;
         let seed = SplitMix(settings.seed.wrapping_add(index as u64)).next();
         Ok(TransientMember { system: *system, phase, settings: TransientSettings { seed, ..*settings } })
     };
-    let runs = transients(&(0..members).map(member).collect::<Result<Vec<_>, _>>()?);
+    for index in 0..members {
+        starts.push(member(index)?);
+    }
+    let runs = transients(&starts);
     let fitted = |curve: Result<SpeedCurve, Error>| -> Result<(SpeedCurve, ExponentialFit), Error> {
         let curve = curve?;
         let fit = curve.fit()?;
@@ -83,8 +161,8 @@ pub fn ensemble(system: &System, settings: &TransientSettings, members: usize) -
     };
     #[cfg(not(feature = "parallel"))]
     let results: Vec<_> = runs.into_iter().map(fitted).collect();
-    let mut curves = Vec::with_capacity(members);
-    let mut fits = Vec::with_capacity(members);
+    let mut curves = room_for("members of an ensemble", members, MAX_MEMBERS)?;
+    let mut fits = room_for("members of an ensemble", members, MAX_MEMBERS)?;
     for result in results {
         let (curve, fit) = result?;
         curves.push(curve);
@@ -92,9 +170,9 @@ pub fn ensemble(system: &System, settings: &TransientSettings, members: usize) -
     }
     let of = |value: fn(&ExponentialFit) -> f64| Spread::of(&fits.iter().map(value).collect::<Vec<_>>());
     Ok(Ensemble {
-        steady_speed: of(|fit| fit.steady_speed),
-        time_constant: of(|fit| fit.time_constant),
-        stall_acceleration: of(ExponentialFit::stall_acceleration),
+        steady_speed: of(|fit| fit.steady_speed)?,
+        time_constant: of(|fit| fit.time_constant)?,
+        stall_acceleration: of(ExponentialFit::stall_acceleration)?,
         curves,
         fits,
     })
@@ -190,8 +268,9 @@ mod tests {
                     ..TransientSettings::default()
                 };
                 let runs = ensemble(&system, &settings, 16).expect("no failure");
-                let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(0.6)).collect();
-                let spread = Spread::of(&means);
+                let means: Vec<f64> =
+                    runs.curves.iter().map(|curve| curve.mean_over_last(0.6).expect("legal")).collect();
+                let spread = Spread::of(&means).expect("finite");
                 assert!(spread.standard_error < 0.01 * spread.mean, "{spread:?}");
                 spread.mean
             })
@@ -227,5 +306,60 @@ mod tests {
             assert!(matches!(ensemble(&system, &settings, 2), Err(Error::OutOfRange { .. })));
         }
         assert!(ensemble(&system, &TransientSettings::default(), 0).is_err());
+    }
+
+    #[test]
+    fn more_members_than_there_is_room_for_are_refused_with_their_number() {
+        let system = motor(1e-8, 0.0);
+        for (members, intervals) in [(usize::MAX, 600), (MAX_MEMBERS + 1, 3), (MAX_MEMBERS, 1_000_000)] {
+            let settings = TransientSettings { intervals, ..TransientSettings::default() };
+            let error = ensemble(&system, &settings, members).expect_err("too many");
+            let asked = if intervals > 600 { members * intervals } else { members };
+            assert!(
+                matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { count, .. }) if count == asked as u64),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_spread_of_nothing_is_refused() {
+        assert!(Spread::of(&[]).is_err());
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert!(Spread::of(&[1.0, bad]).is_err());
+        }
+        let one = Spread { mean: 3.0, deviation: 0.0, standard_error: 0.0 };
+        assert_eq!(Spread::of(&[3.0]), Ok(one));
+    }
+
+    /// Their squares overflowed or vanished.
+    #[test]
+    fn values_of_any_size_have_a_spread() {
+        for size in [1.0, 1e300, 1e-300, 1e-200] {
+            let spread = Spread::of(&[1.0 * size, 2.0 * size, 3.0 * size]).expect("finite");
+            assert!((spread.mean / (2.0 * size) - 1.0).abs() < 1e-15, "{spread:?}");
+            assert!((spread.deviation / size - 1.0).abs() < 1e-15, "{spread:?}");
+        }
+        assert!(Spread::of(&[f64::MAX, -f64::MAX]).is_err(), "no double holds the deviation");
+    }
+
+    #[test]
+    fn an_ensemble_that_is_read_is_whole() {
+        let settings = TransientSettings { duration: 0.01, intervals: 3, ..TransientSettings::default() };
+        let own = ensemble(&motor(1e-8, 0.0), &settings, 2).expect("no failure");
+        let value = serde_json::to_value(&own).expect("writes");
+        assert_eq!(serde_json::from_value::<Ensemble>(value.clone()).expect("legal"), own);
+        let mut lacking = value.clone();
+        lacking["fits"].as_array_mut().expect("a list").pop();
+        assert!(serde_json::from_value::<Ensemble>(lacking).is_err());
+        let mut empty = value.clone();
+        empty["curves"] = serde_json::json!([]);
+        assert!(serde_json::from_value::<Ensemble>(empty).is_err());
+        let mut narrower = value.clone();
+        narrower["steady_speed"]["deviation"] = serde_json::json!(-1.0);
+        assert!(serde_json::from_value::<Ensemble>(narrower).is_err());
+        let mut misspelt = value;
+        misspelt["steady_sped"] = serde_json::json!(1.0);
+        assert!(serde_json::from_value::<Ensemble>(misspelt).is_err());
     }
 }

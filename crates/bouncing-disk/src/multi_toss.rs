@@ -6,12 +6,12 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Multipliers, Phase};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, Phase};
 use serde::Serialize;
 
 use crate::dimensionless::Dimensionless;
 use crate::engine::Engine;
-use crate::error::{Error, moderate};
+use crate::error::{Error, moderate, room_for};
 use crate::event::{Event, EventRecord};
 use crate::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::phase_time::PhaseTime;
@@ -205,6 +205,9 @@ pub fn period_one_rotary_speed(system: &Dimensionless, impact_phase: Phase) -> f
     system.platform_angular_speed(impact_phase)
 }
 
+/// Most impacts that [`multi_toss`] looks at.
+pub const MAX_EXAMINED: usize = 10_000_000;
+
 /// How long a motion is followed, and when it counts as periodic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MultiTossSettings {
@@ -212,9 +215,10 @@ pub struct MultiTossSettings {
     pub policy: ChatterPolicy,
     /// Impacts that are not looked at.
     pub transient_impacts: usize,
-    /// Impacts that are looked at after them, at least 2.
+    /// Impacts that are looked at after them, from 2 to [`MAX_EXAMINED`].
     pub examined_impacts: usize,
-    /// The longest period (in impacts) that is recognised; at most half of the impacts examined are compared.
+    /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts examined are
+    /// compared.
     pub longest_period: usize,
     /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no more
     /// are the same.
@@ -304,7 +308,8 @@ pub struct TossOrbit {
 /// Follows a motion through its transient and says what it has settled on.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for the settings; those of [`Collisions`].
+/// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts examined or than there is
+/// memory for; those of [`Collisions`].
 pub fn multi_toss(
     system: impl Into<Dimensionless>,
     start: Start,
@@ -314,7 +319,8 @@ pub fn multi_toss(
     let system = system.into();
     let mut collisions = Collisions::new(system, start, settings.policy)?;
     let mut skipped = 0;
-    let mut window = Window::default();
+    let collided = room_for("examined impacts", settings.examined_impacts, MAX_EXAMINED)?;
+    let mut window = Window { collisions: collided, ..Window::default() };
     while window.collisions.len() < settings.examined_impacts {
         match collisions.advance()? {
             Some(event) if skipped < settings.transient_impacts => {
@@ -398,7 +404,7 @@ impl Window {
 
     fn periodic(&self, system: &Dimensionless, settings: &MultiTossSettings) -> Option<TossOrbit> {
         let last = self.collisions.len() - 1;
-        let longest = settings.longest_period.min(self.collisions.len() / 2);
+        let longest = settings.longest_period.min(self.collisions.len() / 2).min(MAX_PERIOD);
         let near = |a: &Collision, b: &Collision| {
             let apart = (a.time.phase.angle() - b.time.phase.angle()).abs();
             let velocity = a.state.axial_impact_velocity;
@@ -567,6 +573,13 @@ mod tests {
         ] {
             assert!(matches!(multi_toss(system, start, settings), Err(Error::OutOfRange { .. })));
         }
+        for examined_impacts in [MAX_EXAMINED + 1, usize::MAX] {
+            let settings = MultiTossSettings { examined_impacts, ..Default::default() };
+            let error = multi_toss(system, start, settings).unwrap_err();
+            assert!(error.to_string().contains(&examined_impacts.to_string()), "{error}");
+        }
+        let endless = MultiTossSettings { longest_period: usize::MAX, ..Default::default() };
+        assert_eq!(multi_toss(system, start, endless), multi_toss(system, start, Default::default()));
         let state = CollisionState {
             phase: Phase::new(0.0).unwrap(),
             axial_impact_velocity: 1.0,

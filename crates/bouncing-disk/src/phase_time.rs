@@ -23,12 +23,15 @@ impl PhaseTime {
         Self { periods: 0, phase }
     }
 
-    /// The instant `span` later.
+    /// The instant `span` later, [normalised](PhaseSpan::normalised). The count of periods stops at `u64::MAX`, where the phase
+    /// alone goes on.
     #[must_use]
     pub fn after(&self, span: PhaseSpan) -> Self {
+        let span = span.normalised();
         let sum = self.phase.angle() + span.remainder;
         let (angle, turns) = if sum >= TAU { (sum - TAU, 1) } else { (sum, 0) };
-        Self { periods: self.periods + span.periods + turns, phase: phase_at(angle) }
+        let periods = self.periods.saturating_add(span.periods).saturating_add(turns);
+        Self { periods, phase: phase_at(angle) }
     }
 
     /// The time from `earlier` to this instant; zero if `earlier` is not earlier.
@@ -60,6 +63,8 @@ impl PhaseTime {
 }
 
 /// A duration: whole periods and a remainder in radians.
+///
+/// Whatever takes a span takes any, and reads it as [`Self::normalised`] says.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PhaseSpan {
     /// Whole periods.
@@ -72,15 +77,37 @@ impl PhaseSpan {
     /// No time at all.
     pub const ZERO: Self = Self { periods: 0, remainder: 0.0 };
 
-    /// A span of `radians`; a negative or non-finite number counts as zero.
+    /// The longest span: `u64::MAX` whole periods.
+    pub const LONGEST: Self = Self { periods: u64::MAX, remainder: 0.0 };
+
+    /// A span of `radians`; a negative number and NaN count as zero, and [`Self::LONGEST`], 1.16e20 rad, as the most.
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
-        if !(radians > 0.0 && radians.is_finite()) {
+        // Not 2^64 - 1, which is no double: what rounds to 2^64 is too long, too.
+        const TOO_LONG: f64 = TAU * 18_446_744_073_709_551_616.0;
+        if radians.is_nan() || radians <= 0.0 {
             return Self::ZERO;
+        }
+        if radians >= TOO_LONG {
+            return Self::LONGEST;
         }
         let remainder = wrapped_angle(radians);
         // Round: the difference is a whole number of periods up to rounding.
         Self { periods: ((radians - remainder) / TAU + 0.5) as u64, remainder }
+    }
+
+    /// The same span with its remainder in [0, 2 pi]: what a greater one has in whole periods is added to them, up to
+    /// [`Self::LONGEST`]; a negative one and NaN count as zero. A span that is in order keeps its bits.
+    #[must_use]
+    pub fn normalised(self) -> Self {
+        if (0.0..=TAU).contains(&self.remainder) {
+            return self;
+        }
+        let rest = Self::from_radians(self.remainder);
+        match self.periods.checked_add(rest.periods) {
+            Some(periods) => Self { periods, remainder: rest.remainder },
+            None => Self::LONGEST,
+        }
     }
 
     /// The span in radians (rounded: the exact value is `periods` and `remainder`).
@@ -131,5 +158,33 @@ mod tests {
         assert_eq!(late.since(&early).periods, 0);
         assert_eq!(PhaseSpan::from_radians(f64::NAN), PhaseSpan::ZERO);
         assert_eq!(PhaseSpan::from_radians(-1.0), PhaseSpan::ZERO);
+    }
+
+    /// The remainder of a span is a public field; NaN in it was a panic, and many turns counted as one.
+    #[test]
+    fn a_remainder_that_is_none_counts_as_what_it_is() {
+        let now = PhaseTime { periods: 7, phase: phase_at(1.0) };
+        let later = |remainder: f64| now.after(PhaseSpan { periods: 2, remainder });
+        for remainder in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+            assert_eq!(later(remainder), PhaseTime { periods: 9, ..now }, "{remainder}");
+        }
+        let three = later(3.0 * TAU + 0.5);
+        assert_eq!(three.periods, 12);
+        assert!((three.phase.angle() - 1.5).abs() < 1e-14);
+        assert!((later(1e20).periods as f64 * TAU / 1e20 - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_count_of_periods_stops_at_its_end() {
+        let last = PhaseTime { periods: u64::MAX, phase: phase_at(6.0) };
+        assert_eq!(last.after(PhaseSpan { periods: 0, remainder: 1.0 }).periods, u64::MAX);
+        assert_eq!(last.after(PhaseSpan::LONGEST), last);
+        for radians in [1.2e20, 1e300, f64::INFINITY] {
+            assert_eq!(PhaseSpan::from_radians(radians), PhaseSpan::LONGEST, "{radians}");
+        }
+        let below = PhaseSpan::from_radians(1.15e20);
+        assert!((below.radians() / 1.15e20 - 1.0).abs() < 1e-15);
+        assert_eq!(PhaseSpan { periods: u64::MAX, remainder: 7.0 }.normalised(), PhaseSpan::LONGEST);
+        assert_eq!(last.since(&PhaseTime::in_first_period(phase_at(6.0))), PhaseSpan::LONGEST);
     }
 }

@@ -10,6 +10,7 @@ use crate::error::{Error, finite, not_negative, positive};
 
 /// The parameters of a [`Platform`], not yet checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlatformParameters {
     /// Amplitude A of the height (m), not negative.
     pub amplitude: f64,
@@ -38,6 +39,7 @@ impl PlatformParameters {
 
 /// A platform motion given by the length and the direction of its stroke; see [`Platform::from_stroke`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stroke {
     /// Stroke c (m), not negative: the half length of the helical path of a point at the contact radius.
     pub stroke: f64,
@@ -53,6 +55,7 @@ pub struct Stroke {
 
 /// What Eq. (14) reads a toss from: a video shows how fast the disk rises and turns as it leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LaunchSpeeds {
     /// Axial speed at separation (m/s), positive.
     pub axial_speed: f64,

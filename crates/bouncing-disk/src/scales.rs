@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::disk::Disk;
+use crate::error::Error;
 use crate::ledger::EnergyLedger;
 use crate::phase_time::{PhaseSpan, PhaseTime};
 use crate::platform::Platform;
@@ -81,6 +82,25 @@ impl Scales {
             angular_acceleration,
             axial_energy: velocity * velocity,
             rotary_energy: rim_speed * rim_speed,
+        }
+    }
+
+    /// Checks that no unit is zero, denormal or infinite: numbers in SI would lose their digits in it, and times would stand
+    /// still.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let units = [
+            ("unit of time (s)", self.time),
+            ("unit of length (m)", self.length),
+            ("unit of velocity (m/s)", self.velocity),
+            ("unit of angle (rad)", self.angle),
+            ("unit of angular speed (rad/s)", self.angular_speed),
+            ("unit of angular acceleration (rad/s^2)", self.angular_acceleration),
+            ("unit of axial energy (J/kg)", self.axial_energy),
+            ("unit of rotary energy (J/kg)", self.rotary_energy),
+        ];
+        match units.into_iter().find(|(_, value)| !value.is_normal()) {
+            Some((field, value)) => Err(Error::OutOfRange { field, value, legal: "[2.3e-308, 1.7e308]" }),
+            None => Ok(()),
         }
     }
 

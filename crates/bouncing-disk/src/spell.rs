@@ -41,12 +41,18 @@ impl Spell {
         self.state_after(system, PhaseSpan::from_radians(fraction * span.radians()))
     }
 
-    /// Disk and platform `span` after the start, on the assumption that no event comes before.
+    /// Disk and platform `span` after the start, on the assumption that no event comes before. A chatter speed that starts no
+    /// chattering sequence in this system counts as none.
     #[must_use]
     pub fn state_after(&self, system: &Dimensionless, span: PhaseSpan) -> Snapshot {
+        let span = span.normalised();
         let time = self.start.after(span);
         let platform = PlatformState::at(system, time.phase);
-        let disk = match (self.state.mode, self.chatter_speed) {
+        // Any other sequence might never end.
+        let chatters = |speed: &f64| {
+            system.vibration().accumulation(self.start.phase, *speed, system.restitution()).is_some()
+        };
+        let disk = match (self.state.mode, self.chatter_speed.filter(chatters)) {
             (Mode::Flight, None) => self.flown(system, span),
             (Mode::Flight, Some(speed)) => self.chattered(system, speed, span),
             (Mode::Sticking | Mode::Sliding(_), _) => {
@@ -190,4 +196,74 @@ pub(crate) fn contact_ledger(
         }
     }
     ledger
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use bouncing_disk_core::ChatterPolicy;
+
+    use super::*;
+    use crate::dimensionless::ForcingParameters;
+    use crate::engine::Engine;
+    use crate::start::Start;
+
+    fn system() -> Dimensionless {
+        ForcingParameters { axial_forcing: 0.48, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 }
+            .build()
+            .expect("legal")
+    }
+
+    fn spans() -> impl Iterator<Item = PhaseSpan> {
+        [0, 1, 1 << 53, u64::MAX].into_iter().flat_map(|periods| {
+            [0.0, 1.0, TAU, 7.0, -1.0, 1e20, 1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN]
+                .map(|remainder| PhaseSpan { periods, remainder })
+        })
+    }
+
+    /// In flight, sticking, sliding and in the middle of a chattering sequence.
+    #[test]
+    fn the_state_after_any_span_is_one() {
+        let phase = Phase::new(4.0).expect("finite");
+        let start = Start::Contact { phase, angular_speed: 0.5 };
+        let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
+        let (mut flights, mut chatters, mut contacts) = (0, 0, 0);
+        for _ in 0..200 {
+            let spell = engine.advance().expect("no failure").expect("goes on").spell;
+            match (spell.state.mode, spell.chatter_speed) {
+                (Mode::Flight, Some(_)) => chatters += 1,
+                (Mode::Flight, None) => flights += 1,
+                _ => contacts += 1,
+            }
+            for span in spans() {
+                for snapshot in [
+                    spell.state_after(&system(), span),
+                    engine.state_after(span),
+                    spell.evaluate(&system(), span, f64::NAN),
+                    spell.evaluate(&system(), span, 0.5),
+                ] {
+                    let DiskState { height, axial_velocity, angle, angular_speed, .. } = snapshot.disk;
+                    for number in [height, axial_velocity, angle, angular_speed, snapshot.platform.angle] {
+                        assert!(number.is_finite(), "{spell:?} {span:?}");
+                    }
+                }
+            }
+        }
+        assert!(flights > 10 && chatters > 10 && contacts > 10, "{flights} {chatters} {contacts}");
+    }
+
+    /// The sequence never came to an end.
+    #[test]
+    fn a_chatter_speed_that_starts_no_chatter_counts_as_none() {
+        let phase = Phase::new(1.0).expect("finite");
+        let start = Start::Launch { phase, relative_speed: 1.0, angular_speed: 0.0 };
+        let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
+        let flight = engine.advance().expect("no failure").expect("lands").spell;
+        let span = PhaseSpan { periods: 3, remainder: 1.0 };
+        for speed in [f64::NAN, f64::INFINITY, -1.0, 1.0, 1e300] {
+            let spell = Spell { chatter_speed: Some(speed), ..flight };
+            assert_eq!(spell.state_after(&system(), span), flight.state_after(&system(), span), "{speed}");
+        }
+    }
 }

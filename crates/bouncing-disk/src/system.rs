@@ -22,7 +22,7 @@ impl System {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a dimensionless parameter of the combination is outside its range, for example a
-    /// peak acceleration above 1e8 g.
+    /// peak acceleration above 1e8 g, or if a unit of [`Self::scales`] is too small or too large for a double.
     pub fn new(platform: Platform, disk: Disk) -> Result<Self, Error> {
         let preload = disk.preload_acceleration();
         // a_g^2/(a_e g): from angular accelerations to multiples of the friction's unit.
@@ -36,6 +36,7 @@ impl System {
             load: inertia * disk.load_acceleration(),
         }
         .build()?;
+        Scales::new(&platform, &disk).check()?;
         Ok(Self { platform, disk, dimensionless })
     }
 
@@ -96,6 +97,7 @@ impl From<&System> for Dimensionless {
 
 /// What is serialised of a system.
 #[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Parts {
     platform: Platform,
     disk: Disk,
@@ -227,6 +229,8 @@ mod tests {
             DiskParameters { gyration_radius: 0.0, ..DISK },
             DiskParameters { preload_acceleration: 0.0, ..DISK },
             DISK.with_load_torque(1.0, 0.0),
+            DISK.with_load_torque(1.0, -0.05),
+            DISK.with_load_torque(0.0, f64::INFINITY),
         ] {
             assert!(parameters.build().is_err());
         }
@@ -245,6 +249,54 @@ mod tests {
         assert_eq!((system.axial_forcing(), system.angular_forcing()), (0.0, None));
         let torque = DISK.with_load_torque(0.02, 0.4).load_acceleration;
         assert!((torque - 0.02 / (0.4 * 0.11 * 0.11)).abs() < 1e-14);
+    }
+
+    /// A period of more seconds than a double holds: a transient of such a motor never ended.
+    #[test]
+    fn units_that_no_double_holds_are_refused() {
+        for (platform, disk, name) in [
+            (PlatformParameters { angular_frequency: 1e-310, ..PLATFORM }, DISK, "unit of time (s)"),
+            (PlatformParameters { angular_frequency: 1e-160, ..PLATFORM }, DISK, "unit of length (m)"),
+            (
+                PlatformParameters {
+                    amplitude: 0.0,
+                    twist_amplitude: 0.0,
+                    angular_frequency: 1e155,
+                    ..PLATFORM
+                },
+                DISK,
+                "unit of length (m)",
+            ),
+        ] {
+            let error = System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap_err();
+            assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+        }
+    }
+
+    #[test]
+    fn misspelt_keys_are_refused() {
+        let refused =
+            |error: serde_json::Error, key: &str| assert!(error.to_string().contains(key), "{error}");
+        let text = serde_json::to_string(&system()).unwrap();
+        for (key, misspelt) in
+            [("load_acceleration", "load_aceleration"), ("phase_lag", "phase_leg"), ("disk", "disc")]
+        {
+            refused(serde_json::from_str::<System>(&text.replace(key, misspelt)).unwrap_err(), misspelt);
+        }
+        let text = serde_json::to_string(system().dimensionless()).unwrap();
+        refused(serde_json::from_str::<Dimensionless>(&text.replace("load", "lode")).unwrap_err(), "lode");
+        let braking = r#"{"angular_acceleration":-1.0,"normal_force":1.0,"mass":1.0,"contact_radius":1.0,"gyration_radius":1.0,"mas":2.0}"#;
+        refused(serde_json::from_str::<crate::Braking>(braking).unwrap_err(), "mas");
+        let stroke = r#"{"stroke":1.0,"amplitude_angle":0.0,"contact_radius":1.0,"angular_frequency":1.0,"phase_lag":0.0,"lag":1.0}"#;
+        refused(serde_json::from_str::<Stroke>(stroke).unwrap_err(), "lag");
+        let launch =
+            r#"{"axial_speed":1.0,"angular_speed":1.0,"stroke":1.0,"contact_radius":1.0,"radius":2.0}"#;
+        refused(serde_json::from_str::<crate::LaunchSpeeds>(launch).unwrap_err(), "radius");
+        let forcing =
+            r#"{"axial_forcing":1.0,"angular_forcing":1.0,"phase_lag":0.0,"restitution":0.5,"friction":0.1}"#;
+        refused(serde_json::from_str::<crate::ForcingParameters>(forcing).unwrap_err(), "friction");
+        let transition = r#"{"from":"Flight","event":"Impact","to":"Flight","via":"Sliding"}"#;
+        refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
     }
 
     #[test]

@@ -5,20 +5,31 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, not_negative, positive};
-use crate::fit::ExponentialFit;
+use crate::error::{Error, finite, moderate_not_negative, positive, room_for};
+use crate::fit::{ExponentialFit, check_curve, largest, scale_for};
 use crate::rotor::{Rotor, RotorStep};
 use crate::scales::Scales;
 use crate::system::System;
 
+/// Most periods of the platform that a transient may last: beyond 2^53 a double does not count them one by one.
+const MAX_PERIODS: f64 = 9_007_199_254_740_992.0;
+
+/// Shortest interval of a curve (rad): what a phase is rounded by.
+const SHORTEST_INTERVAL: f64 = 1.0e-15;
+
+/// Most intervals of a curve.
+pub(crate) const MAX_INTERVALS: usize = 1_000_000;
+
 /// How a transient is computed and sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedSettings")]
 pub struct TransientSettings {
-    /// Duration (s), positive.
+    /// Duration (s), positive: at most 2^53 periods of the platform.
     pub duration: f64,
-    /// Number of equal intervals over which the speed is averaged, in [3, 1000000].
+    /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. None may be shorter than 1e-15 rad of the
+    /// platform's motion.
     pub intervals: usize,
-    /// Size of the relaunch perturbation in units of g/omega, not negative: each separation from rest gets a
+    /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each separation from rest gets a
     /// relative velocity drawn evenly from [0, size). Zero gives the cycle of the rounding. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases.
@@ -40,19 +51,60 @@ impl Default for TransientSettings {
 }
 
 impl TransientSettings {
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Checks what does not depend on the motor.
+    fn check(&self) -> Result<(), Error> {
         positive("duration", self.duration)?;
-        not_negative("relaunch_perturbation", self.relaunch_perturbation)?;
-        if (3..=1_000_000).contains(&self.intervals) {
+        moderate_not_negative("relaunch_perturbation", self.relaunch_perturbation)?;
+        if (3..=MAX_INTERVALS).contains(&self.intervals) {
             Ok(())
         } else {
             Err(Error::OutOfRange { field: "intervals", value: self.intervals as f64, legal: "[3, 1000000]" })
         }
     }
+
+    /// Checks the settings of a motor with these units.
+    pub(crate) fn check_for(&self, unit: &Scales) -> Result<(), Error> {
+        self.check()?;
+        let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+        let radians = self.duration / unit.time;
+        let (periods, interval) = (radians / TAU, radians / self.intervals as f64);
+        if periods > MAX_PERIODS {
+            return illegal("duration in periods of the platform", periods, "(0, 2^53]");
+        }
+        // The first holds in seconds, too, unless they are denormal.
+        if interval < SHORTEST_INTERVAL || self.duration / (self.intervals as f64) < f64::MIN_POSITIVE {
+            return illegal("duration of an interval", interval, "[1e-15, inf) (rad), at least 2.3e-308 s");
+        }
+        Ok(())
+    }
+}
+
+/// What is read of [`TransientSettings`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedSettings {
+    duration: f64,
+    intervals: usize,
+    relaunch_perturbation: f64,
+    seed: u64,
+    policy: ChatterPolicy,
+}
+
+impl TryFrom<UncheckedSettings> for TransientSettings {
+    type Error = Error;
+
+    fn try_from(unchecked: UncheckedSettings) -> Result<Self, Error> {
+        let UncheckedSettings { duration, intervals, relaunch_perturbation, seed, policy } = unchecked;
+        let settings = Self { duration, intervals, relaunch_perturbation, seed, policy };
+        settings.check().map(|()| settings)
+    }
 }
 
 /// Angular speed against time, from rest.
+///
+/// A curve that is read is one that can be fitted: at least three points, as many speeds as times, times that rise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedCurve")]
 pub struct SpeedCurve {
     /// Middles of the intervals (s).
     pub times: Vec<f64>,
@@ -73,12 +125,54 @@ impl SpeedCurve {
         ExponentialFit::new(&self.times, &self.speeds)
     }
 
-    /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve.
-    #[must_use]
-    pub fn mean_over_last(&self, fraction: f64) -> f64 {
-        let count = ((self.speeds.len() as f64 * fraction) as usize).clamp(1, self.speeds.len());
-        let last = &self.speeds[self.speeds.len() - count..];
-        last.iter().sum::<f64>() / count as f64
+    /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve, at least over its last point.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for another fraction, for a curve without speeds, and for speeds that are not finite.
+    pub fn mean_over_last(&self, fraction: f64) -> Result<f64, Error> {
+        let points = self.speeds.len();
+        if !(fraction > 0.0 && fraction <= 1.0) {
+            return Err(Error::OutOfRange {
+                field: "fraction of the curve",
+                value: fraction,
+                legal: "(0, 1]",
+            });
+        }
+        if points == 0 {
+            return Err(Error::OutOfRange { field: "number of speeds", value: 0.0, legal: "[1, inf)" });
+        }
+        let count = ((points as f64 * fraction) as usize).clamp(1, points);
+        mean("mean speed", &self.speeds[points - count..])
+    }
+}
+
+/// The mean of at least one value; its sum does not overflow.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for values that are not finite.
+pub(crate) fn mean(field: &'static str, values: &[f64]) -> Result<f64, Error> {
+    let scale = scale_for(largest(values));
+    let sum = values.iter().map(|value| value * scale).sum::<f64>();
+    finite(field, sum / values.len() as f64 / scale)
+}
+
+/// What is read of a [`SpeedCurve`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedCurve {
+    times: Vec<f64>,
+    speeds: Vec<f64>,
+    impacts: u64,
+    separations: u64,
+}
+
+impl TryFrom<UncheckedCurve> for SpeedCurve {
+    type Error = Error;
+
+    fn try_from(unchecked: UncheckedCurve) -> Result<Self, Error> {
+        let UncheckedCurve { times, speeds, impacts, separations } = unchecked;
+        check_curve(&times, &speeds)?;
+        Ok(Self { times, speeds, impacts, separations })
     }
 }
 
@@ -104,13 +198,14 @@ impl SplitMix {
 /// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for illegal settings; the errors of the flights.
+/// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot hold; an error of the core where there is no
+/// memory for the curve; the errors of the flights.
 pub fn transient(system: &System, phase: Phase, settings: &TransientSettings) -> Result<SpeedCurve, Error> {
     let mut run = Run::new(system, phase, settings)?;
     while !run.is_done() {
         run.step()?;
     }
-    Ok(run.finished())
+    run.finished()
 }
 
 /// A transient under way.
@@ -131,17 +226,18 @@ pub(crate) struct Run {
 
 impl Run {
     pub(crate) fn new(system: &System, phase: Phase, settings: &TransientSettings) -> Result<Self, Error> {
-        settings.check()?;
+        let unit = system.scales();
+        settings.check_for(&unit)?;
         Ok(Self {
             rotor: Rotor::at_rest(system.dimensionless(), phase, 0.0, settings.policy)?,
-            bins: Bins::new(settings.duration, settings.intervals),
+            bins: Bins::new(settings.duration, settings.intervals)?,
             impacts: 0,
             separations: 0,
             generator: SplitMix(settings.seed),
             relaunch_perturbation: settings.relaunch_perturbation,
             duration: settings.duration,
             start: phase.angle(),
-            unit: system.scales(),
+            unit,
         })
     }
 
@@ -176,16 +272,17 @@ impl Run {
     }
 
     /// The curve of a transient that is done.
-    pub(crate) fn finished(self) -> SpeedCurve {
+    pub(crate) fn finished(self) -> Result<SpeedCurve, Error> {
         let width = self.bins.width;
-        let turned = self.bins.finished();
+        let mut speeds = self.bins.finished();
         let factor = self.unit.angular_speed * self.unit.time / width;
-        SpeedCurve {
-            times: (0..turned.len()).map(|i| (i as f64 + 0.5) * width).collect(),
-            speeds: turned.into_iter().map(|angle| angle * factor).collect(),
-            impacts: self.impacts,
-            separations: self.separations,
+        speeds.iter_mut().for_each(|angle| *angle *= factor);
+        if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
+            finite("angular speed (rad/s)", speed)?;
         }
+        let mut times = room_for("intervals of a curve", speeds.len(), MAX_INTERVALS)?;
+        times.extend((0..speeds.len()).map(|i| (i as f64 + 0.5) * width));
+        Ok(SpeedCurve { times, speeds, impacts: self.impacts, separations: self.separations })
     }
 }
 
@@ -218,10 +315,12 @@ pub(crate) struct Interval {
 }
 
 impl Bins {
-    fn new(duration: f64, count: usize) -> Self {
+    fn new(duration: f64, count: usize) -> Result<Self, Error> {
         let width = duration / count as f64;
         let present = Interval { index: 0, end: width, turned: 0.0, reached: 0.0 };
-        Self { turned: vec![0.0; count], width, present }
+        let mut turned = room_for("intervals of a curve", count, MAX_INTERVALS)?;
+        turned.resize(count, 0.0);
+        Ok(Self { turned, width, present })
     }
 
     /// Adds the `angle` turned from the time reached until `to`, evenly in time; what lies beyond the last interval
@@ -267,10 +366,11 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{DiskParameters, PlatformParameters};
 
     #[test]
     fn curve_keeps_the_angle_turned() {
-        let mut bins = Bins::new(1.0, 10);
+        let mut bins = Bins::new(1.0, 10).expect("few");
         bins.add(0.05, 0.0);
         bins.add(0.77, 7.2);
         let sum = bins.turned.iter().sum::<f64>() + bins.present.turned;
@@ -280,5 +380,103 @@ mod tests {
         bins.add(0.95, 0.0);
         bins.add(1.4, 4.5);
         assert!((bins.finished()[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
+    }
+
+    fn motor() -> System {
+        let omega = TAU * 70e3;
+        let platform = PlatformParameters {
+            amplitude: 1e-8,
+            twist_amplitude: 30.0 / omega,
+            angular_frequency: omega,
+            phase_lag: 0.0,
+        };
+        let disk = DiskParameters {
+            contact_radius: 1.25e-3,
+            gyration_radius: 6.3e-3,
+            friction: 0.1,
+            restitution: 0.5,
+            preload_acceleration: 9.8,
+            load_acceleration: 0.0,
+        };
+        System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
+    }
+
+    fn refused<T: std::fmt::Debug>(result: Result<T, Error>, name: &str) {
+        let error = result.expect_err(name);
+        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+    }
+
+    /// A denormal duration gave speeds that were no numbers, a huge one a transient without end.
+    #[test]
+    fn durations_that_periods_cannot_count_are_refused() {
+        let phase = Phase::new(4.0).expect("finite");
+        let run = |duration: f64, intervals: usize| {
+            transient(&motor(), phase, &TransientSettings { duration, intervals, ..Default::default() })
+        };
+        for duration in [5e-324, 1e-310, 1e-300, 1e-21] {
+            refused(run(duration, 600), "duration of an interval");
+        }
+        for duration in [1e308, f64::MAX, 1e12] {
+            refused(run(duration, 600), "duration in periods of the platform");
+        }
+        let short = run(1e-17, 600).expect("legal");
+        assert!(short.fit().is_ok_and(|fit| fit.steady_speed.is_finite() && fit.residual.is_finite()));
+        assert!(short.speeds.iter().all(|speed| speed.is_finite()));
+    }
+
+    #[test]
+    fn settings_that_are_read_are_legal() {
+        let text = serde_json::to_string(&TransientSettings::default()).expect("writes");
+        let read =
+            |good: &str, bad: &str| serde_json::from_str::<TransientSettings>(&text.replace(good, bad));
+        assert_eq!(read("", "").expect("legal"), TransientSettings::default());
+        for (good, bad, complaint) in [
+            ("3.0", "-3.0", "duration = -3"),
+            ("600", "2", "intervals = 2"),
+            ("600", "18446744073709551615", "intervals"),
+            ("0.001", "-0.001", "relaunch_perturbation = -0.001"),
+            ("seed", "sead", "sead"),
+        ] {
+            let error = read(good, bad).expect_err(bad).to_string();
+            assert!(error.contains(complaint), "{error}");
+        }
+    }
+
+    fn curve(speeds: &[f64]) -> SpeedCurve {
+        let times = (0..speeds.len()).map(|i| i as f64 + 0.5).collect();
+        SpeedCurve { times, speeds: speeds.to_vec(), impacts: 0, separations: 0 }
+    }
+
+    /// It was a panic on an empty curve, the whole curve for 7 and its last point for NaN.
+    #[test]
+    fn the_mean_of_a_part_that_is_none_is_refused() {
+        refused(curve(&[]).mean_over_last(0.5), "number of speeds");
+        let rising = curve(&[1.0, 2.0, 3.0, 4.0]);
+        for fraction in [0.0, -0.5, 7.0, 1.0 + f64::EPSILON, f64::NAN, f64::INFINITY] {
+            refused(rising.mean_over_last(fraction), "fraction of the curve");
+        }
+        for (fraction, mean) in [(1.0, 2.5), (0.5, 3.5), (0.25, 4.0), (1e-300, 4.0)] {
+            assert_eq!(rising.mean_over_last(fraction), Ok(mean));
+        }
+        refused(curve(&[1.0, f64::NAN]).mean_over_last(1.0), "mean speed");
+        let huge = curve(&[1.7e308; 4]).mean_over_last(1.0);
+        assert_eq!(huge, Ok(1.7e308), "its sum is more than a double holds");
+    }
+
+    #[test]
+    fn a_curve_that_is_read_can_be_fitted() {
+        let own = curve(&[1.0, 1.5, 1.75]);
+        let text = serde_json::to_string(&own).expect("writes");
+        let read = |good: &str, bad: &str| serde_json::from_str::<SpeedCurve>(&text.replace(good, bad));
+        assert_eq!(read("", "").expect("legal"), own);
+        for (good, bad, complaint) in [
+            ("[1.0,1.5,1.75]", "[1.0]", "number of speeds = 1"),
+            ("[0.5,1.5,2.5]", "[]", "number of points of the speed curve = 0"),
+            ("[0.5,1.5,2.5]", "[0.5,2.5,1.5]", "times of the speed curve"),
+            ("impacts", "impakts", "impakts"),
+        ] {
+            let error = read(good, bad).expect_err(bad).to_string();
+            assert!(error.contains(complaint), "{error}");
+        }
     }
 }

@@ -157,7 +157,7 @@ impl<'a> Worker<'a> {
             match Run::new(&member.system, member.phase, &member.settings) {
                 Ok(mut run) => match fly_next(&mut run) {
                     Ok(Some(launch)) => return Some((index, run, launch)),
-                    Ok(None) => self.outcomes.push((index, Ok(run.finished()))),
+                    Ok(None) => self.outcomes.push((index, run.finished())),
                     Err(error) => self.outcomes.push((index, Err(error))),
                 },
                 Err(error) => self.outcomes.push((index, Err(error))),
@@ -168,7 +168,8 @@ impl<'a> Worker<'a> {
     /// Advances members together while there are enough of them.
     fn in_lanes(&mut self) {
         let batches = self.lanes.div_ceil(Flights::LANES);
-        let mut flights = Flights::new(self.set, batches);
+        // Without the memory for lanes they are advanced one by one.
+        let Ok(mut flights) = Flights::new(self.set, batches) else { return };
         let mut rotors = vec![Rotors::new(); batches];
         let mut may_rest = vec![[0; Flights::LANES]; batches];
         let mut failures: Vec<(usize, Error)> = Vec::new();
@@ -219,7 +220,7 @@ impl<'a> Worker<'a> {
                     }
                     let (index, run) = self.runs.swap_remove(lane);
                     self.curves.swap_remove(lane);
-                    self.outcomes.push((index, done.map(|_| run.finished())));
+                    self.outcomes.push((index, done.and_then(|_| run.finished())));
                     let last = self.runs.len();
                     if let (Some((_, moved)), Some(launch)) = (self.runs.get(lane), flights.launch(last)) {
                         flights.set_platform(lane, *moved.rotor.system().vibration());
@@ -290,7 +291,7 @@ fn finished_alone(mut run: Run, launch: Launch, (periods, speed): (u64, f64)) ->
     while !run.is_done() {
         run.step()?;
     }
-    Ok(run.finished())
+    run.finished()
 }
 
 #[cfg(test)]

@@ -53,6 +53,7 @@ impl EventKind {
 
 /// An event with the modes before and after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Transition {
     /// The mode that the event ends.
     pub from: ModeKind,

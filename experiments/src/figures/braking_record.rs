@@ -130,14 +130,14 @@ pub fn friction_layers(points: &[(f64, f64)]) -> Vec<Layer> {
 }
 
 /// Mean, standard deviation and slope of [`FRICTIONS`].
-pub fn friction_words(series: &Series) -> String {
+pub fn friction_words(series: &Series) -> Result<String, ExperimentError> {
     let points: Vec<(f64, f64)> = series.rows::<2>().map(|[preload, friction]| (preload, friction)).collect();
     let frictions: Vec<f64> = points.iter().map(|point| point.1).collect();
-    let spread = bouncing_disk::Spread::of(&frictions);
+    let spread = bouncing_disk::Spread::of(&frictions).map_err(ExperimentError::model)?;
     let slope = StraightLine::through(&points).map_or_else(String::new, |line| {
         format!("; slope against preload {:.3} ± {:.3} 1/N", line.slope, line.slope_error)
     });
-    format!("μ = {:.3} ± {:.3} of {} points{slope}", spread.mean, spread.deviation, points.len())
+    Ok(format!("μ = {:.3} ± {:.3} of {} points{slope}", spread.mean, spread.deviation, points.len()))
 }
 
 #[cfg(test)]
@@ -174,6 +174,6 @@ mod tests {
     fn frictions_are_summarised() {
         let text = format!("{}\n0.1,0.1\n0.2,0.1\n0.3,0.1\n", FRICTIONS.header());
         let series = Series::read(&FRICTIONS, text.as_bytes()).expect("well formed");
-        assert!(friction_words(&series).starts_with("μ = 0.100 ± 0.000 of 3 points; slope"));
+        assert!(friction_words(&series).expect("finite").starts_with("μ = 0.100 ± 0.000 of 3 points; slope"));
     }
 }

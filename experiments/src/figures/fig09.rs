@@ -193,7 +193,7 @@ impl Experiment for Fig09 {
             printed_deviation,
             lowest_reference: paper::value("section5.lowest_reference_friction")?,
             highest_reference: paper::value("section5.highest_reference_friction")?,
-            synthetic_spread: Spread::of(&frictions),
+            synthetic_spread: Spread::of(&frictions).map_err(ExperimentError::model)?,
             synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
             synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
             synthetic,
@@ -211,7 +211,7 @@ impl Experiment for Fig09 {
         } else {
             data.measured_frictions =
                 series.rows::<2>().map(|[preload, friction]| (preload, friction)).collect();
-            data.measured_words = friction_words(series);
+            data.measured_words = friction_words(series)?;
         }
         Ok(())
     }

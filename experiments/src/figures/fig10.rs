@@ -166,7 +166,7 @@ fn transient(system: &System, runs: &Ensemble, mass: f64) -> Result<Transient, E
             .iter()
             .map(|curve| curve.speeds[range.clone()].iter().sum::<f64>() / per_point as f64)
             .collect();
-        let spread = Spread::of(&means);
+        let spread = Spread::of(&means).map_err(ExperimentError::model)?;
         time.push(0.5 * (member.times[range.start] + member.times[range.end - 1]));
         low.push(spread.mean - spread.deviation);
         high.push(spread.mean + spread.deviation);
@@ -292,10 +292,11 @@ impl Experiment for Fig10 {
                 TransientSettings { duration: quality.choose(6.0, 20.0), relaunch_perturbation, ..defaults };
             let runs = ensemble(&system, &settings, members).map_err(ExperimentError::model)?;
             // The last two thirds: six time constants after the start at the least.
-            let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(2.0 / 3.0)).collect();
+            let means = runs.curves.iter().map(|curve| curve.mean_over_last(2.0 / 3.0));
+            let means = means.collect::<Result<Vec<_>, _>>().map_err(ExperimentError::model)?;
             perturbations.push(PerturbationEffect {
                 relaunch_perturbation,
-                steady_speed_rad_per_s: Spread::of(&means),
+                steady_speed_rad_per_s: Spread::of(&means).map_err(ExperimentError::model)?,
             });
             progress.advance(1);
         }

@@ -258,12 +258,16 @@ impl MotorStatistics {
         let steady: Vec<f64> = if enough {
             fitted.iter().map(|fit| fit.0).collect()
         } else {
-            runs.curves.iter().map(|curve| curve.mean_over_last(0.5)).collect()
+            let means = runs.curves.iter().map(|curve| curve.mean_over_last(0.5));
+            means.collect::<Result<_, _>>().map_err(ExperimentError::model)?
         };
         let stall: Vec<f64> = fitted.iter().map(|fit| fit.0 / fit.1).collect();
         Ok(Self {
-            steady_speed_rad_per_s: Spread::of(&steady),
-            stall_acceleration_rad_per_s2: enough.then(|| Spread::of(&stall)),
+            steady_speed_rad_per_s: Spread::of(&steady).map_err(ExperimentError::model)?,
+            stall_acceleration_rad_per_s2: enough
+                .then(|| Spread::of(&stall))
+                .transpose()
+                .map_err(ExperimentError::model)?,
             form,
             unfitted: fits.len() - fitted.len(),
             cycle,

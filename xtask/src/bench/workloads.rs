@@ -108,7 +108,9 @@ mod tests {
         let axis = |high| Axis::new(0.0, high, CELLS).expect("legal axis");
         let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal grid");
         let settings = BasinSettings { max_impacts: MAX_IMPACTS as u32, policy: ChatterPolicy::Complete };
-        let basins = map.basins(grid, &[KnownOrbit { orbit, radius }], settings, || ()).expect("no failure");
+        let basins = map
+            .basins(grid, &[KnownOrbit::new(orbit, radius).expect("legal")], settings, || ())
+            .expect("no failure");
         let labels = basins.labels();
         let count = |label| labels.iter().filter(|&&own| own == label).count();
         assert_eq!((ends.attached, ends.undecided), (count(ATTACHED), count(UNDECIDED)));

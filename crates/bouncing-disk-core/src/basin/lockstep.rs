@@ -83,11 +83,11 @@ pub(super) struct Lockstep<'a> {
 impl<'a> Lockstep<'a> {
     fn new(map: &'a ImpactMap, known: &'a [KnownOrbit], settings: BasinSettings, capacity: usize) -> Self {
         let targets = known.iter().zip(FIRST_ORBIT..).flat_map(|(known, label)| {
-            known.orbit.states.iter().map(move |state| Target {
+            known.orbit().states.iter().map(move |state| Target {
                 label,
                 angle: state.phase().angle(),
                 velocity: state.velocity(),
-                square_radius: known.radius * known.radius,
+                square_radius: known.radius() * known.radius(),
             })
         });
         Self {
@@ -210,10 +210,12 @@ mod tests {
             .settled_orbit(ImpactState::from_normalised(0.8, 1.3).expect("legal"), 4_000, 16, 1e-8)
             .expect("no failure");
         let known: Vec<_> = orbit
-            .and_then(|orbit| orbit.catching_radius(&map).map(|radius| KnownOrbit { orbit, radius }))
+            .and_then(|orbit| orbit.catching_radius(&map).map(|radius| (orbit, radius)))
             .into_iter()
             // The same orbit again, with more room: the first one that catches a start has it.
-            .flat_map(|known| [known.clone(), KnownOrbit { radius: 1.5 * known.radius, ..known }])
+            .flat_map(|(orbit, radius)| {
+                [radius, 1.5 * radius].map(|radius| KnownOrbit::new(orbit.clone(), radius).expect("legal"))
+            })
             .collect();
         let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
         let grid =
@@ -224,7 +226,7 @@ mod tests {
         for row in 0..cells {
             for (column, &label) in basins.row(row).iter().enumerate() {
                 let start =
-                    ImpactState::from_normalised(grid.phase.centre(column) * TAU, grid.speed.centre(row))
+                    ImpactState::from_normalised(grid.phase().centre(column) * TAU, grid.speed().centre(row))
                         .expect("legal");
                 let expected = map.basin_label(start, &known, settings).expect("no failure");
                 assert_eq!(label, expected, "Gamma {axial_forcing}: {start:?}");

@@ -37,13 +37,13 @@ impl<'l, Done: Fn()> Cells<'l, Done> {
         threads: usize,
         row_done: Done,
     ) -> Result<Self, Error> {
-        let (columns, rows) = (grid.phase.cells(), grid.speed.cells());
-        let phases = (0..columns).map(|column| Phase::new(grid.phase.centre(column) * TAU));
+        let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
+        let phases = (0..columns).map(|column| Phase::new(grid.phase().centre(column) * TAU));
         let share = SHARE.min(labels.len().div_ceil(threads));
         let rows_of_share = (share / columns).max(1);
         Ok(Self {
             phases: phases.collect::<Result<_, _>>()?,
-            speeds: (0..rows).map(|row| grid.speed.centre(row) * PI).collect(),
+            speeds: (0..rows).map(|row| grid.speed().centre(row) * PI).collect(),
             shares: Mutex::new(labels.chunks_mut(rows_of_share * columns).enumerate()),
             rows_of_share,
             row_done,

@@ -8,7 +8,11 @@ use crate::elementary::ln;
 use crate::error::Error;
 use crate::map::{ImpactMap, ImpactState, Orbit};
 
-/// How many impacts each orbit has before the disk comes to rest, at most `most`.
+/// Most impacts that [`columns`] records, of all orbits together.
+pub const MAX_RECORDED: u64 = 1 << 31;
+
+/// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes to rest is followed
+/// for as many.
 ///
 /// # Errors
 /// Those of [`sweep`].
@@ -33,24 +37,38 @@ pub fn lives(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
 /// that comes to rest goes on with its next separation; one that rests for ever has fewer impacts.
 ///
 /// # Errors
-/// Those of [`sweep`].
+/// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory for; those of
+/// [`sweep`].
 pub fn columns(orbits: &[Orbit], transient: usize, recorded: usize) -> Result<Vec<Vec<ImpactState>>, Error> {
     if recorded == 0 {
         return Ok(vec![Vec::new(); orbits.len()]);
     }
+    let count = (orbits.len() as u64).saturating_mul(recorded as u64);
+    let refusal = Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED };
+    if count > MAX_RECORDED {
+        return Err(refusal);
+    }
     let columns = sweep(
         orbits,
-        |_| (0, Vec::new()),
-        |(skipped, states), event| {
+        |_| (0, Some(Vec::new())),
+        |(skipped, column), event| {
+            let Some(states) = column else { return ControlFlow::Break(()) };
             match event {
                 SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
-                SweepEvent::Impact(landing) => states.push(landing.state),
+                SweepEvent::Impact(landing) => {
+                    // Not all at once: a disk that rests for ever needs little.
+                    if states.try_reserve(1).is_err() {
+                        *column = None;
+                        return ControlFlow::Break(());
+                    }
+                    states.push(landing.state);
+                }
                 SweepEvent::Stick(_) => {}
             }
             if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         },
     )?;
-    Ok(columns.into_iter().map(|(_, states)| states).collect())
+    columns.into_iter().map(|(_, states)| states.ok_or(refusal)).collect()
 }
 
 /// Growth of a small perturbation along the impacts of an orbit.

@@ -39,7 +39,7 @@ fn spot(state: ImpactState) -> Spot {
 }
 
 fn start(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, ExperimentError> {
-    ImpactState::from_normalised(grid.phase.centre(column) * TAU, grid.speed.centre(row))
+    ImpactState::from_normalised(grid.phase().centre(column) * TAU, grid.speed().centre(row))
         .map_err(ExperimentError::model)
 }
 
@@ -56,7 +56,7 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
     if Multipliers::of(orbit.monodromy).spectral_radius() < 1.0
         && let Some(radius) = orbit.trapping_radius(map, 64)
     {
-        return Ok(Route::Periodic(KnownOrbit { orbit, radius }));
+        return KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model);
     }
     // Beyond the first doubling: leave the saddle along the phase.
     let beside = Phase::new(period_one.phase().angle() + 1.0e-3).map_err(ExperimentError::model)?;
@@ -65,10 +65,9 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
         map.survivor(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let Some(state) = survivor else { return Ok(Route::Gone) };
     let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
-    let periodic = settled.and_then(|orbit| {
-        orbit.trapping_radius(map, 64).map(|radius| Route::Periodic(KnownOrbit { orbit, radius }))
-    });
-    Ok(periodic.unwrap_or(Route::Chaotic(state)))
+    let periodic = settled.and_then(|orbit| orbit.trapping_radius(map, 64).map(|radius| (orbit, radius)));
+    let Some((orbit, radius)) = periodic else { return Ok(Route::Chaotic(state)) };
+    KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model)
 }
 
 /// Other periodic attractors: what undecided cells of a coarse grid settle on.
@@ -85,7 +84,7 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
             if let Some(orbit) = settled
                 && let Some(radius) = orbit.catching_radius(map)
             {
-                known.push(KnownOrbit { orbit, radius });
+                known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
                 continue 'search;
             }
         }
@@ -139,7 +138,7 @@ pub(super) fn panel(
     let kinds: Vec<u8> = basins.labels().iter().map(|label| kind(*label, open)).collect();
     let share = |kind: u8| kinds.iter().filter(|own| **own == kind).count() as f64 / kinds.len() as f64;
     let attractor = match route {
-        Route::Periodic(known) => known.orbit.states.iter().copied().map(spot).collect(),
+        Route::Periodic(known) => known.orbit().states.iter().copied().map(spot).collect(),
         Route::Chaotic(state) => map
             .orbit(state, ChatterPolicy::Complete)
             .take(MARKED)
@@ -175,9 +174,9 @@ pub(super) fn panel(
             .iter()
             .skip(1)
             .map(|known| Other {
-                impacts: known.orbit.states.iter().copied().map(spot).collect(),
-                platform_periods: known.orbit.platform_periods,
-                spectral_radius: Multipliers::of(known.orbit.monodromy).spectral_radius(),
+                impacts: known.orbit().states.iter().copied().map(spot).collect(),
+                platform_periods: known.orbit().platform_periods,
+                spectral_radius: Multipliers::of(known.orbit().monodromy).spectral_radius(),
             })
             .collect(),
     })

@@ -35,7 +35,7 @@ impl Cells {
         if let Some(state) = map.period_one(1) {
             let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
             if let Some(radius) = orbit.trapping_radius(&map, 64) {
-                let first = KnownOrbit { orbit, radius };
+                let first = KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?;
                 known = others(&map, &first)?;
                 known.insert(0, first);
             }

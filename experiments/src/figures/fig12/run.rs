@@ -197,7 +197,7 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
     let curve = transient(&motor.system()?, phase, &settings).map_err(ExperimentError::model)?;
     let exponential = curve.fit().map_err(ExperimentError::model)?;
     let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
-    let last = curve.mean_over_last(0.2);
+    let last = curve.mean_over_last(0.2).map_err(ExperimentError::model)?;
     let points = || curve.times.iter().copied().zip(curve.speeds.iter().copied());
     let rise: Vec<(f64, f64)> = points().take_while(|(_, speed)| *speed < 0.5 * last).collect();
     let line = StraightLine::through(&rise);
