@@ -29,7 +29,8 @@ mod vibration;
 
 pub use basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED};
 pub use chatter::{
-    Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
+    Accumulation, ChatterImpact, ChatterPolicy, ChatterSeries, ImpactRange, PAPER_SHORT_FLIGHT,
+    PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED, PowerSeries,
 };
 pub use ensemble::Ensemble;
 pub use error::Error;
