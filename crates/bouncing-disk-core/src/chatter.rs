@@ -14,6 +14,10 @@ use crate::elementary::sin_cos_bounded;
 use crate::phase::Phase;
 use crate::vibration::Vibration;
 
+pub use series::{ChatterSeries, ImpactRange, PowerSeries};
+
+mod series;
+
 /// What is done with the infinite sequence of impacts of a chattering disk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -46,6 +50,20 @@ const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
 
 /// Factor of the majorant of what the truncated series leaves.
 const MAJORANT: f64 = 32.0;
+
+/// Share of the first launch speed at which the impacts of a chatter are no longer counted.
+const LAST_SHARE: f64 = 1.0e-17;
+
+/// Largest restitution, and smallest launch speed, of a chatter whose impacts are gone through one by one: at most 7,600 of
+/// them, as the proof of [`window_holds_all`] leaves every launch less than 1 - (2/3)(1 - r) of the one before.
+const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
+const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
+
+/// Shares of its first value that the pull cannot leave in a chatter that is summed: 2/3 and 4/3, and rounding.
+const PULL_SHARES: (f64, f64) = (0.6, 1.4);
+
+/// Relative rounding of the bound in [`window_holds_every_impact`], with room to spare.
+const WINDOW_ROUNDING: f64 = 1.0e-14;
 
 /// The accumulation point of a chattering sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -141,7 +159,11 @@ impl Vibration {
     }
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
-    /// [`Self::accumulation`] accepts, until they carry less than 1e-17 of the first one's impulse.
+    /// [`Self::accumulation`] accepts, until they carry less than 1e-17 of the first one's impulse or are launched with
+    /// less than the smallest normal number.
+    ///
+    /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
+    /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.
     pub fn chatter_impacts(
         &self,
         phase: Phase,
@@ -149,16 +171,22 @@ impl Vibration {
         restitution: f64,
     ) -> impl Iterator<Item = ChatterImpact> + use<> {
         let vibration = *self;
-        let last_speed = speed * 1.0e-17;
+        // Rounding to the nearest multiple of the smallest number keeps a launch that is next to it where it is.
+        let last_speed = (speed * LAST_SHARE).max(f64::MIN_POSITIVE);
         let mut time = 0.0;
         let mut pair = (phase.sin(), phase.cos());
         let mut launch = speed;
+        // The proof of the window keeps the pull within a third of the first one; next to a separation a rounded pair may
+        // give another one, or none at all.
+        let first = self.contact_force(phase);
+        let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
         core::iter::from_fn(move || {
             if launch <= last_speed {
                 return None;
             }
             let peak = vibration.peak_acceleration();
-            let expansion = Expansion { pull: 1.0 - peak * pair.0, drift: peak * pair.1, restitution };
+            let pull = (1.0 - peak * pair.0).max(least).min(most);
+            let expansion = Expansion { pull, drift: peak * pair.1, restitution };
             let (flight, impact_speed) = expansion.flight(launch);
             time += flight;
             pair = sin_cos_bounded(phase.angle() + time);
@@ -193,9 +221,23 @@ pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f
 fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f64, leading: f64) -> bool {
     let window = 1.5 * leading;
     let change = (drift.abs() + peak * window) * window;
+    if ChatterSeries::is_needed(speed, restitution) {
+        return window_holds_every_impact(pull, change, restitution);
+    }
     let (least, most) = (pull - change, pull + change);
     let ratio = restitution * (most / least).sqrt();
     (least > 0.0) & (ratio < 1.0) & (2.0 * speed <= window * least * (1.0 - ratio))
+}
+
+/// [`window_holds_all`] where `1 - ratio` would cancel or the speed has lost digits: with the window 3 w/(a (1 - r)) the
+/// condition 2 w <= window least (1 - ratio) has no speed in it, and the root is taken of a number less 1.
+#[cold]
+fn window_holds_every_impact(pull: f64, change: f64, restitution: f64) -> bool {
+    let least = pull - change;
+    let spread = 2.0 * change / least;
+    let excess = spread / ((1.0 + spread).sqrt() + 1.0);
+    let lost = 1.0 - restitution;
+    (least > 0.0) & ((2.0 + WINDOW_ROUNDING) * (pull * lost) <= 3.0 * least * (lost - restitution * excess))
 }
 
 #[inline(always)]
@@ -318,5 +360,93 @@ mod tests {
             seen += u32::from(surely);
         }
         assert!(summed > 1_000 && 5 * seen > 2 * refused, "{seen} of {refused}, not of {summed}");
+    }
+
+    /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the window.
+    fn window_holds_all_exactly(peak: f64, pull: f64, drift: f64, restitution: f64, x: f64) -> bool {
+        type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
+        let high = |x: f64| High::try_from(x).expect("finite").with_precision(500).value();
+        let (pull, r) = (high(pull), high(restitution));
+        let window = high(3.0) * high(x);
+        let change = (high(drift.abs()) + high(peak) * &window) * &window;
+        let (least, most) = (&pull - &change, &pull + &change);
+        if least <= high(0.0) {
+            return false;
+        }
+        let ratio = r * (most / &least).sqrt();
+        high(2.0) * high(x) * (high(1.0) - high(restitution)) * pull <= window * least * (high(1.0) - ratio)
+    }
+
+    #[test]
+    fn a_window_is_proven_where_the_ratio_of_launches_rounds_to_one() {
+        let (mut held, mut refused) = (0, 0);
+        for k in 0..20_000 {
+            let restitution =
+                [1.0 - 1e-3, 1.0 - 1e-9, 1.0 - f64::EPSILON, 1.0 - f64::EPSILON / 2.0][k as usize % 4];
+            let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 2.0);
+            let vibration = Vibration::new(peak).expect("legal");
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let (pull, drift) = (vibration.contact_force(phase), vibration.velocity(phase));
+            if pull <= 0.0 {
+                continue;
+            }
+            // About where the change of the pull over the window is what the restitution takes.
+            let bound = (1.0 - restitution) * pull / (9.0 * drift.abs());
+            let x = bound * libm::exp10(0.1 * spread(k, 0.414_213_562) - 0.05);
+            let speed = x * (pull * (1.0 - restitution));
+            let holds = window_holds_all(peak, pull, drift, speed, restitution, 2.0 * x);
+            assert!(
+                !holds || window_holds_all_exactly(peak, pull, drift, restitution, x),
+                "{peak} {phase:?} {restitution} {x:e}"
+            );
+            held += u32::from(holds);
+            refused += u32::from(!holds);
+        }
+        assert!(held > 5_000 && refused > 5_000, "{held} {refused}");
+    }
+
+    /// From the smallest number on, and next to separations, where the pull is a rounding: nothing that is summed is said
+    /// to bounce on, the sum comes before the separation, and the impacts end.
+    #[test]
+    fn the_slowest_chatters_come_to_an_end() {
+        let mut summed = 0;
+        for k in 0..60_000_u32 {
+            let peak = [0.0, 1e-9, 0.5, 1.0, 1.000_000_267_196_965_4, 2.0, 197.39, 1e8][k as usize % 8];
+            let vibration = Vibration::new(peak).expect("legal");
+            let angle = match vibration.separation_phase() {
+                Some(at) if k % 3 > 0 => at.angle() * (1.0 - libm::exp10(-16.0 * spread(k, 0.754_877_666))),
+                _ => TAU * spread(k, 0.754_877_666),
+            };
+            let exact = Phase::new(angle).expect("finite");
+            // A carried pair is off by up to a rounding.
+            let off = |by: f64| 1.1e-16 * (spread(k, by) * 3.0 - 1.5);
+            let phase = Phase::from_parts(angle, exact.sin() + off(0.33), exact.cos() + off(0.77));
+            let restitution =
+                [1e-300, 0.3, 0.5, 0.7246, 0.99, 1.0 - 1e-7, 1.0 - f64::EPSILON / 2.0][k as usize / 8 % 7];
+            let speed = libm::exp10(-323.3 * libm::pow(spread(k, 0.618_033_99), 0.3)).max(f64::from_bits(1));
+            let (pull, sum) =
+                (vibration.contact_force(phase), vibration.accumulation(phase, speed, restitution));
+            let Some(sum) = sum else { continue };
+            summed += 1;
+            assert!(
+                !surely_bounces_on(peak, pull, speed, restitution),
+                "{peak} {phase:?} {speed:e} {restitution}"
+            );
+            assert!(sum.duration >= 0.0 && sum.duration < 2.0 * LONGEST_COMPLETION);
+            assert!(
+                !vibration.falls_away_at(sum.phase.angle()),
+                "{peak} {phase:?} {speed:e} {restitution} {sum:?} {pull:e}"
+            );
+            if restitution <= LARGEST_COUNTED_RESTITUTION {
+                let impacts = vibration.chatter_impacts(phase, speed, restitution).take(8_000).count();
+                assert!(impacts < 7_600, "{impacts} {peak} {phase:?} {speed:e} {restitution}");
+            }
+            if speed < 1e-290 && ChatterSeries::is_needed(speed, restitution) {
+                let series = vibration.chatter_series(phase, speed, restitution);
+                assert_eq!(series.duration().to_bits(), sum.duration.to_bits());
+                assert!(series.impacts_by(sum.duration).is_none());
+            }
+        }
+        assert!(summed > 20_000, "{summed}");
     }
 }

@@ -314,6 +314,12 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// ln(1 + x), accurate near zero.
+#[must_use]
+pub fn ln_1p(x: f64) -> f64 {
+    libm::log1p(x)
+}
+
 /// `base` to the power `exponent`.
 #[must_use]
 pub fn pow(base: f64, exponent: f64) -> f64 {

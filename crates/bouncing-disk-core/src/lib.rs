@@ -31,7 +31,8 @@ pub use basin::{
     ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
 };
 pub use chatter::{
-    Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
+    Accumulation, ChatterImpact, ChatterPolicy, ChatterSeries, ImpactRange, PAPER_SHORT_FLIGHT,
+    PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED, PowerSeries,
 };
 pub use ensemble::Ensemble;
 pub use error::Error;

@@ -1,11 +1,14 @@
-//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no longer count.
+//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no longer count, or
+//! in closed form where they are too many for that.
 
-use bouncing_disk_core::{ChatterImpact, Phase};
+use bouncing_disk_core::{ChatterImpact, ChatterSeries, Phase};
 
 use crate::dimensionless::Dimensionless;
 use crate::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::ledger::EnergyLedger;
 use crate::spell::{book_flight_load, flight_turn};
+
+mod summed;
 
 /// A chattering sequence followed up to some time: the state just after the last impact by then.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +24,7 @@ pub(crate) struct Chatter {
     pub(crate) angle: f64,
     /// Whether friction ended the slip in the last impact.
     pub(crate) capped: bool,
-    pub(crate) impacts: u32,
+    pub(crate) impacts: u64,
     pub(crate) axial_impulse: f64,
     pub(crate) angular_impulse: f64,
     /// Impacts and the load's work in the flights between them. The change of the axial energy is not in it.
@@ -37,7 +40,18 @@ impl Chatter {
         angular_speed: f64,
         duration: f64,
     ) -> Self {
-        let mut chatter = Self {
+        let mut chatter = Self::before(phase, speed, angular_speed);
+        if ChatterSeries::is_needed(speed, system.restitution()) {
+            chatter.sum(system, phase, duration);
+        } else {
+            chatter.go_through(system, phase, duration);
+        }
+        chatter
+    }
+
+    /// The launch that a sequence starts with.
+    fn before(phase: Phase, speed: f64, angular_speed: f64) -> Self {
+        Self {
             time: 0.0,
             pair: (phase.sin(), phase.cos()),
             launch_speed: speed,
@@ -48,14 +62,17 @@ impl Chatter {
             axial_impulse: 0.0,
             angular_impulse: 0.0,
             ledger: EnergyLedger::default(),
-        };
-        for impact in system.vibration().chatter_impacts(phase, speed, system.restitution()) {
+        }
+    }
+
+    /// The impacts up to `duration` one by one.
+    fn go_through(&mut self, system: &Dimensionless, phase: Phase, duration: f64) {
+        for impact in system.vibration().chatter_impacts(phase, self.launch_speed, system.restitution()) {
             if impact.time > duration {
                 break;
             }
-            chatter.advance(system, &impact);
+            self.advance(system, &impact);
         }
-        chatter
     }
 
     fn advance(&mut self, system: &Dimensionless, impact: &ChatterImpact) {
@@ -133,3 +150,6 @@ pub(crate) fn book_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
     let work = rotary * platform_speed;
     ledger.book_friction(work, friction_loss, work.abs() + (rotary * slip).abs());
 }
+
+#[cfg(test)]
+mod tests;

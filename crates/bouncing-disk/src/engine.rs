@@ -461,4 +461,6 @@ impl Iterator for Engine {
 }
 
 #[cfg(test)]
+mod chatter_tests;
+#[cfg(test)]
 mod tests;

@@ -24,7 +24,7 @@ pub enum Event {
     /// The disk comes to rest on the platform at the end of a chattering sequence, whose impulses the record sums.
     Attachment {
         /// Impacts summed.
-        impacts: u32,
+        impacts: u64,
         /// Bound on the error of the attachment phase (rad); infinite for the paper's cut.
         error_bound: f64,
     },

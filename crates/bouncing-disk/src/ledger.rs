@@ -5,6 +5,9 @@ use std::ops::{Add, AddAssign};
 
 use serde::Serialize;
 
+/// Below this size the terms of a balance have lost digits to underflow: what they leave is relative to this instead.
+const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// The energy balance of an interval, per unit mass.
 ///
 /// Every entry is computed for itself, from impulses and closed-form integrals, and none as what the others leave:
@@ -53,8 +56,7 @@ impl EnergyLedger {
     /// The larger of the two closures relative to the sizes of what was added up; zero where nothing was.
     #[must_use]
     pub fn relative_closure(&self) -> f64 {
-        let relative =
-            |closure: f64, magnitude: f64| if closure == 0.0 { 0.0 } else { closure.abs() / magnitude };
+        let relative = |closure: f64, magnitude: f64| closure.abs() / magnitude.max(LEAST_MAGNITUDE);
         relative(self.axial_closure(), self.axial_magnitude)
             .max(relative(self.rotary_closure(), self.rotary_magnitude))
     }

@@ -90,7 +90,7 @@ pub enum CollisionEvent {
         /// When.
         time: PhaseTime,
         /// Impacts that the complete policy has summed; none of them is reported by itself.
-        summed_impacts: u32,
+        summed_impacts: u64,
     },
     /// The platform falls away from the disk.
     Separation {

@@ -311,3 +311,6 @@ impl Rotor {
         Ok(RotorStep::Contact)
     }
 }
+
+#[cfg(test)]
+mod tests;

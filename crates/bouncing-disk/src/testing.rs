@@ -9,6 +9,11 @@ use proptest::prelude::*;
 use crate::dimensionless::{Dimensionless, DimensionlessParameters};
 use crate::start::Start;
 
+/// Well spread numbers in [0, 1).
+pub(crate) fn golden_spread(k: u64) -> f64 {
+    (k as f64 * 0.618_033_988_749_894_9) % 1.0
+}
+
 /// A number whose logarithm is uniform between those of `low` and `high`.
 pub(crate) fn log_uniform(low: f64, high: f64) -> impl Strategy<Value = f64> {
     let (low, high) = (bouncing_disk_core::elementary::ln(low), bouncing_disk_core::elementary::ln(high));

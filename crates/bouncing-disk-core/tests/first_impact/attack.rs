@@ -133,7 +133,7 @@ pub fn lanes(seed: u64, blocks: u64, largest_peak: f64, longest: f64) {
     const ALL: usize = 4 * Flights::LANES;
     for set in InstructionSet::available() {
         let mut random = SplitMix::new(seed);
-        let mut flights = Flights::new(set, 4);
+        let mut flights = Flights::new(set, 4).unwrap();
         for _ in 0..blocks {
             let cases: Vec<_> = (0..ALL).map(|_| seams::launch(&mut random, largest_peak, longest)).collect();
             for (lane, case) in cases.iter().enumerate() {
@@ -210,7 +210,7 @@ fn a_landing_on_the_seam_counts_its_turn() {
         let impact = vibration.first_impact(launch).unwrap();
         assert!((impact.duration() - duration).abs() < 1.0e-12, "{impact:?}");
         for set in InstructionSet::available() {
-            let mut flights = Flights::new(set, 1);
+            let mut flights = Flights::new(set, 1).unwrap();
             flights.set_platform(0, vibration);
             flights.set_launch(0, launch);
             flights.fly(1, |_, error| panic!("{error}"));
