@@ -199,8 +199,13 @@ impl Engine {
         let platform_velocity = system.vibration().velocity(impact.phase);
         let platform_speed = system.platform_angular_speed(impact.phase);
         let slip = turn.speed - platform_speed;
-        let axial = axial_impulse(system.restitution(), impact.velocity);
+        let mut axial = axial_impulse(system.restitution(), impact.velocity);
         let rotary = friction_impact(system.friction(), axial, slip);
+        let rebound = rebound_velocity(system.restitution(), impact.velocity);
+        // Where the platform falls away, the paper's cut takes the rebound and lets the disk go at once.
+        let launch = self.orbit.as_ref().and_then(Orbit::launch);
+        let cut = launch.is_some_and(|(_, speed)| speed <= 0.0 && rebound > 0.0);
+        let rebound_left = if cut { 0.0 } else { rebound };
 
         let spell = self.spell(None);
         self.angle.add(turn.angle);
@@ -212,7 +217,7 @@ impl Engine {
             angular_speed: turn.speed,
         };
         let after = DiskState {
-            axial_velocity: rebound_velocity(system.restitution(), impact.velocity) + platform_velocity,
+            axial_velocity: rebound_left + platform_velocity,
             angular_speed: if rotary.capped { platform_speed } else { turn.speed + rotary.impulse },
             ..before
         };
@@ -234,6 +239,10 @@ impl Engine {
                 platform_speed,
             },
         );
+        if cut {
+            axial -= rebound;
+            ledger.book_normal(-rebound * platform_velocity, 0.5 * rebound * rebound);
+        }
         book_jump(&mut ledger, &before, &after);
 
         let time = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };

@@ -3,8 +3,12 @@
 //! `cargo test` runs as many as fit into seconds; docs/numerics.md, section 10, tells how the campaign is run.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
-use bouncing_disk_core::{Error, Flights, Impact, InstructionSet, Launch, Phase, Vibration};
+use bouncing_disk_core::{
+    Axis, BasinSettings, ChatterPolicy, Error, Flights, Grid, Impact, ImpactMap, ImpactState, InstructionSet,
+    KnownOrbit, Launch, Orbit, OrbitEvent, Phase, SweepEvent, Vibration, sweep,
+};
 
 use crate::launches::{Case, SplitMix};
 use crate::march::{Finding, Flight};
@@ -279,4 +283,123 @@ fn fast_and_low_drops_keep_their_digits() {
     let impact = vibration.first_impact_of_drop(phase, 1.0e-14, 1.0e-2).unwrap();
     let parabola = 2.0e-2 / vibration.contact_force(phase);
     assert!((impact.duration() / parabola - 1.0).abs() < 1.0e-3, "{impact:?}");
+}
+
+/// A map at a threshold, and an impact on a seam of it.
+fn map_and_state(random: &mut SplitMix) -> (ImpactMap, ImpactState) {
+    let restitution = seams::one_of(random, &seams::RESTITUTIONS);
+    let case = seams::launch(random, 1.0e3, 400.0);
+    let map = ImpactMap::new(Vibration::new(case.peak).unwrap(), restitution).unwrap();
+    let speed = if restitution > 1.0e-3 { case.speed / restitution } else { case.speed };
+    (map, ImpactState::new(Phase::new(case.angle).unwrap(), -speed).unwrap())
+}
+
+/// Orbits of maps at their thresholds, alone: every flight tells one time, and a sweep shows the same events.
+#[test]
+fn orbits_on_seams_keep_time_and_sweeps_show_them() {
+    const EVENTS: usize = 30;
+    let mut random = SplitMix::new(109);
+    let mut impacts = 0;
+    for _ in 0..400 {
+        let orbits: Vec<_> = (0..100)
+            .map(|k| {
+                let (map, state) = map_and_state(&mut random);
+                let policy = if k % 3 == 0 { ChatterPolicy::Paper } else { ChatterPolicy::Complete };
+                map.orbit(state, policy)
+            })
+            .collect();
+        let mut expected = Vec::new();
+        for orbit in &orbits {
+            let mut alone = orbit.clone();
+            let mut events = Vec::new();
+            while events.len() < EVENTS {
+                let launch = alone.launch();
+                match alone.advance() {
+                    Ok(Some(OrbitEvent::Impact(impact))) => {
+                        if let Some((phase, speed)) = launch {
+                            let peak = Orbit::map(&alone).vibration().peak_acceleration();
+                            let flight = Flight { peak, phase, gap: 0.0, speed };
+                            assert_eq!(flight.agrees(&impact), Ok(()), "{orbit:?}: {impact:?}");
+                            impacts += 1;
+                        }
+                        events.push((
+                            impact.phase.angle().to_bits(),
+                            impact.velocity.to_bits(),
+                            impact.turns,
+                        ));
+                    }
+                    Ok(Some(OrbitEvent::Stick(stick))) => {
+                        assert!(stick.attachment.duration.is_finite() && stick.attachment.duration >= 0.0);
+                        events.push((stick.attachment.phase.angle().to_bits(), 0, stick.attachment.turns));
+                    }
+                    Ok(Some(event)) => panic!("{event:?}"),
+                    Ok(None) => break,
+                    Err(Error::FlightTooLong { .. }) => {
+                        events.clear();
+                        break;
+                    }
+                    Err(error) => panic!("{orbit:?}: {error}"),
+                }
+            }
+            expected.push(events);
+        }
+        // Too long a flight of one orbit is the error of a sweep.
+        let (orbits, expected): (Vec<_>, Vec<_>) =
+            orbits.into_iter().zip(expected).filter(|(_, events)| !events.is_empty()).unzip();
+        let swept = sweep(
+            &orbits,
+            |_| Vec::new(),
+            |events, event| {
+                match event {
+                    SweepEvent::Impact(landing) => {
+                        let (phase, velocity) = (landing.state.phase(), landing.state.velocity());
+                        events.push((phase.angle().to_bits(), velocity.to_bits(), landing.turns));
+                    }
+                    SweepEvent::Stick(stick) => {
+                        events.push((stick.attachment.phase.angle().to_bits(), 0, stick.attachment.turns));
+                    }
+                    _ => {}
+                }
+                if events.len() < EVENTS { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+        assert_eq!(swept.unwrap(), expected);
+    }
+    assert!(impacts > 300_000, "{impacts}");
+}
+
+/// Grids whose cells lie on seams: the labels of lanes are those of single starts.
+#[test]
+fn basins_on_seams_have_the_labels_of_single_starts() {
+    let mut random = SplitMix::new(110);
+    let mut labels = [0_u32; 3];
+    for _ in 0..150 {
+        let (map, _) = map_and_state(&mut random);
+        let settings = BasinSettings { max_impacts: 60, ..BasinSettings::default() };
+        let known: Vec<_> = map
+            .period_one(1)
+            .and_then(|state| map.refine(&[state]).ok())
+            .and_then(|orbit| KnownOrbit::new(orbit, 0.01).ok())
+            .into_iter()
+            .collect();
+        // Centres at whole sixteenths of the period, 0 and 1 among them, and speeds at fractions of that of the orbits.
+        let phase = Axis::new(-1.0 / 32.0, 33.0 / 32.0, 17).unwrap();
+        let fastest = 4.0 / (1.0 + map.restitution());
+        let speed = Axis::new(0.0, fastest * (1.0 + 1.0 / 16.0), 17).unwrap();
+        let Ok(basins) = map.basins(Grid::new(phase, speed).unwrap(), &known, settings, || ()) else {
+            continue;
+        };
+        for row in 0..17 {
+            for (column, &label) in basins.row(row).iter().enumerate() {
+                let start = ImpactState::new(
+                    Phase::new(phase.centre(column) * TAU).unwrap(),
+                    -speed.centre(row) * PI,
+                );
+                let alone = map.basin_label(start.unwrap(), &known, settings).unwrap();
+                assert_eq!(label, alone, "{map:?} {start:?}");
+                labels[usize::from(label).min(2)] += 1;
+            }
+        }
+    }
+    assert!(labels.iter().all(|&count| count > 50), "{labels:?}");
 }
