@@ -83,8 +83,8 @@ impl PhaseSpan {
     /// A span of `radians`; a negative number and NaN count as zero, and [`Self::LONGEST`], 1.16e20 rad, as the most.
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
-        // Not 2^64 - 1, which is no double: what rounds to 2^64 is too long, too.
-        const TOO_LONG: f64 = TAU * 18_446_744_073_709_551_616.0;
+        // As a double 2^64: what rounds to it is too long, too.
+        const TOO_LONG: f64 = TAU * u64::MAX as f64;
         if radians.is_nan() || radians <= 0.0 {
             return Self::ZERO;
         }
