@@ -491,13 +491,13 @@ impl Path {
         let scales = powers(first);
         let mut path = [0.0; ORDER + 1];
         path[0] = start;
-        for k in 1..=ORDER {
-            let coefficient = series.0[k] * scales[k];
-            // 1 - (1 - d)^k, less its terms one by one.
+        let scaled = series.0.iter().zip(scales).map(|(coefficient, scale)| coefficient * scale);
+        for (k, coefficient) in scaled.enumerate().skip(1) {
+            // 1 - (1 - d)^k, its terms one by one.
             let mut binomial = -1.0;
-            for l in 1..=k {
+            for (l, term) in path.iter_mut().enumerate().take(k + 1).skip(1) {
                 binomial *= -((k + 1 - l) as f64) / l as f64;
-                path[l] -= coefficient * binomial;
+                *term -= coefficient * binomial;
             }
         }
         Self(path)

@@ -76,7 +76,7 @@ fn cases(restitution: f64, peak_acceleration: f64, count: u64) -> impl Iterator<
         .unwrap();
         let phase = match (k % 3, system.vibration().separation_phase()) {
             (0, Some(at)) => Phase::new(at.angle() - pow(10.0, -1.0 - 12.0 * pick(7))).unwrap(),
-            _ => Phase::new(6.283 * pick(11)).unwrap(),
+            _ => Phase::new(std::f64::consts::TAU * pick(11)).unwrap(),
         };
         let speed = largest_speed(&system, phase)? * [1.0, 0.3, 1e-3][(k % 3) as usize];
         let at = system.vibration().accumulation(phase, speed, restitution)?;
@@ -218,7 +218,7 @@ fn friction_at_its_limit_takes_few_pieces() {
             .build()
             .unwrap();
             // For the twisting platforms: about the phase where its acceleration takes what the load leaves.
-            let phase = Phase::new(golden_spread(13 * k) * 6.283).unwrap();
+            let phase = Phase::new(golden_spread(13 * k) * std::f64::consts::TAU).unwrap();
             let Some(speed) = largest_speed(&system, phase) else { continue };
             let Some(at) = system.vibration().accumulation(phase, speed, restitution) else { continue };
             let slips = [0.0, 1e-3 * limit * at.duration, -1e-17];

@@ -245,10 +245,10 @@ fn sums_over_few_impacts_do_not_cancel() {
                 let (mut sum, mut moment, mut product) = (high(0.0), high(0.0), high(0.0));
                 for _ in 0..count {
                     let own = &lost * quantity.at_high(&y);
-                    y = y * &r;
-                    sum = sum + &own;
-                    product = product + &own * &own;
-                    moment = moment + own * (&begin - series.remaining.at_high(&y));
+                    y *= &r;
+                    sum += &own;
+                    product += &own * &own;
+                    moment += own * (&begin - series.remaining.at_high(&y));
                 }
                 for (mine, exact) in [
                     (range.sum(&quantity), sum),
