@@ -11,6 +11,7 @@ use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
 use bouncing_disk_experiments::stamp::Stale;
 use bouncing_disk_experiments::summary::Summary;
+use bouncing_disk_experiments::visible::visible_path;
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
@@ -106,11 +107,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let folder = options.measured_folder();
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        complain!("error: --measured {}: there is no such folder", folder.display());
+        complain!("error: --measured {}: there is no such folder", visible_path(&folder));
         return Ok(ExitCode::from(USAGE));
     }
-    let measurements = Measurements::read(&folder)
-        .with_context(|| format!("cannot read the measurements in {}", folder.display()))?;
+    let measurements = Measurements::read(&folder, &registry::measurements(&entries))
+        .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
     if options.list {
         return list(options, &selected, &measurements);
     }
@@ -145,7 +146,7 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
     results::write(run.entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
-    say!("{} is up to date", docs.path().join(results::RESULTS_FILE).display())?;
+    say!("{} is up to date", visible_path(&docs.path().join(results::RESULTS_FILE)))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -186,7 +187,6 @@ fn state(
 /// What is wrong with the measurements for the selected figures, and with files that no figure reads.
 fn faults(
     options: &Options,
-    entries: &[Box<dyn Entry>],
     selected: &[&dyn Entry],
     measurements: &Measurements,
     summary: &Summary,
@@ -196,13 +196,13 @@ fn faults(
         .iter()
         .filter(|(id, _)| selected.iter().any(|entry| entry.id() == id))
         .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
-    let unknown = measurements.unknown(&registry::measurements(entries));
+    let unknown = measurements.unknown();
     let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
     if !faults.is_empty() {
         let folder = options.measured_folder();
         faults.push(format!(
             "measurements are read from {}; its README.md states their form",
-            folder.display()
+            visible_path(&folder)
         ));
     }
     faults
@@ -227,7 +227,7 @@ fn check(
     for name in &common {
         say!("{name}: missing or out of date")?;
     }
-    let faults = faults(options, entries, selected, measurements, &summary);
+    let faults = faults(options, selected, measurements, &summary);
     for fault in &faults {
         say!("{fault}")?;
     }
@@ -250,7 +250,7 @@ fn check(
         if !committed.is_empty() || !faults.is_empty() {
             return Ok(ExitCode::FAILURE);
         }
-        say!("all outputs in {} and the documentation are up to date", folder.path().display())?;
+        say!("all outputs in {} and the documentation are up to date", visible_path(folder.path()))?;
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
@@ -286,7 +286,7 @@ fn make(
         say!("{id}: not in the gallery and in claims.json: {reason}")?;
         say!("    make it again: {}", options.command(&[id]))?;
     }
-    let faults = faults(options, entries, selected, measurements, &summary);
+    let faults = faults(options, selected, measurements, &summary);
     conclude(options, &finished, folder, &faults)
 }
 
@@ -308,7 +308,7 @@ fn conclude(
             say!("{:<8} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
         }
     }
-    say!("\nfigures, claims.json and index.html are in {}", folder.path().display())?;
+    say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
     let failed: Vec<_> =
         finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
     if !faults.is_empty() {
