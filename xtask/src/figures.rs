@@ -1,7 +1,7 @@
 //! `cargo xtask figures`.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
@@ -112,6 +112,13 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
+    if is_same_folder(&options.folder(), &folder) {
+        complain!(
+            "error: {} is the folder of the measurements; --out must be another",
+            visible_path(&folder)
+        );
+        return Ok(ExitCode::from(USAGE));
+    }
     if options.list {
         return list(options, &selected, &measurements);
     }
@@ -125,6 +132,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         return write_docs(&run, &folder);
     }
     make(&run, options.quality, &measurements, &folder)
+}
+
+/// Whether both exist and are the same, by whatever path. Tables would be taken for measurements.
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 /// What is to be made.
@@ -280,8 +292,14 @@ fn make(
     let report = Report::new();
     let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
     report.close();
-    let summary = Summary::of(entries, folder, measurements)?;
-    summary.write(folder)?;
+    let summary = match Summary::update(entries, folder, measurements) {
+        Ok(summary) => summary,
+        Err(error) => {
+            // What one full disk has done to the figures, too, is not known otherwise.
+            say_failures(options, &finished)?;
+            return Err(error.into());
+        }
+    };
     for (id, reason) in &summary.left_out {
         say!("{id}: not in the gallery and in claims.json: {reason}")?;
         say!("    make it again: {}", options.command(&[id]))?;
@@ -309,23 +327,28 @@ fn conclude(
         }
     }
     say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
-    let failed: Vec<_> =
-        finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
     if !faults.is_empty() {
         say!("")?;
     }
     for fault in faults {
         say!("{fault}")?;
     }
-    if failed.is_empty() {
-        return Ok(if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE });
+    let failures = say_failures(options, finished)?;
+    Ok(if failures == 0 && faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Prints why figures have failed, and gives their number.
+fn say_failures(options: &Options, finished: &[Finished]) -> anyhow::Result<usize> {
+    let failed: Vec<_> =
+        finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
+    if !failed.is_empty() {
+        say!("\n{} of {} failed", failed.len(), finished.len())?;
     }
-    say!("\n{} of {} failed", failed.len(), finished.len())?;
-    for (id, error) in failed {
+    for (id, error) in &failed {
         say!("{id}: {error:#}")?;
         say!("    run it again: {}", options.command(&[id]))?;
     }
-    Ok(ExitCode::FAILURE)
+    Ok(failed.len())
 }
 
 fn available_threads() -> usize {
