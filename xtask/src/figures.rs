@@ -1,5 +1,6 @@
 //! `cargo xtask figures`.
 
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,7 +12,7 @@ use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
 use bouncing_disk_experiments::stamp::Stale;
 use bouncing_disk_experiments::summary::Summary;
-use bouncing_disk_experiments::visible::visible_path;
+use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
@@ -28,6 +29,9 @@ const DRAFTS_FOLDER: &str = "draft";
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
+/// The most computing threads: more than any machine has that this runs on, and few enough to be started at once. Tens of
+/// thousands take minutes to start and more to find that there is nothing to do.
+const MOST_THREADS: i64 = 1024;
 /// The exit status for a wrong command line, the same as that of the argument parser.
 const USAGE: u8 = 2;
 
@@ -58,9 +62,9 @@ pub(crate) struct Options {
     /// Make figures again even when they are up to date
     #[arg(long)]
     force: bool,
-    /// Threads to compute with; as many as there are processors unless given
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    /// Threads to compute with, 1 to 1024; as many as there are processors unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    threads: Option<u16>,
 }
 
 impl Options {
@@ -84,13 +88,32 @@ impl Options {
         }
         for (option, folder) in [("--out", &self.out), ("--measured", &self.measured)] {
             let Some(folder) = folder else { continue };
-            let folder = folder.to_string_lossy();
-            let quoted = folder.contains(|c: char| c.is_whitespace() || c == '\'');
-            let folder =
-                if quoted { format!("'{}'", folder.replace('\'', r"'\''")) } else { folder.into_owned() };
+            let folder = shell_word(folder.as_os_str());
             command.push_str(&format!(" {option} {folder}"));
         }
         command
+    }
+}
+
+/// A word that a shell reads back as this text. The command it is part of is there to be copied.
+fn shell_word(text: &OsStr) -> String {
+    let bytes = text.as_encoded_bytes();
+    let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"/._-+=:,@%".contains(byte);
+    match text.to_str() {
+        Some(text) if !bytes.is_empty() && bytes.iter().all(plain) => text.to_owned(),
+        Some(text) if visible(text) == text => format!("'{}'", text.replace('\'', r"'\''")),
+        _ => {
+            let mut word = "$'".to_owned();
+            for byte in bytes {
+                match byte {
+                    b'\'' | b'\\' => word.extend(['\\', char::from(*byte)]),
+                    b' '..=b'~' => word.push(char::from(*byte)),
+                    _ => word.push_str(&format!("\\x{byte:02x}")),
+                }
+            }
+            word.push('\'');
+            word
+        }
     }
 }
 
@@ -170,7 +193,7 @@ fn start_threads(options: &Options) -> anyhow::Result<()> {
 }
 
 fn threads(options: &Options) -> usize {
-    options.threads.map_or_else(available_threads, NonZeroUsize::get)
+    options.threads.map_or_else(available_threads, usize::from)
 }
 
 fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> anyhow::Result<ExitCode> {
@@ -380,6 +403,18 @@ mod tests {
             options(Quality::Draft, Some("my figures")).command(&["fig06"]),
             "cargo xtask figures fig06 --quality draft --out 'my figures'"
         );
+        for (folder, word) in [
+            ("$(reboot)", "'$(reboot)'"),
+            ("it's", r"'it'\''s'"),
+            ("a\nb\u{1b}'", r"$'a\x0ab\x1b\''"),
+            ("", "''"),
+            ("/tmp/a_b-1.2", "/tmp/a_b-1.2"),
+        ] {
+            assert_eq!(
+                options(Quality::Paper, Some(folder)).command(&[]),
+                format!("cargo xtask figures --out {word}")
+            );
+        }
     }
 
     #[test]
