@@ -1,8 +1,9 @@
-//! Writes files so that a killed run leaves none half written, and that runs in the same folder do not disturb each other.
+//! Writes files so that a killed run leaves none half written, and that runs in the same folder do not
+//! disturb each other.
 //!
-//! Every file is written under another name and renamed. Whoever writes holds the [lock] of the folder meanwhile, so that
-//! the files and the stamp of a figure are of one run, the common files describe what is there, and a partial file that
-//! somebody finds while holding the lock is one of a run that was killed.
+//! Every file is written under another name and renamed. Whoever writes holds the [lock](OutputFolder::lock) of the folder
+//! meanwhile, so that the files and the stamp of a figure are of one run, the common files describe what is
+//! there, and a partial file that somebody finds while holding the lock is one of a run that was killed.
 
 mod error;
 mod lock;
@@ -34,7 +35,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes the folder if need be, makes sure that files can be written in it, and removes what killed runs have left.
+    /// Makes the folder if need be, makes sure that files can be written in it, and removes what killed runs
+    /// have left.
     ///
     /// # Errors
     ///
@@ -62,7 +64,8 @@ impl OutputFolder {
 
     /// Waits until no other run writes in the folder and keeps them out until the result is dropped.
     ///
-    /// A thread that holds the lock must write by [`LockedFolder`]: the functions of this type would wait for it.
+    /// A thread that holds the lock must write by [`LockedFolder`]: the functions of this type would wait for
+    /// it.
     ///
     /// # Errors
     ///
@@ -105,13 +108,13 @@ impl OutputFolder {
         }
     }
 
-    /// Writes all files of one figure and its stamp, with the digest of the measurements in them. Files of an earlier run
-    /// that are no longer made are removed.
+    /// Writes all files of one figure and its stamp, with the digest of the measurements in them. Files of an
+    /// earlier run that are no longer made are removed.
     ///
     /// # Errors
     ///
-    /// When the system refuses. If a file cannot be written, as on a full disk, the files of an earlier run are all still
-    /// there; if one cannot get its name, there is no stamp.
+    /// When the system refuses. If a file cannot be written, as on a full disk, the files of an earlier run
+    /// are all still there; if one cannot get its name, there is no stamp.
     pub fn write_set(
         &self,
         id: &str,
@@ -202,7 +205,8 @@ fn stamp_name(id: &str) -> String {
     format!("{id}.stamp")
 }
 
-/// Whether a stamp may name this file. A stamp is a file like others: what it says must not remove anything else.
+/// Whether a stamp may name this file. A stamp is a file like others: what it says must not remove anything
+/// else.
 fn is_of_figure(id: &str, name: &str) -> bool {
     let own = name.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));
     own && Path::new(name).file_name().is_some_and(|last| last == name)

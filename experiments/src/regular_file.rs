@@ -24,8 +24,8 @@ pub struct TooLarge {
 
 /// The content of a regular file, or of one that a symbolic link leads to, of at most `largest` bytes.
 ///
-/// What kind of file it is, is asked before it is opened. Somebody who puts a pipe in its place between the two makes this
-/// wait; the standard library has no portable way to open without waiting.
+/// What kind of file it is, is asked before it is opened. Somebody who puts a pipe in its place between the
+/// two makes this wait; the standard library has no portable way to open without waiting.
 ///
 /// # Errors
 ///

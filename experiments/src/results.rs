@@ -116,8 +116,8 @@ fn made(entry: &dyn Entry, folder: &OutputFolder) -> Result<Made, ResultsError> 
     Ok(Made { outcome, digest: digest(&all), section })
 }
 
-/// Writes the page, its pictures and their digests into `docs` from the figures in both output folders: nothing before
-/// everything is drawn, and the digests, which all is compared with, last.
+/// Writes the page, its pictures and their digests into `docs` from the figures in both output folders:
+/// nothing before everything is drawn, and the digests, which all is compared with, last.
 ///
 /// # Errors
 ///

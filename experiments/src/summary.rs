@@ -85,8 +85,8 @@ impl Summary {
         Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), left_out, warnings })
     }
 
-    /// Collects all figures whose results lie in the folder and writes the common files. No other run writes meanwhile,
-    /// so that the last of several runs describes what all of them have made.
+    /// Collects all figures whose results lie in the folder and writes the common files. No other run writes
+    /// meanwhile, so that the last of several runs describes what all of them have made.
     ///
     /// # Errors
     ///

@@ -1,7 +1,7 @@
 //! Shows texts of somebody else's, such as fields of a file and names of folders, in messages.
 //!
-//! A control character that reaches a terminal moves its cursor or changes its title; one that orders text from right to
-//! left makes a message read as something else; five megabytes hide it. None of them may pass.
+//! A control character that reaches a terminal moves its cursor or changes its title; one that orders text
+//! from right to left makes a message read as something else; five megabytes hide it. None of them may pass.
 
 use std::fmt;
 use std::path::Path;
@@ -11,8 +11,8 @@ const SHOWN: usize = 40;
 
 /// The beginning of a text of somebody else's.
 ///
-/// [`Display`](fmt::Display) shows it in double quotes, with everything escaped that is not visible, and says how long the
-/// whole text is where it is not shown: `"aaaa…" (5000000 characters)`.
+/// [`Display`](fmt::Display) shows it in double quotes, with everything escaped that is not visible, and says
+/// how long the whole text is where it is not shown: `"aaaa…" (5000000 characters)`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excerpt {
     start: String,
@@ -74,8 +74,8 @@ fn push(mut text: String, c: char, escape: bool) -> String {
     text
 }
 
-/// Control characters, line and paragraph separators, and what changes the order of letters or has no width. Combining
-/// marks stay: captions need them.
+/// Control characters, line and paragraph separators, and what changes the order of letters or has no width.
+/// Combining marks stay: captions need them.
 fn is_invisible(c: char) -> bool {
     c.is_control()
         || matches!(c,

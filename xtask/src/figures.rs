@@ -29,8 +29,8 @@ const DRAFTS_FOLDER: &str = "draft";
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
-/// The most computing threads: more than any machine has that this runs on, and few enough to be started at once. Tens of
-/// thousands take minutes to start and more to find that there is nothing to do.
+/// The most computing threads: more than any machine has that this runs on, and few enough to be started at
+/// once. Tens of thousands take minutes to start and more to find that there is nothing to do.
 const MOST_THREADS: i64 = 1024;
 /// The exit status for a wrong command line, the same as that of the argument parser.
 const USAGE: u8 = 2;

@@ -5,7 +5,8 @@ use std::io::{self, ErrorKind, Write};
 
 use bouncing_disk_experiments::visible::visible;
 
-/// Writes a line, or several, with everything escaped that a terminal would obey instead of showing it. A reader that has gone, as `head` does, wanted no more: that is no error.
+/// Writes a line, or several, with everything escaped that a terminal would obey instead of showing it. A
+/// reader that has gone, as `head` does, wanted no more: that is no error.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! What `cargo xtask figures` does with files that others write, remove or malform, run as a program of its own.
+//! What `cargo xtask figures` does with files that others write, remove or malform, run as a program of its
+//! own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -82,8 +83,8 @@ fn hidden(folder: &Path) -> Vec<String> {
     names.filter(|name| name.starts_with('.') && name != ".lock").collect()
 }
 
-/// The chosen figures and the common files are of one run, and nothing else is left. (The exit status is that of the
-/// documentation, too, which a change of the sources may have put out of date.)
+/// The chosen figures and the common files are of one run, and nothing else is left. (The exit status is that
+/// of the documentation, too, which a change of the sources may have put out of date.)
 fn assert_consistent(out: &Path, ids: &[&str]) {
     let check = text(&output(figures(out).args(ids).arg("--check")));
     let complains = |line: &str| {

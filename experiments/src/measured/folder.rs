@@ -30,8 +30,8 @@ impl Measurements {
         Self::default()
     }
 
-    /// Reads the files of these layouts and looks what other files there are whose names end in `.csv`. A folder that does
-    /// not exist holds none.
+    /// Reads the files of these layouts and looks what other files there are whose names end in `.csv`. A
+    /// folder that does not exist holds none.
     ///
     /// # Errors
     ///
@@ -72,8 +72,9 @@ impl Measurements {
         })
     }
 
-    /// One error for each file that no layout names, since a misspelt name must not be passed over in silence; where they
-    /// are many, as in a folder of something else, the last error counts those that have none of their own.
+    /// One error for each file that no layout names, since a misspelt name must not be passed over in
+    /// silence; where they are many, as in a folder of something else, the last error counts those that have
+    /// none of their own.
     pub fn unknown(&self) -> Vec<MeasuredError> {
         let (named, more) = self.unknown.split_at(self.unknown.len().min(NAMED));
         let legal = || self.legal.clone();

@@ -6,15 +6,15 @@ pub const LARGEST: f64 = 1e9;
 /// The smallest legal value where 0 is not legal, so that a logarithm or a quotient of two such values is finite.
 pub const SMALLEST: f64 = 1e-12;
 
-/// The smallest legal magnitude other than 0 where 0 is legal: less than any rounding of a program that has written the
-/// file, and enough that squares and quotients of legal numbers keep all their digits.
+/// The smallest legal magnitude other than 0 where 0 is legal: less than any rounding of a program that has
+/// written the file, and enough that squares and quotients of legal numbers keep all their digits.
 pub const TINIEST: f64 = 1e-30;
 
 /// The largest file that is read (bytes).
 pub const LARGEST_FILE: u64 = 64 << 20;
 
-/// The most lines of numbers: many more than a picture can show, and the time to draw crosses grows with the square of
-/// their number, from two seconds for as many as these.
+/// The most lines of numbers: many more than a picture can show, and the time to draw crosses grows with the
+/// square of their number, from two seconds for as many as these.
 pub const MOST_ROWS: usize = 10_000;
 
 /// The legal values of a column. Numbers that are not finite are never legal.

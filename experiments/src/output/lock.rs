@@ -5,7 +5,8 @@ use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The time between two looks whether the folder is free: a set of files is written in some tens of milliseconds.
+/// The time between two looks whether the folder is free: a set of files is written in some tens of
+/// milliseconds.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// Whether this run is alone in the folder.
@@ -24,9 +25,10 @@ pub(super) enum Lock {
 
 /// Waits until no other run writes in the folder, but no longer than `longest`.
 ///
-/// The lock is on the folder itself, where the system can lock one: nothing is left behind, it works where only the folder
-/// is on a network, and it ends with the process. Every writer takes it anew by opening the folder, so that threads of
-/// one process wait for each other, too.
+/// The lock is on the folder itself, where the system can lock one: nothing is left behind, it ends with the
+/// process, and the runs of one machine see it even where the folder lies on a network. Those of another
+/// machine do not; all that they can do is to remove a partial file, which is then written again. Every
+/// writer opens the folder anew, so that threads of one process wait for each other, too.
 pub(super) fn hold(folder: &Path, longest: Duration) -> io::Result<Lock> {
     let file = open(folder)?;
     let start = Instant::now();
@@ -46,7 +48,8 @@ fn open(folder: &Path) -> io::Result<File> {
     File::open(folder)
 }
 
-/// Elsewhere a folder cannot be opened as a file. The file stays: to remove it would let two runs lock different ones.
+/// Elsewhere a folder cannot be opened as a file. The file stays: to remove it would let two runs lock
+/// different ones.
 #[cfg(not(unix))]
 fn open(folder: &Path) -> io::Result<File> {
     File::options().create(true).truncate(false).write(true).open(folder.join(".lock"))

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, SystemTime};
 
-/// A partial file of this age is abandoned, whoever wrote it: its content is complete in memory before it is begun.
+/// A partial file of this age is abandoned, whoever wrote it: its content is complete in memory before it is
+/// begun.
 const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// How often a partial file is written again that somebody has removed.
@@ -75,7 +76,8 @@ impl Drop for Partial<'_> {
     }
 }
 
-/// Removes the partial files of runs that were killed: all of them where nobody else can be writing, the old ones elsewhere.
+/// Removes the partial files of runs that were killed: all of them where nobody else can be writing, the old
+/// ones elsewhere.
 ///
 /// One that cannot be removed harms nothing, so that it stops nothing.
 pub(super) fn remove_abandoned(folder: &Path, alone: bool) {
