@@ -26,12 +26,14 @@ pub mod printed;
 pub mod product;
 pub mod progress;
 pub mod registry;
+pub mod regular_file;
 pub mod results;
 pub mod stamp;
 pub mod summary;
 pub mod table;
 #[cfg(test)]
 mod testing;
+pub mod visible;
 
 pub use claim::Claim;
 pub use experiment::{Experiment, ExperimentError, Quality};

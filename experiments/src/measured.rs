@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 pub use error::MeasuredError;
 pub use folder::Measurements;
-pub use layout::{Column, LARGEST, Layout, Range, Role, SMALLEST};
+pub use layout::{Column, LARGEST, LARGEST_FILE, Layout, MOST_ROWS, Range, Role, SMALLEST, TINIEST};
 
 use crate::experiment::ExperimentError;
 

@@ -1,57 +1,32 @@
-//! Writes files so that a killed run leaves none half written.
+//! Writes files so that a killed run leaves none half written, and that runs in the same folder do not
+//! disturb each other.
+//!
+//! Every file is written under another name and renamed. Whoever writes holds the [lock](OutputFolder::lock) of the folder
+//! meanwhile, so that the files and the stamp of a figure are of one run, the common files describe what is
+//! there, and a partial file that somebody finds while holding the lock is one of a run that was killed.
+
+mod error;
+mod lock;
+mod partial;
 
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+pub use error::OutputError;
+use lock::Lock;
+use partial::Partial;
 
 use crate::Quality;
+use crate::regular_file;
 use crate::stamp::{Stale, Stamp};
 
-/// Why the output folder cannot be used.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum OutputError {
-    /// The folder cannot be made.
-    #[error("cannot make the output folder {path}")]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// What the system reported.
-        source: io::Error,
-    },
-    /// The folder exists, but nothing can be written in it.
-    #[error("cannot write in the output folder {path}")]
-    Unwritable {
-        /// The folder.
-        path: PathBuf,
-        /// What the system reported.
-        source: io::Error,
-    },
-    /// A file cannot be written.
-    #[error("cannot write {path}")]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system reported.
-        source: io::Error,
-    },
-    /// A file cannot be read.
-    #[error("cannot read {path}")]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system reported.
-        source: io::Error,
-    },
-    /// A stamp cannot be written as JSON.
-    #[error("cannot write the stamp of {id}")]
-    Stamp {
-        /// The figure.
-        id: String,
-        /// What the writer reported.
-        source: serde_json::Error,
-    },
-}
+/// How long a run waits for others to finish writing: they take seconds, unless they are suspended.
+const LONGEST_WAIT: Duration = Duration::from_secs(600);
+
+/// The largest file that is read back (bytes): a hundred times that of any figure.
+const LARGEST_FILE: u64 = 1 << 30;
 
 /// A folder with the outputs of the experiments.
 #[derive(Clone, Debug)]
@@ -60,7 +35,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes the folder if need be and makes sure that files can be written in it.
+    /// Makes the folder if need be, makes sure that files can be written in it, and removes what killed runs
+    /// have left.
     ///
     /// # Errors
     ///
@@ -68,10 +44,12 @@ impl OutputFolder {
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let path = path.into();
         fs::create_dir_all(&path).map_err(|source| OutputError::Folder { path: path.clone(), source })?;
-        let probe = path.join(format!(".probe.{}", std::process::id()));
-        let tried = fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe));
-        tried.map_err(|source| OutputError::Unwritable { path: path.clone(), source })?;
-        Ok(Self { path })
+        let folder = Self { path };
+        let lock = folder.lock()?;
+        let probe = Partial::write(&folder.path, "probe", b"");
+        drop(probe.map_err(|source| OutputError::Unwritable { path: folder.path.clone(), source })?);
+        drop(lock);
+        Ok(folder)
     }
 
     /// A folder that is only read; it need not exist.
@@ -84,48 +62,59 @@ impl OutputFolder {
         &self.path
     }
 
+    /// Waits until no other run writes in the folder and keeps them out until the result is dropped.
+    ///
+    /// A thread that holds the lock must write by [`LockedFolder`]: the functions of this type would wait for
+    /// it.
+    ///
+    /// # Errors
+    ///
+    /// When the folder cannot be opened, or another run has been writing in it for ten minutes.
+    pub fn lock(&self) -> Result<LockedFolder<'_>, OutputError> {
+        self.lock_within(LONGEST_WAIT)
+    }
+
+    fn lock_within(&self, longest: Duration) -> Result<LockedFolder<'_>, OutputError> {
+        let path = || self.path.clone();
+        let lock = lock::hold(&self.path, longest)
+            .map_err(|source| OutputError::Unwritable { path: path(), source })?;
+        if matches!(lock, Lock::Busy) {
+            return Err(OutputError::Busy { path: path(), waited_s: longest.as_secs_f64() });
+        }
+        partial::remove_abandoned(&self.path, matches!(lock, Lock::Held { .. }));
+        Ok(LockedFolder { folder: self, _lock: lock })
+    }
+
     /// Writes a file as a whole: it is complete or not there at all, whenever the program ends.
     ///
     /// # Errors
     ///
     /// When the system refuses.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
-        let target = self.path.join(name);
-        // In the same folder, because a file can be renamed only within a file system.
-        let partial = self.path.join(format!(".{name}.{}.partial", std::process::id()));
-        let write = || -> io::Result<()> {
-            let mut file = fs::File::create(&partial)?;
-            file.write_all(bytes)?;
-            // The name must not become visible before the content is on the disk.
-            file.sync_all()?;
-            fs::rename(&partial, &target)
-        };
-        write().map_err(|source| {
-            let _ = fs::remove_file(&partial);
-            OutputError::Write { path: target.clone(), source }
-        })
+        self.lock()?.write(&[(name, bytes)])
     }
 
     /// The content of a file, or `None` when there is none.
     ///
     /// # Errors
     ///
-    /// When the file exists and cannot be read.
+    /// When it exists and cannot be read.
     pub fn read(&self, name: &str) -> Result<Option<Vec<u8>>, OutputError> {
         let path = self.path.join(name);
-        match fs::read(&path) {
+        match regular_file::read(&path, LARGEST_FILE) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(source) => Err(OutputError::Read { path, source }),
         }
     }
 
-    /// Writes all files of one figure and then its stamp, with the digest of the measurements in them. Files of an
-    /// earlier run that are no longer made, and partial files of a killed run, are removed.
+    /// Writes all files of one figure and its stamp, with the digest of the measurements in them. Files of an
+    /// earlier run that are no longer made are removed.
     ///
     /// # Errors
     ///
-    /// When the system refuses; there is no stamp then.
+    /// When the system refuses. If a file cannot be written, as on a full disk, the files of an earlier run
+    /// are all still there; if one cannot get its name, there is no stamp.
     pub fn write_set(
         &self,
         id: &str,
@@ -134,17 +123,25 @@ impl OutputFolder {
         run_time_s: f64,
         files: &[(String, Vec<u8>)],
     ) -> Result<(), OutputError> {
-        let stamp_name = stamp_name(id);
-        self.remove(&stamp_name)?;
-        self.remove_leftovers(id, files)?;
-        for (name, bytes) in files {
-            self.write(name, bytes)?;
-        }
-        let contents = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
-        let stamp = Stamp::new(id, quality, measured, run_time_s, contents);
+        let contents = || files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
+        let stamp = Stamp::new(id, quality, measured, run_time_s, contents());
         let text = serde_json::to_vec_pretty(&stamp)
             .map_err(|source| OutputError::Stamp { id: id.to_owned(), source })?;
-        self.write(&stamp_name, &text)
+        let stamp_name = stamp_name(id);
+        let locked = self.lock()?;
+        let mut partials = Vec::new();
+        // The stamp is the last one to get its name.
+        for (name, bytes) in contents().chain([(stamp_name.as_str(), text.as_slice())]) {
+            partials.push(locked.partial(name, bytes)?);
+        }
+        // As long as the stamp of the earlier run lists them; a killed run would leave them for ever.
+        for name in self.stamp(id).iter().flat_map(Stamp::names) {
+            if is_of_figure(id, name) && !files.iter().any(|(kept, _)| kept == name) {
+                locked.remove(name)?;
+            }
+        }
+        locked.remove(&stamp_name)?;
+        partials.into_iter().try_for_each(publish)
     }
 
     /// The stamp of a figure; `None` when there is none or it cannot be read.
@@ -162,9 +159,34 @@ impl OutputFolder {
         let stamp = self.stamp(id).ok_or(Stale::Missing)?;
         stamp.check(id, quality, measured, |name| self.read(name).ok().flatten())
     }
+}
+
+/// A folder in which no other run writes.
+#[derive(Debug)]
+pub struct LockedFolder<'a> {
+    folder: &'a OutputFolder,
+    _lock: Lock,
+}
+
+impl LockedFolder<'_> {
+    /// Writes files as [`OutputFolder::write`] does; none gets its name before all are on the disk.
+    ///
+    /// # Errors
+    ///
+    /// When the system refuses.
+    pub fn write(&self, files: &[(&str, &[u8])]) -> Result<(), OutputError> {
+        let partials = files.iter().map(|(name, bytes)| self.partial(name, bytes));
+        partials.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(publish)
+    }
+
+    fn partial<'b>(&self, name: &str, bytes: &'b [u8]) -> Result<Partial<'b>, OutputError> {
+        let path = self.folder.path();
+        Partial::write(path, name, bytes)
+            .map_err(|source| OutputError::Write { path: path.join(name), source })
+    }
 
     fn remove(&self, name: &str) -> Result<(), OutputError> {
-        let path = self.path.join(name);
+        let path = self.folder.path.join(name);
         match fs::remove_file(&path) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {
                 Err(OutputError::Write { path, source })
@@ -172,24 +194,22 @@ impl OutputFolder {
             _ => Ok(()),
         }
     }
+}
 
-    fn remove_leftovers(&self, id: &str, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
-        let read = |source| OutputError::Read { path: self.path.clone(), source };
-        for entry in fs::read_dir(&self.path).map_err(read)? {
-            let name = entry.map_err(read)?.file_name();
-            let Some(name) = name.to_str() else { continue };
-            let partial = name.starts_with(&format!(".{id}.")) && name.ends_with(".partial");
-            let old = name.starts_with(&format!("{id}.")) && !files.iter().any(|(kept, _)| kept == name);
-            if partial || old {
-                self.remove(name)?;
-            }
-        }
-        Ok(())
-    }
+fn publish(partial: Partial<'_>) -> Result<(), OutputError> {
+    let path = partial.target().to_path_buf();
+    partial.publish().map_err(|source| OutputError::Write { path, source })
 }
 
 fn stamp_name(id: &str) -> String {
     format!("{id}.stamp")
+}
+
+/// Whether a stamp may name this file. A stamp is a file like others: what it says must not remove anything
+/// else.
+fn is_of_figure(id: &str, name: &str) -> bool {
+    let own = name.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));
+    own && Path::new(name).file_name().is_some_and(|last| last == name)
 }
 
 #[cfg(test)]
@@ -216,11 +236,13 @@ mod tests {
         let folder = folder("set");
         assert_eq!(folder.check("demo", Quality::Draft, ""), Err(Stale::Missing));
         fs::write(folder.path().join(".demo.json.1.partial"), b"torn").expect("writable");
-        fs::write(folder.path().join("demo.csv"), b"of an earlier version").expect("writable");
+        let old = [("demo.csv".to_owned(), b"of an earlier version".to_vec())];
+        folder.write_set("demo", Quality::Draft, "", 0.1, &old).expect("writable");
+        fs::write(folder.path().join("demo.txt"), b"of the user").expect("writable");
         fs::write(folder.path().join("demo2.json"), b"of another figure").expect("writable");
         let files = [("demo.json".to_owned(), b"{}".to_vec()), ("demo.svg".to_owned(), b"<svg/>".to_vec())];
         folder.write_set("demo", Quality::Draft, "", 0.1, &files).expect("writable");
-        assert_eq!(names(&folder), ["demo.json", "demo.stamp", "demo.svg", "demo2.json"]);
+        assert_eq!(names(&folder), ["demo.json", "demo.stamp", "demo.svg", "demo.txt", "demo2.json"]);
         assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
         fs::write(folder.path().join("demo.svg"), b"edited").expect("writable");
         let name = "demo.svg".to_owned();
@@ -236,6 +258,41 @@ mod tests {
         assert_eq!(folder.read("a.json").expect("readable").as_deref(), Some(b"short".as_slice()));
         assert_eq!(names(&folder), ["a.json"]);
         assert!(folder.read("b.json").expect("absent is no error").is_none());
+        fs::remove_dir_all(folder.path()).expect("removable");
+    }
+
+    #[test]
+    fn writers_of_one_folder_wait_for_each_other() {
+        let folder = folder("lock");
+        let held = folder.lock().expect("free");
+        let error = folder.lock_within(Duration::from_millis(20)).expect_err("held");
+        assert!(error.to_string().ends_with("for 0.02 s; it may be suspended"), "{error}");
+        // A partial file of who holds the lock is no leftover.
+        let partial = held.partial("a", b"1").expect("writable");
+        assert!(folder.lock_within(Duration::ZERO).is_err());
+        publish(partial).expect("still there");
+        std::thread::scope(|scope| {
+            let waiting = scope.spawn(|| folder.write("b", b"2"));
+            drop(held);
+            waiting.join().expect("no panic").expect("its turn");
+        });
+        assert_eq!(names(&folder), ["a", "b"]);
+        fs::remove_dir_all(folder.path()).expect("removable");
+    }
+
+    #[test]
+    fn a_set_that_cannot_be_written_leaves_the_earlier_one() {
+        let folder = folder("refused");
+        let set = |bytes: &[u8], last: &str| {
+            let files = [("demo.json".to_owned(), bytes.to_vec()), (last.to_owned(), bytes.to_vec())];
+            folder.write_set("demo", Quality::Draft, "", 0.1, &files)
+        };
+        set(b"old", "demo.svg").expect("writable");
+        // No folder of that name: as on a full disk, what comes after the first file is refused.
+        set(b"new", "none/demo.svg").expect_err("refused");
+        assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
+        assert_eq!(folder.read("demo.json").expect("readable").as_deref(), Some(b"old".as_slice()));
+        assert_eq!(names(&folder), ["demo.json", "demo.stamp", "demo.svg"]);
         fs::remove_dir_all(folder.path()).expect("removable");
     }
 

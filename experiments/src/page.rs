@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use crate::claim::{Claim, Computed, Verdict};
 use crate::experiment::Quality;
+use crate::visible::visible;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -279,7 +280,7 @@ fn capitalised(text: &str) -> String {
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    visible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -316,7 +317,7 @@ mod tests {
             claims: vec![Claim::number("fig06", "text", "Γ", "", "0.486", 0.486)],
             quality: Quality::Paper,
             run_time_s: 75.2,
-            warnings: vec!["fig06.csv, line 2: \"x\" is not a number".to_owned()],
+            warnings: vec!["fig06.csv, line 2: \"<script>\u{202e}x\" is not a number".to_owned()],
             outdated: true,
             has_table: true,
             width: Some(2040),
@@ -325,6 +326,8 @@ mod tests {
         assert!(!page.contains("http") && !page.contains("<script"), "{page}");
         assert!(page.contains("Γ &lt; 1") && page.contains("fig06.csv") && page.contains("75.2 s"));
         assert!(page.contains("class=\"verdict reproduced\""));
-        assert!(page.contains("Measurements not shown: fig06.csv, line 2: &quot;x&quot;"));
+        assert!(
+            page.contains(r"Measurements not shown: fig06.csv, line 2: &quot;&lt;script&gt;\u{202e}x&quot;")
+        );
     }
 }

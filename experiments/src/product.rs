@@ -127,7 +127,7 @@ mod tests {
         std::fs::create_dir_all(&path).expect("writable");
         let make = |content: &str| {
             std::fs::write(path.join("demo.csv"), content).expect("writable");
-            let measurements = Measurements::read(&path).expect("readable");
+            let measurements = Measurements::read(&path, entries[0].measurements()).expect("readable");
             let files = make(&*entries[0], Quality::Draft, &measurements, &Silent).expect("works");
             let stored = read(&*entries[0], &files[0].1).expect("fits");
             (stored.warnings, stored.outcome.caption())

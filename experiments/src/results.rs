@@ -43,6 +43,12 @@ pub enum ResultsError {
         /// The figure.
         id: String,
     },
+    /// The data of a figure are not those that were written.
+    #[error("{id}.json was changed since it was made")]
+    Changed {
+        /// The figure.
+        id: String,
+    },
     /// A reading names an entry of the ledger that no claim of the figure compares by a number.
     #[error("the reading of {id} names {key}, which no claim of it compares by a number")]
     Reading {
@@ -97,6 +103,10 @@ fn made(entry: &dyn Entry, folder: &OutputFolder) -> Result<Made, ResultsError> 
     let missing = || ResultsError::Missing { id: id.to_owned() };
     let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
     let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
+    // What the program did not write itself may have any form.
+    if !folder.stamp(id).ok_or_else(missing)?.holds(&format!("{id}.json"), &data) {
+        return Err(ResultsError::Changed { id: id.to_owned() });
+    }
     let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
     let outcome = product::read(entry, &data).map_err(failed)?.outcome;
     let section = section(entry, &*outcome)?;
@@ -106,7 +116,8 @@ fn made(entry: &dyn Entry, folder: &OutputFolder) -> Result<Made, ResultsError> 
     Ok(Made { outcome, digest: digest(&all), section })
 }
 
-/// Writes the page, its pictures and their digests into `docs` from the figures in both output folders.
+/// Writes the page, its pictures and their digests into `docs` from the figures in both output folders:
+/// nothing before everything is drawn, and the digests, which all is compared with, last.
 ///
 /// # Errors
 ///
@@ -119,7 +130,7 @@ pub fn write(
 ) -> Result<(), ResultsError> {
     let pictures = OutputFolder::create(docs.path().join(PICTURES_FOLDER))?;
     let mut digests = Digests::default();
-    let (mut sections, mut claims) = (String::new(), Vec::new());
+    let (mut sections, mut claims, mut files) = (String::new(), Vec::new(), Vec::new());
     for entry in entries {
         let id = entry.id();
         let failed = |source: ExperimentError| ResultsError::Figure { id: id.to_owned(), source };
@@ -129,16 +140,21 @@ pub fn write(
         let picture = figure.to_png_within(PICTURE_WIDTH).map_err(|error| failed(error.into()))?;
         let figure =
             FigureDigests { draft: made_in_draft.digest, paper: made.digest, picture: digest(&picture) };
-        pictures.write(&picture_name(id), &picture)?;
+        files.push((picture_name(id), picture));
         digests.figures.insert(id.to_owned(), figure);
         sections.push_str(&made.section);
         claims.push((id, made.outcome.claims()));
     }
     let page = format!("{}{sections}", head(&claims));
     digests.results = digest(page.as_bytes());
-    docs.write(RESULTS_FILE, page.as_bytes())?;
-    let text = serde_json::to_vec_pretty(&digests).map_err(ResultsError::Digests)?;
-    Ok(pictures.write(DIGESTS_FILE, &[text.as_slice(), b"\n"].concat())?)
+    let mut text = serde_json::to_vec_pretty(&digests).map_err(ResultsError::Digests)?;
+    text.push(b'\n');
+    files.push((DIGESTS_FILE.to_owned(), text));
+    let files: Vec<_> = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+    // Page and pictures of one run.
+    let locked = docs.lock()?;
+    locked.write(&[(RESULTS_FILE, page.as_bytes())])?;
+    Ok(pictures.lock()?.write(&files)?)
 }
 
 /// Names of committed files that are missing, were edited, or were made from other figures than those of `quality`

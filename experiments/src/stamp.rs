@@ -74,6 +74,16 @@ impl Stamp {
         Self { key: key(id, quality), measured: measured.to_owned(), quality, run_time_s, files }
     }
 
+    /// The names of its files.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().map(String::as_str)
+    }
+
+    /// Whether this is the content of the file when it was made.
+    pub fn holds(&self, name: &str, bytes: &[u8]) -> bool {
+        self.files.get(name).is_some_and(|expected| digest(bytes) == *expected)
+    }
+
     /// Compares the stamp with this version, with the digest of the measurements and with the files; `read` gives the
     /// content of a file.
     ///

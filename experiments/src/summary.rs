@@ -3,7 +3,7 @@
 use crate::claim::Claim;
 use crate::experiment::{self, Entry};
 use crate::measured::Measurements;
-use crate::output::{OutputError, OutputFolder};
+use crate::output::{LockedFolder, OutputError, OutputFolder};
 use crate::page::{self, Section};
 use crate::stamp::Stale;
 use crate::{json, product};
@@ -45,7 +45,13 @@ impl Summary {
             let id = entry.id();
             // Without a stamp the files may be from different runs.
             let Some(stamp) = folder.stamp(id) else { continue };
-            let Some(bytes) = folder.read(&format!("{id}.json"))? else { continue };
+            let name = format!("{id}.json");
+            let Some(bytes) = folder.read(&name)? else { continue };
+            // What the program did not write itself may have any form.
+            if !stamp.holds(&name, &bytes) {
+                left_out.push((id.to_owned(), Stale::File { name }.to_string()));
+                continue;
+            }
             let product::Stored { outcome, quality, warnings: own } = match product::read(&**entry, &bytes) {
                 Ok(read) => read,
                 Err(error) => {
@@ -68,7 +74,7 @@ impl Summary {
                 run_time_s: stamp.run_time_s,
                 warnings: own,
                 outdated: state.is_err(),
-                has_table: folder.path().join(format!("{id}.csv")).exists(),
+                has_table: stamp.names().any(|name| name == format!("{id}.csv")),
                 width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
             };
             claims.extend(section.claims.iter().cloned());
@@ -79,14 +85,25 @@ impl Summary {
         Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), left_out, warnings })
     }
 
-    /// Writes the common files.
+    /// Collects all figures whose results lie in the folder and writes the common files. No other run writes
+    /// meanwhile, so that the last of several runs describes what all of them have made.
     ///
     /// # Errors
     ///
-    /// When the system refuses.
-    pub fn write(&self, folder: &OutputFolder) -> Result<(), OutputError> {
-        folder.write(CLAIMS_FILE, self.claims.as_bytes())?;
-        folder.write(PAGE_FILE, self.page.as_bytes())
+    /// When a file exists and cannot be read, or the system refuses.
+    pub fn update(
+        entries: &[Box<dyn Entry>],
+        folder: &OutputFolder,
+        measurements: &Measurements,
+    ) -> Result<Self, OutputError> {
+        let locked = folder.lock()?;
+        let summary = Self::of(entries, folder, measurements)?;
+        summary.write(&locked)?;
+        Ok(summary)
+    }
+
+    fn write(&self, folder: &LockedFolder<'_>) -> Result<(), OutputError> {
+        folder.write(&[(CLAIMS_FILE, self.claims.as_bytes()), (PAGE_FILE, self.page.as_bytes())])
     }
 
     /// The names of common files that are missing or out of date.
@@ -132,7 +149,7 @@ mod tests {
         assert!(summary.claims.contains("\"verdict\": \"reproduced\""), "{}", summary.claims);
         assert!(summary.page.contains("τ_imp &amp; Γ &lt; 1"));
         assert_eq!(summary.outdated(&folder).expect("readable"), [CLAIMS_FILE, PAGE_FILE]);
-        summary.write(&folder).expect("writable");
+        assert_eq!(Summary::update(&entries, &folder, &Measurements::none()).expect("writable"), summary);
         assert!(summary.outdated(&folder).expect("readable").is_empty());
         // A record of another version.
         folder.write("demo.json", b"{}").expect("writable");

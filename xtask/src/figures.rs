@@ -1,7 +1,8 @@
 //! `cargo xtask figures`.
 
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
@@ -11,6 +12,7 @@ use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
 use bouncing_disk_experiments::stamp::Stale;
 use bouncing_disk_experiments::summary::Summary;
+use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
@@ -27,6 +29,9 @@ const DRAFTS_FOLDER: &str = "draft";
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
+/// The most computing threads: more than any machine has that this runs on, and few enough to be started at
+/// once. Tens of thousands take minutes to start and more to find that there is nothing to do.
+const MOST_THREADS: i64 = 1024;
 /// The exit status for a wrong command line, the same as that of the argument parser.
 const USAGE: u8 = 2;
 
@@ -57,9 +62,9 @@ pub(crate) struct Options {
     /// Make figures again even when they are up to date
     #[arg(long)]
     force: bool,
-    /// Threads to compute with; as many as there are processors unless given
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    /// Threads to compute with, 1 to 1024; as many as there are processors unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    threads: Option<u16>,
 }
 
 impl Options {
@@ -83,13 +88,32 @@ impl Options {
         }
         for (option, folder) in [("--out", &self.out), ("--measured", &self.measured)] {
             let Some(folder) = folder else { continue };
-            let folder = folder.to_string_lossy();
-            let quoted = folder.contains(|c: char| c.is_whitespace() || c == '\'');
-            let folder =
-                if quoted { format!("'{}'", folder.replace('\'', r"'\''")) } else { folder.into_owned() };
+            let folder = shell_word(folder.as_os_str());
             command.push_str(&format!(" {option} {folder}"));
         }
         command
+    }
+}
+
+/// A word that a shell reads back as this text. The command it is part of is there to be copied.
+fn shell_word(text: &OsStr) -> String {
+    let bytes = text.as_encoded_bytes();
+    let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"/._-+=:,@%".contains(byte);
+    match text.to_str() {
+        Some(text) if !bytes.is_empty() && bytes.iter().all(plain) => text.to_owned(),
+        Some(text) if visible(text) == text => format!("'{}'", text.replace('\'', r"'\''")),
+        _ => {
+            let mut word = "$'".to_owned();
+            for byte in bytes {
+                match byte {
+                    b'\'' | b'\\' => word.extend(['\\', char::from(*byte)]),
+                    b' '..=b'~' => word.push(char::from(*byte)),
+                    _ => word.push_str(&format!("\\x{byte:02x}")),
+                }
+            }
+            word.push('\'');
+            word
+        }
     }
 }
 
@@ -106,11 +130,18 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let folder = options.measured_folder();
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        complain!("error: --measured {}: there is no such folder", folder.display());
+        complain!("error: --measured {}: there is no such folder", visible_path(&folder));
         return Ok(ExitCode::from(USAGE));
     }
-    let measurements = Measurements::read(&folder)
-        .with_context(|| format!("cannot read the measurements in {}", folder.display()))?;
+    let measurements = Measurements::read(&folder, &registry::measurements(&entries))
+        .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
+    if is_same_folder(&options.folder(), &folder) {
+        complain!(
+            "error: {} is the folder of the measurements; --out must be another",
+            visible_path(&folder)
+        );
+        return Ok(ExitCode::from(USAGE));
+    }
     if options.list {
         return list(options, &selected, &measurements);
     }
@@ -124,6 +155,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         return write_docs(&run, &folder);
     }
     make(&run, options.quality, &measurements, &folder)
+}
+
+/// Whether both exist and are the same, by whatever path. Tables would be taken for measurements.
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 /// What is to be made.
@@ -145,7 +181,7 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
     results::write(run.entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
-    say!("{} is up to date", docs.path().join(results::RESULTS_FILE).display())?;
+    say!("{} is up to date", visible_path(&docs.path().join(results::RESULTS_FILE)))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -157,7 +193,7 @@ fn start_threads(options: &Options) -> anyhow::Result<()> {
 }
 
 fn threads(options: &Options) -> usize {
-    options.threads.map_or_else(available_threads, NonZeroUsize::get)
+    options.threads.map_or_else(available_threads, usize::from)
 }
 
 fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> anyhow::Result<ExitCode> {
@@ -186,7 +222,6 @@ fn state(
 /// What is wrong with the measurements for the selected figures, and with files that no figure reads.
 fn faults(
     options: &Options,
-    entries: &[Box<dyn Entry>],
     selected: &[&dyn Entry],
     measurements: &Measurements,
     summary: &Summary,
@@ -196,13 +231,13 @@ fn faults(
         .iter()
         .filter(|(id, _)| selected.iter().any(|entry| entry.id() == id))
         .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
-    let unknown = measurements.unknown(&registry::measurements(entries));
+    let unknown = measurements.unknown();
     let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
     if !faults.is_empty() {
         let folder = options.measured_folder();
         faults.push(format!(
             "measurements are read from {}; its README.md states their form",
-            folder.display()
+            visible_path(&folder)
         ));
     }
     faults
@@ -227,7 +262,7 @@ fn check(
     for name in &common {
         say!("{name}: missing or out of date")?;
     }
-    let faults = faults(options, entries, selected, measurements, &summary);
+    let faults = faults(options, selected, measurements, &summary);
     for fault in &faults {
         say!("{fault}")?;
     }
@@ -250,7 +285,7 @@ fn check(
         if !committed.is_empty() || !faults.is_empty() {
             return Ok(ExitCode::FAILURE);
         }
-        say!("all outputs in {} and the documentation are up to date", folder.path().display())?;
+        say!("all outputs in {} and the documentation are up to date", visible_path(folder.path()))?;
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
@@ -280,13 +315,19 @@ fn make(
     let report = Report::new();
     let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
     report.close();
-    let summary = Summary::of(entries, folder, measurements)?;
-    summary.write(folder)?;
+    let summary = match Summary::update(entries, folder, measurements) {
+        Ok(summary) => summary,
+        Err(error) => {
+            // What one full disk has done to the figures, too, is not known otherwise.
+            say_failures(options, &finished)?;
+            return Err(error.into());
+        }
+    };
     for (id, reason) in &summary.left_out {
         say!("{id}: not in the gallery and in claims.json: {reason}")?;
         say!("    make it again: {}", options.command(&[id]))?;
     }
-    let faults = faults(options, entries, selected, measurements, &summary);
+    let faults = faults(options, selected, measurements, &summary);
     conclude(options, &finished, folder, &faults)
 }
 
@@ -308,24 +349,29 @@ fn conclude(
             say!("{:<8} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
         }
     }
-    say!("\nfigures, claims.json and index.html are in {}", folder.path().display())?;
-    let failed: Vec<_> =
-        finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
+    say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
     if !faults.is_empty() {
         say!("")?;
     }
     for fault in faults {
         say!("{fault}")?;
     }
-    if failed.is_empty() {
-        return Ok(if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE });
+    let failures = say_failures(options, finished)?;
+    Ok(if failures == 0 && faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Prints why figures have failed, and gives their number.
+fn say_failures(options: &Options, finished: &[Finished]) -> anyhow::Result<usize> {
+    let failed: Vec<_> =
+        finished.iter().filter_map(|f| f.result.as_ref().err().map(|error| (f.id, error))).collect();
+    if !failed.is_empty() {
+        say!("\n{} of {} failed", failed.len(), finished.len())?;
     }
-    say!("\n{} of {} failed", failed.len(), finished.len())?;
-    for (id, error) in failed {
+    for (id, error) in &failed {
         say!("{id}: {error:#}")?;
         say!("    run it again: {}", options.command(&[id]))?;
     }
-    Ok(ExitCode::FAILURE)
+    Ok(failed.len())
 }
 
 fn available_threads() -> usize {
@@ -357,6 +403,18 @@ mod tests {
             options(Quality::Draft, Some("my figures")).command(&["fig06"]),
             "cargo xtask figures fig06 --quality draft --out 'my figures'"
         );
+        for (folder, word) in [
+            ("$(reboot)", "'$(reboot)'"),
+            ("it's", r"'it'\''s'"),
+            ("a\nb\u{1b}'", r"$'a\x0ab\x1b\''"),
+            ("", "''"),
+            ("/tmp/a_b-1.2", "/tmp/a_b-1.2"),
+        ] {
+            assert_eq!(
+                options(Quality::Paper, Some(folder)).command(&[]),
+                format!("cargo xtask figures --out {word}")
+            );
+        }
     }
 
     #[test]

@@ -3,14 +3,19 @@
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 
-/// Writes a line. A reader that has gone, as `head` does, wanted no more: that is no error.
+use bouncing_disk_experiments::visible::visible;
+
+/// Writes a line, or several, with everything escaped that a terminal would obey instead of showing it. A
+/// reader that has gone, as `head` does, wanted no more: that is no error.
 ///
 /// # Errors
 ///
 /// Other errors of the system, such as a full disk.
 pub(crate) fn line(mut to: impl Write, text: Arguments<'_>) -> io::Result<()> {
+    let text = text.to_string();
+    let lines: Vec<_> = text.split('\n').map(visible).collect();
     // One call, so that lines of several threads do not mix.
-    match to.write_all(format!("{text}\n").as_bytes()) {
+    match to.write_all((lines.join("\n") + "\n").as_bytes()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         written => written,
     }
@@ -56,5 +61,12 @@ mod tests {
         let mut text = Vec::new();
         line(&mut text, format_args!("{} of {}", 1, 2)).expect("a vector takes everything");
         assert_eq!(text, b"1 of 2\n");
+    }
+
+    #[test]
+    fn a_terminal_is_told_nothing_but_text() {
+        let mut text = Vec::new();
+        line(&mut text, format_args!("\nα̇ \u{1b}[2Jb\r")).expect("a vector takes everything");
+        assert_eq!(String::from_utf8(text).expect("text"), "\nα̇ \\u{1b}[2Jb\\r\n");
     }
 }

@@ -3,6 +3,7 @@
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
@@ -36,16 +37,21 @@ pub(crate) fn make_all(
 ) -> Vec<Finished> {
     let next = AtomicUsize::new(0);
     let finished = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..threads.min(entries.len()) {
-            scope.spawn(|| {
-                while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let figure = make(*entry, quality, measurements, folder, report);
-                    // A poisoned lock holds intact results: a push is the only thing done under it.
-                    finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
-                }
-            });
+    thread::scope(|scope| {
+        let work = || {
+            while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let figure = make(*entry, quality, measurements, folder, report);
+                // A poisoned lock holds intact results: a push is the only thing done under it.
+                finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
+            }
+        };
+        for _ in 1..threads.min(entries.len()) {
+            // A system that gives no more threads makes it slower, no more.
+            if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
         }
+        work();
     });
     finished.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
 }

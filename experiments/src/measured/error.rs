@@ -1,6 +1,7 @@
 //! What can be wrong with a file of measurements.
 
 use super::layout::Range;
+use crate::visible::{Excerpt, visible};
 
 /// A fault in a file of measurements. Lines and columns are counted from 1.
 #[derive(Debug, thiserror::Error)]
@@ -15,10 +16,18 @@ pub enum MeasuredError {
         source: std::sync::Arc<std::io::Error>,
     },
     /// No figure reads a file of this name.
-    #[error("no figure reads a file called {file}; legal names are {}", legal.join(", "))]
+    #[error("no figure reads a file called {}; legal names are {}", visible(file), legal.join(", "))]
     UnknownFile {
         /// The file.
         file: String,
+        /// The names that are read.
+        legal: Vec<&'static str>,
+    },
+    /// No figure reads these files, either, which are too many to name.
+    #[error("no figure reads {files} more files; legal names are {}", legal.join(", "))]
+    UnknownFiles {
+        /// How many they are.
+        files: usize,
         /// The names that are read.
         legal: Vec<&'static str>,
     },
@@ -53,7 +62,7 @@ pub enum MeasuredError {
         legal: String,
     },
     /// The header has a name that is not known.
-    #[error("{file}, line {line}, column {column}: the header has \"{value}\"; legal is {legal}")]
+    #[error("{file}, line {line}, column {column}: the header has {value}; legal is {legal}")]
     UnknownColumn {
         /// The file.
         file: &'static str,
@@ -62,7 +71,7 @@ pub enum MeasuredError {
         /// The column.
         column: usize,
         /// The name found.
-        value: String,
+        value: Excerpt,
         /// The header.
         legal: String,
     },
@@ -105,7 +114,7 @@ pub enum MeasuredError {
         columns: usize,
     },
     /// A field is not a number.
-    #[error("{file}, line {line}, column {column} ({name}): \"{value}\" is not a number; legal is {legal}")]
+    #[error("{file}, line {line}, column {column} ({name}): {value} is not a number; legal is {legal}")]
     NotANumber {
         /// The file.
         file: &'static str,
@@ -116,12 +125,12 @@ pub enum MeasuredError {
         /// The name of the column.
         name: &'static str,
         /// The text of the field.
-        value: String,
+        value: Excerpt,
         /// The legal values.
         legal: Range,
     },
-    /// A number is outside its legal range.
-    #[error("{file}, line {line}, column {column} ({name}): {value} is not legal; legal is {legal}")]
+    /// A number is outside its legal range, or so large or small that there is no such double.
+    #[error("{file}, line {line}, column {column} ({name}): {} is not legal; legal is {legal}", value.bare())]
     OutOfRange {
         /// The file.
         file: &'static str,
@@ -131,8 +140,8 @@ pub enum MeasuredError {
         column: usize,
         /// The name of the column.
         name: &'static str,
-        /// The number.
-        value: f64,
+        /// The number as it is written.
+        value: Excerpt,
         /// The legal values.
         legal: Range,
     },
@@ -193,6 +202,16 @@ pub enum MeasuredError {
         previous: f64,
         /// The trial, where there are trials.
         trial: Option<u32>,
+    },
+    /// There are more lines of numbers than a picture can show.
+    #[error("{file}, line {line}: the file has more than {most} lines of numbers; legal are {most} or fewer")]
+    TooLong {
+        /// The file.
+        file: &'static str,
+        /// The first line too many.
+        line: usize,
+        /// The most.
+        most: usize,
     },
     /// There are too few lines of numbers.
     #[error("{file}, line {line}: the file ends after {rows} lines of numbers; legal is {least} or more")]

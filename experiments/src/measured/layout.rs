@@ -6,12 +6,23 @@ pub const LARGEST: f64 = 1e9;
 /// The smallest legal value where 0 is not legal, so that a logarithm or a quotient of two such values is finite.
 pub const SMALLEST: f64 = 1e-12;
 
+/// The smallest legal magnitude other than 0 where 0 is legal: less than any rounding of a program that has
+/// written the file, and enough that squares and quotients of legal numbers keep all their digits.
+pub const TINIEST: f64 = 1e-30;
+
+/// The largest file that is read (bytes).
+pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// The most lines of numbers: many more than a picture can show, and the time to draw crosses grows with the
+/// square of their number, from two seconds for as many as these.
+pub const MOST_ROWS: usize = 10_000;
+
 /// The legal values of a column. Numbers that are not finite are never legal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Range {
-    /// Either sign, up to [`LARGEST`] in magnitude.
+    /// Either sign, up to [`LARGEST`] in magnitude; 0, or [`TINIEST`] or more in magnitude.
     Signed,
-    /// From 0 to [`LARGEST`].
+    /// From 0 to [`LARGEST`]; 0, or [`TINIEST`] or more.
     NotNegative,
     /// From [`SMALLEST`] to [`LARGEST`].
     Positive,
@@ -26,7 +37,7 @@ impl Range {
             Self::Whole(last) => whole(number).is_some_and(|whole| (1..=last).contains(&whole)),
             _ => {
                 let (low, high) = self.ends();
-                (low..=high).contains(&number)
+                (low..=high).contains(&number) && (number == 0.0 || number.abs() >= TINIEST)
             }
         }
     }
@@ -53,8 +64,16 @@ impl std::fmt::Display for Range {
         let (low, high) = self.ends();
         match self {
             Self::Whole(_) => write!(formatter, "a whole number from {low} to {high}"),
-            Self::NotNegative => write!(formatter, "a number from {low} to {high:e}"),
-            _ => write!(formatter, "a number from {low:e} to {high:e}"),
+            Self::NotNegative => {
+                write!(formatter, "a number from {low} to {high:e}, either 0 or {TINIEST:e} or more")
+            }
+            Self::Signed => {
+                write!(
+                    formatter,
+                    "a number from {low:e} to {high:e}, either 0 or {TINIEST:e} or more in magnitude"
+                )
+            }
+            Self::Positive => write!(formatter, "a number from {low:e} to {high:e}"),
         }
     }
 }

@@ -6,7 +6,8 @@
 use std::collections::BTreeMap;
 
 use super::error::MeasuredError;
-use super::layout::{Column, Layout, Role, whole};
+use super::layout::{Column, Layout, MOST_ROWS, Range, Role, whole};
+use crate::visible::Excerpt;
 
 /// The numbers of a file and where they are in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,9 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
         line = number;
         let row = header.row(line, fields)?;
         order.check(&header, line, &row)?;
+        if rows.values.len() == MOST_ROWS {
+            return Err(MeasuredError::TooLong { file: layout.file, line, most: MOST_ROWS });
+        }
         rows.values.push(row);
         rows.lines.push(line);
     }
@@ -91,7 +95,7 @@ impl<'a> Header<'a> {
         for (place, name) in fields(names).enumerate() {
             let column = place + 1;
             let Some(index) = layout.columns.iter().position(|column| column.name == name) else {
-                let (value, legal) = (name.to_owned(), layout.header());
+                let (value, legal) = (Excerpt::of(name), layout.header());
                 return Err(MeasuredError::UnknownColumn { file, line, column, value, legal });
             };
             if places[index].replace(place).is_some() {
@@ -116,31 +120,42 @@ impl<'a> Header<'a> {
 
     fn row(&self, line: usize, text: &str) -> Result<Vec<f64>, MeasuredError> {
         let file = self.layout.file;
-        let values: Vec<&str> = fields(text).collect();
-        let (fields, columns) = (values.len(), self.places.len());
-        if fields != columns {
-            let column = fields.min(columns) + 1;
-            return Err(MeasuredError::Fields { file, line, column, fields, columns });
+        // Counted before they are collected: a line may have any number of them.
+        let (count, columns) = (fields(text).count(), self.places.len());
+        if count != columns {
+            let column = count.min(columns) + 1;
+            return Err(MeasuredError::Fields { file, line, column, fields: count, columns });
         }
+        let values: Vec<&str> = fields(text).collect();
         let number = |(place, column): (&usize, &Column)| {
             let (text, name, legal) = (values[*place], column.name, column.range);
-            let column = place + 1;
-            let value: f64 = text.parse().map_err(|_| MeasuredError::NotANumber {
-                file,
-                line,
-                column,
-                name,
-                value: text.to_owned(),
-                legal,
-            })?;
-            if legal.holds(value) {
-                Ok(value)
-            } else {
-                Err(MeasuredError::OutOfRange { file, line, column, name, value, legal })
+            let (column, value) = (place + 1, || Excerpt::of(text));
+            match number(text, legal) {
+                Some(Ok(number)) => Ok(number),
+                Some(Err(OutsideRange)) => {
+                    Err(MeasuredError::OutOfRange { file, line, column, name, value: value(), legal })
+                }
+                None => Err(MeasuredError::NotANumber { file, line, column, name, value: value(), legal }),
             }
         };
         self.places.iter().zip(self.layout.columns).map(number).collect()
     }
+}
+
+/// A number that is not legal.
+struct OutsideRange;
+
+/// The number that a field states; `None` if it states none, as "inf" does.
+fn number(text: &str, legal: Range) -> Option<Result<f64, OutsideRange>> {
+    let number: f64 = text.parse().ok()?;
+    let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
+    if !number.is_finite() && !mantissa.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    // 1e-400 is not 0, though the nearest double is.
+    let vanished = number == 0.0 && mantissa.contains(|c: char| c.is_ascii_digit() && c != '0');
+    // The sign of a zero means nothing here.
+    Some(if legal.holds(number) && !vanished { Ok(number + 0.0) } else { Err(OutsideRange) })
 }
 
 /// Checks what rises or stays the same within a trial.
@@ -268,23 +283,29 @@ mod tests {
     fn a_malformed_field_is_named_with_line_column_and_legal_values() {
         assert_eq!(
             fault_of("1,0.3,0.1,fast"),
-            "demo.csv, line 3, column 4 (speed_rad_per_s): \"fast\" is not a number; legal is a number from 0 to 1e9"
+            "demo.csv, line 3, column 4 (speed_rad_per_s): \"fast\" is not a number; legal is a number from 0 to 1e9, \
+             either 0 or 1e-30 or more"
         );
         assert!(fault_of("1,0.3,,19").contains("line 3, column 3 (time_s): \"\" is not a number"));
-        for (text, shown) in [
-            ("NaN", "NaN"),
-            ("inf", "inf"),
-            ("-inf", "-inf"),
-            ("1e999", "inf"),
-            ("-2", "-2"),
-            ("2e9", "2000000000"),
-        ] {
+        for text in ["NaN", "inf", "-inf", "+Infinity"] {
+            assert!(
+                fault_of(&format!("1,0.3,0.1,{text}")).contains(&format!(": \"{text}\" is not a number;"))
+            );
+        }
+        for text in ["1e999", "-1e400", "-2", "2e9", "1e308", "1e-310", "1e-400", "0.0001e-999", "1e-31"] {
             assert_eq!(
                 fault_of(&format!("1,0.3,0.1,{text}")),
                 format!(
-                    "demo.csv, line 3, column 4 (speed_rad_per_s): {shown} is not legal; legal is a number from 0 to 1e9"
+                    "demo.csv, line 3, column 4 (speed_rad_per_s): {text} is not legal; legal is a number from 0 to \
+                     1e9, either 0 or 1e-30 or more"
                 )
             );
+            assert!(fault_of(&format!("1,0.3,{text},2")).contains(&format!("(time_s): {text} is not legal")));
+        }
+        for text in ["0", "-0", "0e999", "0.000e-999", "1e-30", "1e9"] {
+            let read =
+                rows(&LAYOUT, format!("{HEADER}1,0.3,0,{text}\n1,0.3,1,0\n").as_bytes()).expect("legal");
+            assert!(read.values[0][3].is_sign_positive());
         }
         assert!(
             fault_of("1,0,0.1,19")
@@ -297,6 +318,36 @@ mod tests {
                 "{text}"
             );
         }
+    }
+
+    #[test]
+    fn what_a_message_quotes_is_short_and_visible() {
+        let long = "9".repeat(5_000_000);
+        let cut = format!("{}… (5000000 characters) is not legal", "9".repeat(40));
+        assert!(fault_of(&format!("1,0.3,0.1,{long}")).contains(&cut));
+        let text = fault_of(&format!("1,0.3,0.1,\u{1b}[2J{}", "x".repeat(5_000_000)));
+        assert!(
+            text.contains(r#""\u{1b}[2Jxxx"#) && text.contains("…\" (5000004 characters) is not a number")
+        );
+        assert!(text.len() < 300, "{text}");
+        let text = fault(format!("trial,\u{202e}{}\n", "y".repeat(5_000_000)));
+        assert!(text.contains(r#"the header has "\u{202e}yyy"#) && text.len() < 300, "{text}");
+        // Line ends of another kind, and an encoding of two bytes a letter.
+        assert!(fault("trial\r1\r").contains(r#"the header has "trial\r1""#));
+        assert!(fault("t\0r\0").contains(r#"the header has "t\u{0}r"#));
+        assert!(
+            fault_of(&",".repeat(1_000_000)).ends_with("column 5: the line has 1000001 fields; legal is 4")
+        );
+    }
+
+    #[test]
+    fn a_record_longer_than_a_picture_can_show_is_refused() {
+        let lines = (0..MOST_ROWS).fold(HEADER.to_owned(), |text, line| text + &format!("1,0.3,{line},2\n"));
+        assert_eq!(rows(&LAYOUT, lines.as_bytes()).expect("as many as are legal").values.len(), MOST_ROWS);
+        assert_eq!(
+            fault(lines + "2,0.3,0,2\n"),
+            "demo.csv, line 10002: the file has more than 10000 lines of numbers; legal are 10000 or fewer"
+        );
     }
 
     #[test]

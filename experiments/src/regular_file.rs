@@ -1,0 +1,119 @@
+//! Reads files that somebody else may have put in their place.
+
+use std::fs::{self, File, FileType};
+use std::io::{self, ErrorKind, Read as _};
+use std::path::Path;
+
+/// What is there is no regular file. To open a named pipe waits for a writer, and a device may never end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("it is {found}; legal is a regular file")]
+pub struct NotRegular {
+    /// What it is.
+    pub found: &'static str,
+}
+
+/// A file is larger than is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("it has {bytes} bytes; legal are {largest} or fewer")]
+pub struct TooLarge {
+    /// Its length, as far as it is known.
+    pub bytes: u64,
+    /// The largest that is read.
+    pub largest: u64,
+}
+
+/// The content of a regular file, or of one that a symbolic link leads to, of at most `largest` bytes.
+///
+/// What kind of file it is, is asked before it is opened. Somebody who puts a pipe in its place between the
+/// two makes this wait; the standard library has no portable way to open without waiting.
+///
+/// # Errors
+///
+/// What the system reports; with [`NotRegular`] or [`TooLarge`] inside where the file is one of these.
+pub(crate) fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
+    must_be_regular(fs::metadata(path)?.file_type())?;
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    must_be_regular(metadata.file_type())?;
+    let too_large = |bytes| io::Error::new(ErrorKind::FileTooLarge, TooLarge { bytes, largest });
+    if metadata.len() > largest {
+        return Err(too_large(metadata.len()));
+    }
+    let mut bytes = Vec::new();
+    // It may grow while it is read, and some file systems state no length.
+    file.take(largest.saturating_add(1)).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 {
+        length if length > largest => Err(too_large(length)),
+        _ => Ok(bytes),
+    }
+}
+
+fn must_be_regular(kind: FileType) -> io::Result<()> {
+    if kind.is_file() {
+        return Ok(());
+    }
+    let (kind_of_error, found) = if kind.is_dir() {
+        (ErrorKind::IsADirectory, "a folder")
+    } else {
+        (ErrorKind::InvalidInput, special(kind))
+    };
+    Err(io::Error::new(kind_of_error, NotRegular { found }))
+}
+
+#[cfg(unix)]
+fn special(kind: FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt as _;
+    if kind.is_fifo() {
+        "a named pipe"
+    } else if kind.is_socket() {
+        "a socket"
+    } else {
+        "a device"
+    }
+}
+
+#[cfg(not(unix))]
+fn special(_: FileType) -> &'static str {
+    "a pipe, socket or device"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_within_the_limit_are_read() {
+        let path = std::env::temp_dir().join(format!("bouncing-disk-regular-{}", std::process::id()));
+        fs::create_dir_all(&path).expect("writable");
+        let file = path.join("file");
+        fs::write(&file, b"1234").expect("writable");
+        assert_eq!(read(&file, 4).expect("regular"), b"1234");
+        let error = read(&file, 3).expect_err("too large");
+        assert_eq!(error.to_string(), "it has 4 bytes; legal are 3 or fewer");
+        let error = read(&path, 4).expect_err("a folder");
+        assert_eq!(error.to_string(), "it is a folder; legal is a regular file");
+        assert_eq!(read(&path.join("none"), 4).expect_err("absent").kind(), ErrorKind::NotFound);
+        fs::remove_dir_all(path).expect("removable");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_to_what_it_names() {
+        use std::os::unix::fs::symlink;
+        let path = std::env::temp_dir().join(format!("bouncing-disk-links-{}", std::process::id()));
+        fs::create_dir_all(&path).expect("writable");
+        fs::write(path.join("file"), b"1").expect("writable");
+        symlink("file", path.join("link")).expect("writable");
+        assert_eq!(read(&path.join("link"), 9).expect("a link to a file"), b"1");
+        symlink("nowhere", path.join("dangling")).expect("writable");
+        assert_eq!(read(&path.join("dangling"), 9).expect_err("dangles").kind(), ErrorKind::NotFound);
+        symlink("/dev/zero", path.join("endless")).expect("writable");
+        let error = read(&path.join("endless"), 9).expect_err("never ends");
+        assert_eq!(error.to_string(), "it is a device; legal is a regular file");
+        // Made by the socket itself; a pipe needs a program of the system (xtask/tests/files.rs).
+        let _socket = std::os::unix::net::UnixListener::bind(path.join("socket")).expect("writable");
+        let error = read(&path.join("socket"), 9).expect_err("a socket");
+        assert_eq!(error.to_string(), "it is a socket; legal is a regular file");
+        fs::remove_dir_all(path).expect("removable");
+    }
+}
