@@ -378,6 +378,47 @@ mod tests {
     }
 
     #[test]
+    fn a_claim_says_what_it_was_made_of() {
+        let claim =
+            Claim::number("fig10", "Sec. V", "speed", "rad/s", "14 ± 5", 14.25).note("one").note("two");
+        assert_eq!([claim.id(), claim.place(), claim.quantity()], ["fig10", "Sec. V", "speed"]);
+        assert_eq!([claim.unit(), claim.printed_text(), claim.remarks()], ["rad/s", "14 ± 5", "one; two"]);
+        assert_eq!((claim.computed(), claim.tolerance()), (&Computed::Number(14.25), Some(0.5)));
+        assert_eq!(claim.source(), &Source::ThisWork);
+        assert_eq!(
+            [Verdict::Reproduced, Verdict::Differs, Verdict::NotComputable].map(Verdict::name),
+            ["reproduced", "differs", "not-computable"]
+        );
+    }
+
+    /// A tolerance belongs to two numbers: what is not compared has none.
+    #[test]
+    fn what_compares_no_numbers_has_no_tolerance() {
+        let label = Claim::label("fig04", "text", "optimum", "θ = 0", "θ = 1").within(2.0);
+        assert_eq!((label.tolerance(), label.verdict()), (None, Verdict::Differs));
+        let unread = Claim::number("fig06", "caption", "ratio", "", "about five", 5.0).within(2.0);
+        assert_eq!((unread.tolerance(), unread.verdict()), (None, Verdict::Differs));
+        let infinite = Claim::number("fig06", "caption", "ratio", "", "5", f64::INFINITY).within(2.0);
+        assert_eq!((infinite.tolerance(), infinite.verdict()), (Some(0.5), Verdict::Differs));
+    }
+
+    /// Half a unit of the last digit, where the product with the unit may be rounded, and no more.
+    #[test]
+    fn half_a_unit_of_the_last_digit_is_agreement() {
+        let verdict =
+            |printed: &str, value| Claim::number("fig06", "text", "Γ", "", printed, value).verdict();
+        for sign in ["", "-"] {
+            let at = |value: f64| if sign.is_empty() { value } else { -value };
+            assert_eq!(verdict(&format!("{sign}0.7"), at(0.75)), Verdict::Reproduced);
+            assert_eq!(verdict(&format!("{sign}0.7"), at(0.65)), Verdict::Reproduced);
+            assert_eq!(verdict(&format!("{sign}0.7"), at(0.750_001)), Verdict::Differs);
+            assert_eq!(verdict(&format!("{sign}0.7"), at(0.649_999)), Verdict::Differs);
+        }
+        let tolerance = |printed: &str| Claim::number("fig06", "text", "Γ", "", printed, 1.0).tolerance();
+        assert!(tolerance("0.323").is_some_and(|half_unit| (half_unit - 5e-4).abs() < 1e-12));
+    }
+
+    #[test]
     fn the_verdict_is_computed() {
         let claim = |value| {
             Claim::number("fig06", "caption", "Γ at the first doubling", "", "0.486", value).verdict()

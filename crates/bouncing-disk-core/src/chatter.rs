@@ -449,4 +449,209 @@ mod tests {
         }
         assert!(summed > 20_000, "{summed}");
     }
+
+    /// Arithmetic of 160 bits: what the expansion leaves is far above its rounding, and far below that of doubles.
+    type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
+
+    fn high(x: f64) -> High {
+        High::try_from(x).expect("finite").with_precision(160).value()
+    }
+
+    fn low(x: &High) -> f64 {
+        x.to_f64().value()
+    }
+
+    /// 1 - cos h and h - sin h of a short h, as their power series.
+    fn versine_and_deficit(h: &High) -> (High, High) {
+        let square = h * h;
+        let (mut term, mut versine, mut deficit) = (high(1.0), high(0.0), high(0.0));
+        for k in 1..10 {
+            term = -(term * &square) / high(f64::from((2 * k - 1) * (2 * k)));
+            versine -= &term;
+            deficit -= &term * h / high(f64::from(2 * k + 1));
+        }
+        (versine, deficit)
+    }
+
+    /// A chatter followed flight by flight in high precision, from the gap itself: it knows nothing of the expansion.
+    struct Bounces {
+        /// P sin and P cos of the phase of the last impact.
+        sine: High,
+        cosine: High,
+    }
+
+    impl Bounces {
+        fn from(expansion: &Expansion) -> Self {
+            Self { sine: high(1.0) - high(expansion.pull), cosine: high(expansion.drift) }
+        }
+
+        /// Duration and impact speed of the flight after a launch with this speed.
+        fn fly(&mut self, launch: &High) -> (High, High) {
+            let pull = high(1.0) - &self.sine;
+            let mut h = high(2.0) * launch / pull;
+            loop {
+                let (versine, deficit) = versine_and_deficit(&h);
+                let gap = &h * (launch - &h / high(2.0)) + &self.sine * &versine + &self.cosine * &deficit;
+                let slope = launch - &h + &self.cosine * &versine + &self.sine * (&h - &deficit);
+                let ratio = &gap / &h;
+                // Newton's step on gap/h.
+                let step = &gap / (&slope - &ratio);
+                if low(&step).abs() <= 1e-36 * low(&h) {
+                    let sin_h = &h - &deficit;
+                    let sine = &self.sine - &self.sine * &versine + &self.cosine * &sin_h;
+                    self.cosine = &self.cosine - &self.cosine * &versine - &self.sine * &sin_h;
+                    self.sine = sine;
+                    return (h, -slope);
+                }
+                h -= step;
+            }
+        }
+
+        /// Time to the accumulation point after a launch with this speed.
+        fn duration(mut self, speed: f64, restitution: f64) -> High {
+            let (mut launch, mut time) = (high(speed), high(0.0));
+            while low(&launch) > 1e-20 * speed {
+                let (flight, impact_speed) = self.fly(&launch);
+                time += flight;
+                launch = impact_speed * high(restitution);
+            }
+            // What is left, to its first order.
+            time + high(2.0) * launch / ((high(1.0) - self.sine) * (high(1.0) - high(restitution)))
+        }
+    }
+
+    /// Pulls about 1 (where the platform is in the middle of its stroke), weak and strong ones, and drifts of both signs.
+    fn expansions() -> impl Iterator<Item = Expansion> {
+        [
+            (1.0, 0.75),
+            (1.0, -1.5),
+            (0.5, 0.5),
+            (0.625, -1.0),
+            (2.5, 1.25),
+            (3.0, -4.0),
+            (1.75, 0.0),
+            (0.0625, 3.0),
+            (0.001_953_125, 32.0),
+        ]
+        .into_iter()
+        .flat_map(|(pull, drift)| {
+            [0.125, 0.5, 0.8125].map(|restitution| Expansion { pull, drift, restitution })
+        })
+    }
+
+    /// 1 + |b|/a + sqrt(|a - 1|/a): the growth of the coefficients from one order to the next.
+    fn growth(expansion: &Expansion) -> f64 {
+        let Expansion { pull, drift, .. } = *expansion;
+        1.0 + (drift / pull).abs() + ((pull - 1.0) / pull).abs().sqrt()
+    }
+
+    /// What a series to the fourth order leaves is of the fifth: half the speed leaves a thirty-second of it. One unit
+    /// less in one coefficient would leave a sixteenth.
+    #[test]
+    fn the_sum_is_exact_to_the_fourth_order() {
+        for expansion in expansions() {
+            let restitution = expansion.restitution;
+            let x = libm::ldexp(1.0, -10) / growth(&expansion);
+            let speed = x * (expansion.pull * (1.0 - restitution));
+            let left = |speed: f64| {
+                low(&(Bounces::from(&expansion).duration(speed, restitution)
+                    - high(expansion.duration(speed))))
+            };
+            let bound = expansion.error_bound(x).expect("small");
+            let (whole, half) = (left(speed), left(0.5 * speed));
+            let odd = (whole - 32.0 * half) / bound;
+            assert!(odd.abs() <= 1e-3, "{odd} of the bound");
+        }
+    }
+
+    #[test]
+    fn a_flight_is_exact_to_the_fourth_order() {
+        for expansion in expansions() {
+            let x = libm::ldexp(1.0, -9) / growth(&expansion);
+            let left = |speed: f64| {
+                let (flight, impact_speed) = Bounces::from(&expansion).fly(&high(speed));
+                let (own_flight, own_speed) = expansion.flight(speed);
+                [low(&(flight - high(own_flight))), low(&(impact_speed - high(own_speed))) / expansion.pull]
+            };
+            let bound = expansion.error_bound(x).expect("small");
+            let (whole, half) = (left(x * expansion.pull), left(0.5 * x * expansion.pull));
+            for (whole, half) in whole.into_iter().zip(half) {
+                let odd = (whole - 32.0 * half) / bound;
+                assert!(odd.abs() <= 1e-3, "{odd} of the bound");
+            }
+        }
+    }
+
+    /// The majorant holds up to the largest expansion parameter, and is not idle: what is left comes near to it.
+    #[test]
+    fn the_error_bound_is_above_the_error_and_of_its_size() {
+        let mut largest = 0.0_f64;
+        for expansion in expansions() {
+            let growth = growth(&expansion);
+            let x = (1.0 - 1e-9) / (32.0 * growth);
+            assert!(expansion.error_bound(x * (1.0 + 2e-9)).is_none(), "too large for the majorant");
+            for x in [x, 0.5 * x] {
+                let speed = x * (expansion.pull * (1.0 - expansion.restitution));
+                let exact = Bounces::from(&expansion).duration(speed, expansion.restitution);
+                let left = low(&(exact - high(expansion.duration(speed)))).abs();
+                let share = left / expansion.error_bound(x).expect("small enough");
+                assert!(share <= 1.0, "{share}");
+                largest = largest.max(share);
+            }
+        }
+        assert!(largest > 0.3, "{largest}");
+    }
+
+    /// Where the platform falls away is told by the phase, not by the force, which rounds there.
+    #[test]
+    fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
+        let mut pulled_off = 0;
+        for k in 1..10_000 {
+            let vibration = Vibration::new(1.0 + 20.0 * spread(k, 0.754_877_666)).expect("legal");
+            let below = f64::from_bits(vibration.separation_angle.to_bits() - 1);
+            for (angle, rests) in [
+                (below, true),
+                (vibration.separation_angle, false),
+                (f64::from_bits(vibration.retention_angle.to_bits() - 1), false),
+                (vibration.retention_angle, true),
+            ] {
+                let phase = Phase::new(angle).expect("finite");
+                let at_rest = Accumulation { duration: 0.0, error_bound: 0.0, phase, turns: 0 };
+                assert_eq!(vibration.accumulation(phase, 0.0, 0.5), rests.then_some(at_rest), "{angle}");
+                pulled_off += u32::from(rests && vibration.contact_force(phase) < 0.0);
+            }
+        }
+        assert!(pulled_off > 100, "{pulled_off}");
+    }
+
+    /// A chatter that ends behind phase 0 has passed it once.
+    #[test]
+    fn an_accumulation_point_is_wrapped_into_the_period() {
+        let below = f64::from_bits(TAU.to_bits() - 1);
+        assert_eq!((wrapped(TAU), wrapped(below)), ((0.0, 1), (below, 0)));
+        let vibration = Vibration::new(0.5).expect("legal");
+        let phase = Phase::new(TAU - 1e-6).expect("finite");
+        let sum = vibration.accumulation(phase, 1e-6, 0.5).expect("chatters to rest");
+        assert!((sum.duration - 4e-6).abs() < 1e-10 && sum.turns == 1, "{sum:?}");
+        assert!((sum.phase.angle() - (sum.duration - 1e-6)).abs() < 1e-15, "{sum:?}");
+    }
+
+    /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
+    #[test]
+    fn the_cut_of_the_paper_is_where_the_paper_says() {
+        let (short, fast) = (1e-4 * TAU, 1e-6 * PI);
+        let below = |x: f64| f64::from_bits(x.to_bits() - 1);
+        let mut count = ShortFlightCount::new();
+        assert!(!count.attaches(1.0, fast) && count.attaches(1.0, below(fast)));
+        // The first of each twenty after anything else counts anew.
+        for _ in 0..2 {
+            assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
+            assert!(count.attaches(below(short), 1.0), "the twentieth");
+        }
+        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
+        assert!(!count.attaches(short, 1.0), "not shorter");
+        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
+        assert!(count.attaches(1.0, 0.0), "too slow");
+        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)), "the cut starts the count again");
+    }
 }

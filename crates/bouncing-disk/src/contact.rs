@@ -422,6 +422,28 @@ mod tests {
         assert!((time - PI / 6.0).abs() < 4e-15 && direction == SlipDirection::Backward);
     }
 
+    /// With P = 2 both windows begin at the separation if the twist turns there (theta = -pi/6): the one instant at which
+    /// they can, as the two forces that move the disk add up to -2 mu N. Where rounding leaves them equal, the disk slips forward.
+    #[test]
+    fn a_tie_of_both_directions_goes_forward() {
+        let mut ties = 0;
+        for k in 1..2_000 {
+            let friction = friction(DimensionlessParameters {
+                peak_acceleration: 2.0,
+                twist_speed: 4e-4 * f64::from(k),
+                phase_lag: -PI / 6.0,
+                ..GENTLE
+            });
+            let time = |slip: &Slip| slip.time_to_growth(phase(4.0)).unwrap();
+            let (ahead, behind) = (time(&friction.forward), time(&friction.backward));
+            assert!((ahead - behind).abs() < 1e-14, "{ahead} {behind}");
+            let first = if behind < ahead { SlipDirection::Backward } else { SlipDirection::Forward };
+            assert_eq!(friction.stick_end(phase(4.0)), Some((ahead.min(behind), first)));
+            ties += u32::from(ahead.to_bits() == behind.to_bits());
+        }
+        assert!(ties > 10, "{ties}");
+    }
+
     /// On the envelope itself the disk slips where the force grows and holds where it falls.
     #[test]
     fn on_the_envelope_the_derivative_decides() {

@@ -272,6 +272,75 @@ mod tests {
         }
     }
 
+    /// Root of the mean square by which a model misses a curve.
+    fn misfit(times: &[f64], speeds: &[f64], model: impl Fn(f64) -> f64) -> f64 {
+        let squares: Vec<f64> = times
+            .iter()
+            .zip(speeds)
+            .map(|(&time, speed)| (speed - model(time)) * (speed - model(time)))
+            .collect();
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    }
+
+    /// Neither parameter can be changed a little without the sum of squares growing, and the residual is its mean's root.
+    #[test]
+    fn a_fit_is_where_the_squares_are_least() {
+        for (saturation, scatter) in [(0.3, 0.2), (2.0, 0.7), (6.0, 0.05)] {
+            let times: Vec<f64> = (0..60).map(|i| 0.1 * f64::from(i) + 0.002 * f64::from(i % 7)).collect();
+            let speeds: Vec<f64> = (0..60_u32)
+                .zip(&times)
+                .map(|(i, time)| {
+                    5.0 * exponential(time / saturation) + scatter * f64::from(i * 37 % 11) - scatter
+                })
+                .collect();
+            let curve = ExponentialFit::new(&times, &speeds).expect("legal curve");
+            let ramp = RampFit::new(&times, &speeds).expect("legal curve");
+            let of_curve = |steady: f64, constant: f64| {
+                misfit(&times, &speeds, |time| steady * (1.0 - exp(-time / constant)))
+            };
+            let of_ramp =
+                |steady: f64, rise: f64| misfit(&times, &speeds, |time| steady * (time / rise).min(1.0));
+            let is_least = |steady: f64, constant: f64, residual: f64, misfit: &dyn Fn(f64, f64) -> f64| {
+                let least = misfit(steady, constant);
+                assert!((residual - least).abs() <= 1e-13 * least, "{residual} {least}");
+                for (by_steady, by_constant) in [(1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3), (1e-3, -1e-3)] {
+                    for sign in [1.0, -1.0] {
+                        let (steady, constant) =
+                            (steady * (1.0 + sign * by_steady), constant * (1.0 + sign * by_constant));
+                        assert!(misfit(steady, constant) > least, "{saturation} {steady} {constant}");
+                    }
+                }
+            };
+            is_least(curve.steady_speed, curve.time_constant, curve.residual, &of_curve);
+            is_least(ramp.steady_speed, ramp.rise_time, ramp.residual, &of_ramp);
+        }
+    }
+
+    /// A curve that has not begun to saturate, and one that has done so before its first point, end where the search does.
+    #[test]
+    fn time_constants_lie_between_a_tenth_of_the_first_and_a_hundred_times_the_last_time() {
+        let times = [0.0, 0.5, 1.0, 2.0, 4.0];
+        let straight = ExponentialFit::new(&times, &times).expect("legal curve");
+        assert!((straight.time_constant / 400.0 - 1.0).abs() < 1e-6, "{straight:?}");
+        let at_once = ExponentialFit::new(&times, &[0.0, 7.0, 7.0, 7.0, 7.0]).expect("legal curve");
+        assert!((at_once.time_constant / 0.05 - 1.0).abs() < 1e-6, "{at_once:?}");
+        assert!((at_once.steady_speed - 7.0).abs() < 1e-3);
+        // A disk that does not turn.
+        let still = ExponentialFit::new(&times[..3], &[0.0; 3]).expect("three points are enough");
+        assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
+    }
+
+    #[test]
+    fn the_stall_torque_is_that_of_a_ring() {
+        let fit = ExponentialFit { steady_speed: 30.0, time_constant: 0.25, residual: 0.0 };
+        assert!((fit.stall_acceleration() - 120.0).abs() < 1e-12);
+        assert!((fit.stall_torque(0.5, 0.2) - 0.5 * 0.04 * 120.0).abs() < 1e-12);
+        // After one time constant all but 1/e of the speed is there.
+        assert!((fit.speed(0.25) - 30.0 * (1.0 - 0.367_879_441_171_442_3)).abs() < 1e-13);
+        let ramp = RampFit { steady_speed: 30.0, rise_time: 0.5, residual: 0.0 };
+        assert!((ramp.speed(0.125) - 7.5).abs() < 1e-13 && (ramp.speed(0.75) - 30.0).abs() < 1e-13);
+    }
+
     #[test]
     fn ramp_and_exponential_tell_each_other_apart() {
         let times: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();

@@ -207,6 +207,41 @@ mod tests {
     }
 
     #[test]
+    fn a_spread_is_that_of_a_sample() {
+        let spread = Spread::of(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]).expect("values");
+        assert!((spread.mean - 5.0).abs() < 1e-15);
+        assert!((spread.deviation - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15);
+        assert!((spread.standard_error - (4.0_f64 / 7.0).sqrt()).abs() < 1e-15);
+        // Of one value nothing is known but itself.
+        let one = Spread { mean: -3.0, deviation: 0.0, standard_error: 0.0 };
+        assert_eq!(Spread::of(&[-3.0]), Ok(one));
+    }
+
+    /// Phases evenly over the cycle, half a step off zero, and a stream of random numbers for each member.
+    #[test]
+    fn members_are_the_transients_of_their_phases_and_seeds() {
+        let system = motor(1e-8, 0.0);
+        let settings =
+            TransientSettings { duration: 0.2, intervals: 20, seed: 40, ..TransientSettings::default() };
+        let all = ensemble(&system, &settings, 4).expect("no failure");
+        let seeds = [40, 41, 42, 43].map(|counted| SplitMix(counted).next());
+        for (k, curve) in all.curves.iter().enumerate() {
+            let phase = Phase::new(TAU / 8.0 * [1.0, 3.0, 5.0, 7.0][k]).expect("finite");
+            let own = |seed: u64| {
+                crate::transient(&system, phase, &TransientSettings { seed, ..settings }).expect("no failure")
+            };
+            assert_eq!(*curve, own(seeds[k]), "{k}");
+            assert_ne!(*curve, own(seeds[k ^ 1]), "the seed matters");
+            assert_eq!(all.fits[k], curve.fit().expect("legal curve"));
+        }
+        let mean = |value: fn(&ExponentialFit) -> f64| all.fits.iter().map(value).sum::<f64>() / 4.0;
+        assert!((all.steady_speed.mean - mean(|fit| fit.steady_speed)).abs() < 1e-12);
+        assert!((all.time_constant.mean - mean(|fit| fit.time_constant)).abs() < 1e-12);
+        let stall = mean(|fit| fit.steady_speed / fit.time_constant);
+        assert!((all.stall_acceleration.mean - stall).abs() < 1e-12 * stall.abs());
+    }
+
+    #[test]
     fn rotor_follows_the_engine() {
         for (amplitude, load) in [(1e-8, 0.0), (1e-9, 5.0), (2e-11, 0.0)] {
             let system = motor(amplitude, load);

@@ -168,6 +168,53 @@ mod tests {
         assert!((toss.launch_speed - 3.1).abs() < 0.1, "{toss:?}");
     }
 
+    /// What the hand has put in is in the dough, turning and moving upwards, in its height, and lost in friction: a dough
+    /// that starts with the hand keeps the spin that this has given to it.
+    #[test]
+    fn the_efficiency_is_the_share_of_the_rotation_in_what_the_hand_has_given() {
+        for (lag, friction) in [(0.7, 0.6), (-1.2, 0.6), (0.4, 0.1), (0.3, 50.0), (0.0, 0.6)] {
+            for initial in [InitialState::AbsoluteRest, InitialState::RestRelativeToHand] {
+                let system = table_i(0.55, lag, friction);
+                let toss = single_toss(&system, initial).unwrap();
+                let rim_speed = 0.11 * toss.airborne_speed;
+                let rotary = 0.5 * rim_speed * rim_speed;
+                let lifted = system.platform().amplitude() * (1.0 + sin(toss.separation_phase));
+                let axial = 0.5 * toss.launch_speed * toss.launch_speed + 9.8 * lifted;
+                let expected = rotary / (rotary + axial + toss.energy.friction_loss);
+                assert!((toss.efficiency - expected).abs() < 1e-12 * expected, "{lag} {friction} {toss:?}");
+                let hand = system.platform().peak_angular_speed();
+                assert_eq!(toss.speed_ratio, Some(toss.airborne_speed / hand));
+                let at_start = match initial {
+                    InitialState::AbsoluteRest => 0.0,
+                    // The hand turns at omega Phi cos(3 pi/2 + theta).
+                    InitialState::RestRelativeToHand => 0.11 * hand * sin(lag),
+                };
+                let gain = rotary - 0.5 * at_start * at_start;
+                assert!((toss.rotary_energy_gain - gain).abs() < 1e-12 * rotary, "{lag} {friction} {toss:?}");
+            }
+        }
+        // A hand that does not twist has no speed to compare with.
+        let flat = single_toss(&table_i(0.0, 0.7, 0.6), InitialState::AbsoluteRest).unwrap();
+        assert_eq!((flat.speed_ratio, flat.airborne_speed.abs()), (None, 0.0));
+    }
+
+    #[test]
+    fn a_whole_toss_ends_with_the_first_impact() {
+        let system = table_i(0.55, 0.4, 0.6);
+        let whole = toss_trajectory(&system, InitialState::RestRelativeToHand).unwrap();
+        let events: Vec<Event> = whole.records().iter().map(|record| record.event).collect();
+        let (last, before) = events.split_last().unwrap();
+        assert!(matches!(last, Event::Impact { .. }) && before.last() == Some(&Event::Separation));
+        assert!(!before.iter().any(|event| matches!(event, Event::Impact { .. })));
+        // The normal force goes to zero: whatever twists slides in the end, and what does not twist never does.
+        let slides = |angle| {
+            single_toss(&table_i(angle, 0.3, 0.6), InitialState::RestRelativeToHand)
+                .unwrap()
+                .sliding_at_separation
+        };
+        assert!(slides(0.55) && !slides(0.0));
+    }
+
     /// Fig. 4: the optimum that the paper's text gives for the speed (its amplitude angle is 0.323 pi).
     #[test]
     fn the_fastest_toss_reaches_twenty_two_radians_per_second() {

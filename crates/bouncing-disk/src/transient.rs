@@ -368,6 +368,75 @@ mod tests {
     use super::*;
     use crate::{DiskParameters, PlatformParameters};
 
+    /// The published values of the generator for the seed 1234567.
+    #[test]
+    fn the_generator_is_splitmix64() {
+        let mut generator = SplitMix(1_234_567);
+        let published = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+            4_593_380_528_125_082_431,
+            16_408_922_859_458_223_821,
+        ];
+        assert_eq!(published.map(|_| generator.next()), published);
+        // The highest 53 bits, as a share of one.
+        let mut generator = SplitMix(1_234_567);
+        for bits in published {
+            assert_eq!((generator.unit() * (1_u64 << 53) as f64) as u64, bits >> 11);
+        }
+    }
+
+    #[test]
+    fn the_mean_is_over_the_last_part_of_the_curve() {
+        let curve = SpeedCurve {
+            times: vec![0.5, 1.5, 2.5, 3.5],
+            speeds: vec![1.0, 2.0, 4.0, 8.0],
+            impacts: 0,
+            separations: 0,
+        };
+        for (fraction, mean) in [(1.0, 3.75), (0.75, 14.0 / 3.0), (0.5, 6.0), (0.25, 8.0), (0.01, 8.0)] {
+            assert!((curve.mean_over_last(fraction).expect("legal") - mean).abs() < 1e-15, "{fraction}");
+        }
+    }
+
+    /// A motion that turns evenly between events, against the angle reached at the ends of the intervals.
+    #[test]
+    fn intervals_hold_what_was_turned_in_them() {
+        let events: Vec<(f64, f64)> = (1..=40_u32)
+            // Some events on the border of intervals, some several intervals apart.
+            .scan(0.0, |time, k| {
+                *time += [0.25, 0.125, 0.0625, 1.0 + 0.0625, 2.5][k as usize * 7 % 5];
+                Some((*time, f64::from(k * 13 % 9) - 3.0))
+            })
+            .collect();
+        let angle_at = |time: f64| {
+            let (mut from, mut angle) = (0.0, 0.0);
+            for &(to, turned) in &events {
+                if to > time {
+                    return angle + turned * (time - from) / (to - from);
+                }
+                angle += turned;
+                from = to;
+            }
+            angle
+        };
+        let (duration, count) = (19.5, 39);
+        let mut bins = Bins::new(duration, count).expect("room");
+        for &(to, turned) in &events {
+            bins.add(to, turned);
+            assert!((bins.present.reached - to).abs() <= 0.0);
+            if to >= duration {
+                break;
+            }
+        }
+        assert!(bins.present.reached > duration);
+        for (k, turned) in bins.finished().into_iter().enumerate() {
+            let (from, to) = (0.5 * k as f64, 0.5 * (k + 1) as f64);
+            assert!((turned - (angle_at(to) - angle_at(from))).abs() < 1e-12, "{k}: {turned}");
+        }
+    }
+
     #[test]
     fn curve_keeps_the_angle_turned() {
         let mut bins = Bins::new(1.0, 10).expect("few");
