@@ -10,7 +10,7 @@ use core::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::elementary::sin_cos_bounded;
+use crate::elementary::{CREST, sin_cos_bounded};
 use crate::phase::Phase;
 use crate::vibration::Vibration;
 
@@ -41,6 +41,9 @@ pub const PAPER_SHORT_FLIGHTS: u32 = 20;
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
 /// doubles in [pi/2, pi].
 const COMPLETION_ERROR: f64 = 1.0e-16;
+
+/// Only slower launches than this may end within a rounding of the phase without a series.
+const LARGEST_NEGLIGIBLE_SPEED: f64 = 1.0e-30;
 
 /// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
 const LONGEST_COMPLETION: f64 = 1.0e-2;
@@ -104,7 +107,7 @@ impl Vibration {
         // Also refuses a pull <= 0 and NaN.
         let small = speed > 0.0 && speed <= 0.5 * LONGEST_COMPLETION * reach;
         if !small || self.falls_away_at(phase.angle()) {
-            return self.at_rest(phase, speed);
+            return self.at_rest(phase, speed, restitution);
         }
         self.accumulation_of_small(phase, speed, restitution, speed / reach)
     }
@@ -134,15 +137,40 @@ impl Vibration {
         Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
     }
 
-    /// A disk without relative speed is at rest at once, unless the platform falls away.
+    /// A disk without relative speed is at rest at once, unless the platform falls away; and so is one whose chatter ends
+    /// before the phase has moved by a rounding.
     #[inline]
-    fn at_rest(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
-        (speed <= 0.0 && !self.falls_away_at(phase.angle())).then_some(Accumulation {
+    fn at_rest(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
+        let rests = speed <= 0.0
+            || (speed <= LARGEST_NEGLIGIBLE_SPEED && self.ends_within_a_rounding(phase, speed, restitution));
+        (rests && !self.falls_away_at(phase.angle())).then_some(Accumulation {
             duration: 0.0,
-            error_bound: 0.0,
+            error_bound: if speed > 0.0 { COMPLETION_ERROR } else { 0.0 },
             phase,
             turns: 0,
         })
+    }
+
+    /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may hop for ever where
+    /// the pull is a rounding and its flights are too short to change the phase (docs/numerics.md, section 4).
+    #[cold]
+    fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
+        let (peak, angle) = (self.peak_acceleration(), phase.angle());
+        let left = COMPLETION_ERROR * (1.0 - restitution);
+        // 1 - P sin tau from the distances to the phases where it vanishes, or to the crest: without cancellation.
+        let sine_of_half = |angle: f64| sin_cos_bounded(0.5 * angle).0;
+        let pull = if peak > 1.0 {
+            2.0 * peak
+                * sine_of_half(angle - self.separation_angle)
+                * sine_of_half(angle - self.retention_angle)
+        } else {
+            let half = sine_of_half(angle - CREST);
+            (1.0 - peak) + 2.0 * peak * (half * half)
+        };
+        phase.cos() <= 0.0
+            && (2.0 * speed <= left * pull
+                || 17.0 * speed <= (left * left) * -self.velocity(phase)
+                || 24.0 * speed <= (left * left) * (left * peak))
     }
 
     /// Proof that all impacts fall within 3/2 of the leading estimate: over that window the pull lies in
@@ -199,7 +227,7 @@ impl Vibration {
 /// [`Vibration::bounces_on`] against a pull.
 #[inline(always)]
 pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
-    (speed > 0.0) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
+    (speed > LARGEST_NEGLIGIBLE_SPEED) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
 }
 
 /// Whether [`Vibration::accumulation`] is `None` for a launch with `speed` against `pull`, as far as that is cheap to say.
@@ -213,7 +241,7 @@ pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f
     let least = (MAJORANT * peak * speed) * (speed2 * speed2);
     // More than the bound by far more than the rounding of both.
     let inaccurate = least > (1.000_001 * COMPLETION_ERROR) * (pull * reach) * (reach2 * reach2);
-    bounces_on(pull, speed, restitution) | inaccurate
+    bounces_on(pull, speed, restitution) | (inaccurate & (speed > LARGEST_NEGLIGIBLE_SPEED))
 }
 
 /// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.

@@ -264,7 +264,8 @@ impl Orbit {
         match self.policy {
             ChatterPolicy::Complete => {
                 match self.map.vibration.accumulation(phase, speed, self.map.restitution) {
-                    Some(accumulation) => Next::Attach(accumulation, speed),
+                    // Where no time is left for a chatter there is none.
+                    Some(at) => Next::Attach(at, if at.duration > 0.0 { speed } else { 0.0 }),
                     None => Next::Launch(phase, speed),
                 }
             }

@@ -439,3 +439,34 @@ fn illegal_searches_of_a_period_are_named() {
         assert!(matches!(map.settled_orbit(state, 0, longest, tolerance), Err(Error::OutOfRange { .. })));
     }
 }
+
+/// Where the pull is a rounding and a flight too short to change the phase, a disk hopped for ever with a speed of 1e-39: at the
+/// end of the fall of a platform with P next to 1, at the crest of P = 1, and at the very end of the fall of any.
+#[test]
+fn a_disk_next_to_weightlessness_comes_to_rest() {
+    for (peak, restitution, angle, speed) in [
+        (1.000_000_000_000_000_2, 0.5, 1.570_796_347_957_139_2, 1.6e-39),
+        (1.0, 0.5, 0.25 * TAU, 1.0e-60),
+        (1.0, 1.0 / 3.0, 0.25 * TAU, 1.0e-60),
+        (2.0, 0.5, 5.0 * TAU / 12.0, 1.0e-40),
+        (2.0, 0.9, 5.0 * TAU / 12.0, 1.0e-50),
+    ] {
+        let vibration = Vibration::new(peak).unwrap();
+        let end = vibration.separation_phase().map_or(0.0, |phase| 0.5 * TAU - phase.angle());
+        let phase = Phase::new(angle.max(end)).unwrap();
+        let map = ImpactMap::new(vibration, restitution).unwrap();
+        let state = ImpactState::new(phase, -speed / restitution).unwrap();
+        let mut impacts = 0;
+        for event in map.orbit(state, ChatterPolicy::Complete) {
+            match event.unwrap() {
+                OrbitEvent::Impact(_) => impacts += 1,
+                OrbitEvent::Stick(stick) => {
+                    assert!(stick.attachment.error_bound <= 1.0e-16, "{stick:?}");
+                    break;
+                }
+                event => panic!("{event:?}"),
+            }
+            assert!(impacts < 200, "P {peak}, r {restitution}, {phase:?}");
+        }
+    }
+}

@@ -201,7 +201,8 @@ fn transients_on_seams_are_those_of_single_motors() {
                     contact_radius: 1.0,
                     gyration_radius: 1.0,
                     friction: dimensionless.friction(),
-                    restitution: dimensionless.restitution(),
+                    // Next to 1 a slow disk bounces more often in the duration than anybody waits for.
+                    restitution: dimensionless.restitution().min(0.9),
                     preload_acceleration: 1.0,
                     load_acceleration: dimensionless.load(),
                 };
