@@ -664,6 +664,18 @@ mod tests {
         assert!((sum.phase.angle() - (sum.duration - 1e-6)).abs() < 1e-15, "{sum:?}");
     }
 
+    /// The impacts go on until a hundred-quadrillionth of the first impulse is left, and no longer.
+    #[test]
+    fn impacts_of_a_chatter_are_followed_to_1e_17_of_the_first() {
+        let vibration = Vibration::new(0.5).expect("legal");
+        let phase = Phase::new(1.0).expect("finite");
+        let (speed, restitution) = (1e-4, 0.5);
+        let impacts: Vec<_> = vibration.chatter_impacts(phase, speed, restitution).collect();
+        let launches: Vec<_> = impacts.iter().map(|impact| restitution * impact.speed / speed).collect();
+        let (last, before) = launches.split_last().expect("some");
+        assert!(*last <= 1e-17 && before.iter().all(|launch| *launch > 1e-17), "{launches:?}");
+    }
+
     /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
     #[test]
     fn the_cut_of_the_paper_is_where_the_paper_says() {

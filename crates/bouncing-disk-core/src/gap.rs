@@ -574,6 +574,37 @@ mod tests {
         assert!(!flat.is_near_root() && !flat.is_surely_near_root(1.0));
     }
 
+    /// At the largest gap of either sign that the quick test accepts, where its two estimates are nearly equalities: on a still
+    /// platform for the first condition, for the second about P = sqrt(2) and 45 degrees, where the curvature vanishes.
+    #[test]
+    fn the_quick_test_is_right_up_to_its_limit() {
+        let mut limits = 0;
+        for k in 0..20_000 {
+            let still = k % 4 == 0;
+            let peak = if still { 0.0 } else { 1.3 + 0.25 * spread(k, 0.754_877_666) };
+            let (sin, cos) = sin_cos_bounded(0.65 + 0.3 * spread(k, 0.569_840_29));
+            let slope = if still { -10.0 } else { -0.2 - 0.3 * spread(k, 0.618_033_99) };
+            let (platform, third) = (peak * sin, peak * cos);
+            let jet = |gap: f64| Jet { gap, slope, curvature: platform - 1.0, third, platform };
+            let (mut accepted, mut refused) = (0.0, 1.0);
+            while refused - accepted > 1e-12 * refused {
+                let middle = 0.5 * (accepted + refused);
+                if jet(middle).is_surely_near_root(peak) {
+                    accepted = middle;
+                } else {
+                    refused = middle;
+                }
+            }
+            assert!(
+                jet(accepted).is_near_root() && jet(-accepted).is_near_root(),
+                "{peak} {slope} {accepted}"
+            );
+            // Not idle: nearly all that is near is accepted.
+            limits += u32::from(!jet(1.06 * accepted).is_near_root());
+        }
+        assert!(limits > 1_000, "{limits}");
+    }
+
     #[test]
     fn steps_of_lanes_are_those_of_single_flights() {
         let mut corrected = 0;

@@ -217,6 +217,12 @@ mod tests {
         assert_eq!(Spread::of(&[-3.0]), Ok(one));
     }
 
+    /// What the documentation says: neither the cycle of the rounding nor a visible kick.
+    #[test]
+    fn relaunches_are_perturbed_by_a_thousandth_unless_told_otherwise() {
+        assert!((TransientSettings::default().relaunch_perturbation - 1e-3).abs() < 1e-18);
+    }
+
     /// Phases evenly over the cycle, half a step off zero, and a stream of random numbers for each member.
     #[test]
     fn members_are_the_transients_of_their_phases_and_seeds() {
@@ -233,6 +239,10 @@ mod tests {
             assert_eq!(*curve, own(seeds[k]), "{k}");
             assert_ne!(*curve, own(seeds[k ^ 1]), "the seed matters");
             assert_eq!(all.fits[k], curve.fit().expect("legal curve"));
+            // The middles of the intervals.
+            for (i, time) in curve.times.iter().enumerate() {
+                assert!((time - 0.005 * (2 * i + 1) as f64).abs() < 1e-15, "{i} {time}");
+            }
         }
         let mean = |value: fn(&ExponentialFit) -> f64| all.fits.iter().map(value).sum::<f64>() / 4.0;
         assert!((all.steady_speed.mean - mean(|fit| fit.steady_speed)).abs() < 1e-12);

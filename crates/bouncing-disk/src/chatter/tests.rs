@@ -1,5 +1,5 @@
-use bouncing_disk_core::Accumulation;
 use bouncing_disk_core::elementary::pow;
+use bouncing_disk_core::{Accumulation, Launch};
 
 use super::*;
 use crate::dimensionless::DimensionlessParameters;
@@ -257,5 +257,61 @@ fn a_slip_that_ends_in_an_impact_ends_there() {
                 }
             }
         }
+    }
+}
+
+/// A chatter is its flights and impacts one by one, here from the first impacts of single launches: friction that slides
+/// throughout in the first impacts and stops the slip in later ones, against a load.
+#[test]
+fn a_chatter_is_its_impacts_one_by_one() {
+    let system = DimensionlessParameters {
+        peak_acceleration: 0.5,
+        twist_speed: 0.4,
+        phase_lag: 0.3,
+        friction: 0.2,
+        restitution: 0.5,
+        load: 0.05,
+    }
+    .build()
+    .expect("legal");
+    let start = Phase::new(1.0).expect("finite");
+    let (friction, restitution, load) = (0.2, 0.5, 0.05);
+    for (spin, longest) in [(0.2, 1.0), (0.2, 2e-3), (-0.3, 1.0), (-0.3, 4.5e-3), (0.135, 1.0), (0.135, 1e-3)]
+    {
+        let speed = 1e-3;
+        let (mut phase, mut launch, mut spin_now) = (start, speed, spin);
+        let (mut time, mut angle, mut impacts, mut axial, mut angular) = (0.0, 0.0, 0, 0.0, 0.0);
+        let mut friction_loss = 0.0;
+        while launch > 1e-14 * speed {
+            let impact =
+                system.vibration().first_impact(Launch::new(phase, launch).expect("legal")).expect("returns");
+            if time + impact.remainder > longest {
+                break;
+            }
+            time += impact.remainder;
+            angle += impact.remainder * (spin_now - 0.5 * load * impact.remainder);
+            spin_now -= load * impact.remainder;
+            phase = impact.phase;
+            let slip = spin_now - system.platform_angular_speed(phase);
+            let push = -(1.0 + restitution) * impact.velocity;
+            let impulse = -slip.signum() * slip.abs().min(friction * push);
+            // The loss is that of the slip's energy, of which the platform takes no part.
+            friction_loss += 0.5 * (slip * slip - (slip + impulse) * (slip + impulse));
+            spin_now += impulse;
+            launch = -restitution * impact.velocity;
+            (impacts, axial, angular) = (impacts + 1, axial + push, angular + impulse);
+        }
+        let own = Chatter::new(&system, start, speed, spin, longest);
+        let near = |own: f64, other: f64| (own - other).abs() <= 1e-11 * other.abs();
+        // The last impacts of the two are found to another share of the first one.
+        assert!(longest < 1.0 || own.impacts > impacts && own.impacts < impacts + 12, "{own:?} {impacts}");
+        assert!(longest >= 1.0 || own.impacts == impacts && near(own.launch_speed, launch), "{own:?}");
+        assert!(near(own.time, time) && near(own.angle, angle), "{own:?} {time} {angle}");
+        assert!((own.angular_speed - spin_now).abs() < 1e-14, "{own:?} {spin_now}");
+        assert!(near(own.axial_impulse, axial) && near(own.angular_impulse, angular), "{own:?}");
+        assert!((own.ledger.friction_loss - friction_loss).abs() < 1e-15, "{own:?} {friction_loss}");
+        let velocity = launch + system.vibration().velocity(phase);
+        assert!((own.launch_velocity(&system) - velocity).abs() < 1e-13, "{own:?} {velocity}");
+        assert!((own.pair.0 - phase.sin()).abs() < 1e-14 && (own.pair.1 - phase.cos()).abs() < 1e-14);
     }
 }
