@@ -12,6 +12,12 @@ use crate::error::Error;
 /// The three travel together because an impact is found with all of them known: an orbit that carries the pair
 /// does not pay for it again at the next launch. The carried pair may differ in the last place from
 /// [`sin_cos`] of the angle, so a chaotic orbit is only continued bit for bit from all three numbers.
+///
+/// How far the two may drift apart: a flight of more than half a radian evaluates the pair anew, so that it agrees with the
+/// angle to 7e-16. A shorter one turns the pair that it started with, and both it and the angle are rounded: with each further
+/// flight in an unbroken sequence of short ones they may part by 7e-16 more at most. Measured are 8e-13 after 1e7 flights, as
+/// of roundings of either sign. An attachment begins a new pair, so that the sequence is that of one chatter: some hundred
+/// flights at restitution 0.5.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Phase {
     angle: f64,

@@ -143,7 +143,7 @@ pub fn launch(random: &mut SplitMix, largest_peak: f64, longest: f64) -> Case {
         0..=4 => {
             let target = self::angle(random, peak);
             let turns = (random.next() % 4) as f64
-                * if random.next() % 8 == 0 { (longest / 30.0).floor() } else { 1.0 };
+                * if random.next().is_multiple_of(8) { (longest / 30.0).floor() } else { 1.0 };
             let h = TAU * turns + target - angle;
             let h = if h > 0.0 { h } else { h + TAU };
             speed_to_land_after(peak, angle, nearby(random, h))
