@@ -676,6 +676,16 @@ mod tests {
         assert!(*last <= 1e-17 && before.iter().all(|launch| *launch > 1e-17), "{launches:?}");
     }
 
+    /// A still platform makes the series exact at once: only what stays visible, a hundredth of a radian, decides there.
+    #[test]
+    fn visible_bounces_of_a_still_platform_are_not_summed() {
+        let phase = Phase::new(1.0).expect("finite");
+        let sum = |longest: f64| Vibration::still().accumulation(phase, 0.5 * longest * (1.0 - 0.25), 0.25);
+        assert!(sum(0.01 * (1.0 + 1e-12)).is_none());
+        let longest = sum(0.01 * (1.0 - 1e-12)).expect("short enough");
+        assert!((longest.duration - 0.01).abs() < 1e-13 && longest.error_bound.abs() <= 0.0, "{longest:?}");
+    }
+
     /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
     #[test]
     fn the_cut_of_the_paper_is_where_the_paper_says() {
