@@ -139,7 +139,7 @@ impl Flight {
                 return Finding::Open;
             }
             let step = at.safe_step(sure, at.velocity - at.velocity_error, p);
-            if !(step > 16.0 * U * t) {
+            if step.is_nan() || step <= 16.0 * U * t {
                 return Finding::Open;
             }
             t += step;
