@@ -304,9 +304,9 @@ impl Vibration {
         }
         let sine = p * from.sin();
         if speed <= 0.0
-            && let Some(h) = self.brief_flight_from_rest(from)
+            && let Some(impact) = self.brief_flight_from_rest(from)
         {
-            return Ok(Some(self.brief_impact(from, h)));
+            return Ok(Some(impact));
         }
         let flight = ShortForm { speed, sine, cosine: p * from.cos(), pull: 1.0 - sine };
         let mut evaluations = 0;
@@ -341,13 +341,15 @@ pub(crate) fn turned_by(from: Phase, h: f64) -> (Phase, u64) {
 const DOUBTFUL_PULL: f64 = 1.0e-13;
 
 impl Vibration {
-    /// The duration of a flight from rest that starts while the platform has nearly stopped to fall away: the acceleration
+    /// The impact of a flight from rest that starts while the platform has nearly stopped to fall away: the acceleration
     /// c0 = P sin tau - 1 with which it does is then smaller than the rounding of that difference, and is taken from the
     /// distances to the two phases where it vanishes. `None` for all other launches.
     ///
     /// Over so short a flight the acceleration is c0 + c1 h - h^2/2, c1 = P cos tau, which integrates to
     /// gap = h^2 (c0/2 + c1 h/6 - h^2/24) (docs/numerics.md, section 2).
-    fn brief_flight_from_rest(&self, from: Phase) -> Option<f64> {
+    #[cold]
+    #[inline(never)]
+    fn brief_flight_from_rest(&self, from: Phase) -> Option<Impact> {
         let p = self.peak_acceleration();
         let angle = from.angle();
         // P sin tau - P sin sigma as a product.
@@ -361,26 +363,11 @@ impl Vibration {
         // P cos tau, from the distance to the crest where the carried cosine is next to nothing.
         let drift = p * sin_cos_bounded(CREST - angle).0;
         let root = (drift * drift + 3.0 * away).sqrt();
-        Some(if late { 6.0 * away / (root - drift) } else { 2.0 * (drift + root) })
-    }
-
-    /// The impact of [`Self::brief_flight_from_rest`].
-    fn brief_impact(&self, from: Phase, h: f64) -> Impact {
-        let p = self.peak_acceleration();
-        let since = from.angle() - self.separation_angle;
-        let until = self.retention_angle - from.angle();
-        let away = 2.0 * p * (sin_cos_bounded(0.5 * since).0 * sin_cos_bounded(0.5 * until).0);
-        let drift = p * sin_cos_bounded(CREST - from.angle()).0;
+        let h = if late { 6.0 * away / (root - drift) } else { 2.0 * (drift + root) };
         let velocity = h * (away + h * (0.5 * drift - h * (1.0 / 6.0)));
         let (phase, turns) = turned_by(from, h);
-        Impact {
-            periods: 0,
-            remainder: h,
-            turns,
-            phase,
-            velocity: if velocity < 0.0 { velocity } else { 0.0 },
-            evaluations: 0,
-        }
+        let velocity = if velocity < 0.0 { velocity } else { 0.0 };
+        Some(Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations: 0 })
     }
 
     /// The window of the first root within [`SHORT_FLIGHT`], piece by piece of constant curvature: convex while the
