@@ -4,13 +4,10 @@ use core::f64::consts::{PI, TAU};
 
 use serde::Serialize;
 
-use crate::elementary::{CREST, asin, atan};
+use crate::elementary::{CREST, asin};
 use crate::error::{Error, within};
 use crate::phase::Phase;
 use crate::shortcuts::Crests;
-
-/// Below this P the arc sine of 1/P is off by more than a hundred roundings.
-const NEXT_TO_ONE: f64 = 1.000_01;
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.
 ///
@@ -59,10 +56,7 @@ impl Vibration {
         )?;
         // sqrt(P^2 - 1) without cancellation next to P = 1.
         let (separation_angle, separation_speed, separation_depth) = if p > 1.0 {
-            let speed = ((p - 1.0) * (p + 1.0)).sqrt();
-            // Next to P = 1 the rounding of 1/P moves its arc sine by 1e-16/cos sigma; the tangent's angle to the crest keeps it.
-            let angle = if p < NEXT_TO_ONE { CREST - atan(speed) } else { asin(1.0 / p) };
-            (angle, speed, p - 1.0)
+            (asin(1.0 / p), ((p - 1.0) * (p + 1.0)).sqrt(), p - 1.0)
         } else {
             (CREST, 0.0, 0.0)
         };
@@ -168,24 +162,5 @@ impl Vibration {
     pub(crate) fn time_to_separation(&self, angle: f64) -> f64 {
         let ahead = self.separation_angle - angle;
         if ahead > 0.0 { ahead } else { ahead + TAU }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::elementary::sin_cos;
-
-    /// Angle and pair of the separation are those of one phase, however close P is to 1.
-    #[test]
-    fn the_phase_of_separation_agrees_with_its_pair() {
-        for k in 0..4_000 {
-            let peak = 1.0 + libm::exp10(-15.6 + f64::from(k) * 0.0026);
-            let Some(phase) = Vibration::new(peak).expect("legal").separation_phase() else { continue };
-            let (sin, cos) = sin_cos(phase.angle());
-            // Half the spacing of doubles about the crest, and the roundings of both pairs.
-            let off = (sin - phase.sin()).abs().max((cos - phase.cos()).abs());
-            assert!(peak < NEXT_TO_ONE && off <= 4.0e-16, "P {peak}: {off:e}");
-        }
     }
 }

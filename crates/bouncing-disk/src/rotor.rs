@@ -254,6 +254,14 @@ impl Rotor {
         }
     }
 
+    /// Angle turned within `span` after the last step by a rotor that stays on the stator in its mode; zero in flight.
+    pub(crate) fn turned_since_event(&self, span: PhaseSpan) -> f64 {
+        let Some((mode, _)) = self.contact else { return 0.0 };
+        let state =
+            DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
+        contact_turn(&self.system, &state, self.now.phase, self.now.after(span).phase, span).angle
+    }
+
     fn contact_mode(&self, phase: Phase) -> Mode {
         let slip = self.speed - self.system.platform_angular_speed(phase);
         SlipDirection::of(slip)

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, moderate_not_negative, positive, room_for};
 use crate::fit::{ExponentialFit, check_curve, largest, scale_for};
+use crate::phase_time::PhaseSpan;
 use crate::rotor::{Rotor, RotorStep};
 use crate::scales::Scales;
 use crate::system::System;
@@ -252,8 +253,7 @@ impl Run {
     pub(crate) fn step(&mut self) -> Result<(), Error> {
         match self.rotor.advance()? {
             RotorStep::Ended => {
-                let rest = self.duration - self.bins.present.reached;
-                self.bins.add(self.duration, self.rotor.speed() * (rest / self.unit.time));
+                self.add_interval_of_contact();
                 return Ok(());
             }
             RotorStep::Impact => self.impacts += 1,
@@ -269,6 +269,23 @@ impl Run {
         let to = seconds(now.periods as f64, now.phase.angle() - self.start, self.unit.time);
         self.bins.add(to, self.rotor.turned());
         Ok(())
+    }
+
+    /// Adds the rest of the present interval of a rotor that stays on the stator and changes its mode no more: it turns to and
+    /// fro with the stator, or slides on.
+    fn add_interval_of_contact(&mut self) {
+        let now = self.rotor.time();
+        let began = seconds(now.periods as f64, now.phase.angle() - self.start, self.unit.time);
+        let turned_by = |time: f64| {
+            self.rotor.turned_since_event(PhaseSpan::from_radians((time - began) / self.unit.time))
+        };
+        let Interval { index, end, reached, .. } = self.bins.present;
+        // The end of the last interval may be a rounding short of the duration.
+        let last = self.bins.turned.len() - 1;
+        let next = if reached < end { index } else { index + 1 };
+        let to = if next < last { (next + 1) as f64 * self.bins.width } else { end.max(self.duration) };
+        let angle = turned_by(to) - turned_by(reached);
+        self.bins.add(to, angle);
     }
 
     /// The curve of a transient that is done.
@@ -546,6 +563,41 @@ mod tests {
         ] {
             let error = read(good, bad).expect_err(bad).to_string();
             assert!(error.contains(complaint), "{error}");
+        }
+    }
+
+    /// A rotor that never leaves the stator and sticks to it turns to and fro, and one whose load exceeds the friction
+    /// slides ever faster: neither keeps the speed of the last event.
+    #[test]
+    fn a_rotor_on_a_calm_stator_sticks_or_slides_on() {
+        let omega = std::f64::consts::TAU * 70e3;
+        let motor = |friction: f64, load_acceleration: f64| {
+            let platform = crate::PlatformParameters {
+                amplitude: 2e-11,
+                twist_amplitude: 30e-6 / omega,
+                angular_frequency: omega,
+                phase_lag: 0.0,
+            };
+            let disk = crate::DiskParameters {
+                contact_radius: 1.25e-3,
+                gyration_radius: 6.3e-3,
+                friction,
+                restitution: 0.5,
+                preload_acceleration: 9.8,
+                load_acceleration,
+            };
+            System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
+        };
+        let settings = TransientSettings { duration: 1.0, intervals: 8, ..TransientSettings::default() };
+        let phase = Phase::new(4.0).expect("finite");
+        let sticking = transient(&motor(1.0, 0.0), phase, &settings).expect("no failure");
+        // Over 8750 periods nothing is left but the ends of the interval.
+        assert!(sticking.speeds[1..].iter().all(|speed| speed.abs() < 1e-8), "{:?}", sticking.speeds);
+        // Friction takes mu g a_e/a_g^2 = 30.9 rad/s^2 from a load of 50.
+        let sliding = transient(&motor(0.1, 50.0), phase, &settings).expect("no failure");
+        let slowing = 50.0 - 0.1 * 9.8 * 1.25e-3 / (6.3e-3 * 6.3e-3);
+        for (time, speed) in sliding.times.iter().zip(&sliding.speeds) {
+            assert!((speed + slowing * time).abs() < 1e-3, "{time} {speed} {slowing}");
         }
     }
 }

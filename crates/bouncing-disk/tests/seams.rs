@@ -97,7 +97,10 @@ fn start(random: &mut SplitMix, system: &Dimensionless) -> Start {
 fn contradiction(system: &Dimensionless, record: &EventRecord) -> Option<String> {
     let ledger = &record.ledger;
     // A height is that of a phase, whose rounding may exceed that of small energies.
-    let platform = system.peak_acceleration() * f64::EPSILON * TAU;
+    // The phase of separation, asin(1/P), is known to the rounding of 1/P over its cosine.
+    let peak = system.peak_acceleration();
+    let separation = if peak > 1.0 { peak / ((peak - 1.0) * (peak + 1.0)).sqrt() } else { 0.0 };
+    let platform = peak * f64::EPSILON * (TAU + separation);
     // A speed is what friction and load leave of each other, known to the rounding of what each of them could do.
     let pulls = system.friction() * (1.0 + system.peak_acceleration()) + system.load().abs();
     let speeds = pulls * record.span.radians()
