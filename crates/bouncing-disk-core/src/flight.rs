@@ -27,7 +27,9 @@ use crate::elementary::{
     CREST, impact_phase, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
 use crate::error::Error;
-use crate::gap::{Bracket, CrestForm, GapForm, LaunchForm, Root, ShortForm};
+use crate::gap::{
+    BRIEFEST, Bracket, CrestForm, FASTEST_BRIEF, GapForm, LaunchForm, Root, ShortForm, is_brief,
+};
 use crate::phase::Phase;
 use crate::shortcuts::{arc_speed, clears_by_tangents, may_return_soon};
 use crate::vibration::Vibration;
@@ -114,8 +116,7 @@ impl Impact {
     #[inline(always)]
     const fn in_parts(self) -> Self {
         let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
-        let phase = Phase::from_parts(phase.angle(), phase.sin(), phase.cos());
-        Self { periods, remainder, turns, phase, velocity, evaluations }
+        Self { periods, remainder, turns, phase: phase.in_parts(), velocity, evaluations }
     }
 }
 
@@ -147,9 +148,10 @@ impl Vibration {
     #[inline(always)]
     pub(crate) fn impact_after_in_place(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
         let p = self.peak_acceleration();
+        let from = from.in_parts();
         let angle = from.angle();
         if may_return_soon(p, p * from.sin(), p * from.cos(), speed)
-            && let Some(done) = self.short_flight(from, speed)?
+            && let Some(done) = self.short_flight(&from, speed)?
         {
             return Ok(done.in_parts());
         }
@@ -295,19 +297,21 @@ impl Vibration {
     }
 
     /// The impact if it comes within [`SHORT_FLIGHT`], else `None`.
-    fn short_flight(&self, from: Phase, speed: f64) -> Result<Option<Impact>, Error> {
+    fn short_flight(&self, from: &Phase, speed: f64) -> Result<Option<Impact>, Error> {
+        if speed <= FASTEST_BRIEF {
+            self.flight_of_hardly_any_speed(from, speed)
+        } else {
+            self.short_flight_with_speed(from, speed)
+        }
+    }
+
+    /// [`Self::short_flight`] of a launch that is not brief, as a part of its caller.
+    #[inline(always)]
+    fn short_flight_with_speed(&self, from: &Phase, speed: f64) -> Result<Option<Impact>, Error> {
         let p = self.peak_acceleration();
         let angle = from.angle();
         let away = self.falls_away_at(angle);
-        if speed <= 0.0 && !away {
-            return Err(Error::NoLiftOff { phase: angle, peak_acceleration: p });
-        }
         let sine = p * from.sin();
-        if speed <= 0.0
-            && let Some(impact) = self.brief_flight_from_rest(from)
-        {
-            return Ok(Some(impact));
-        }
         let flight = ShortForm { speed, sine, cosine: p * from.cos(), pull: 1.0 - sine };
         let mut evaluations = 0;
         let end = if away { self.retention_angle - angle } else { self.time_to_separation(angle) };
@@ -320,7 +324,7 @@ impl Vibration {
                 None => return Ok(None),
             },
         };
-        let (phase, turns) = turned_by(from, h);
+        let (phase, turns) = turned_by(*from, h);
         Ok(Some(Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations }))
     }
 }
@@ -341,15 +345,42 @@ pub(crate) fn turned_by(from: Phase, h: f64) -> (Phase, u64) {
 const DOUBTFUL_PULL: f64 = 1.0e-13;
 
 impl Vibration {
+    /// [`Self::short_flight`] from rest, or of a launch that may be back within [`BRIEFEST`], where the search cannot find it.
+    ///
+    /// # Errors
+    /// [`Error::NoLiftOff`] from rest where the platform does not fall away.
+    #[cold]
+    #[inline(never)]
+    fn flight_of_hardly_any_speed(&self, from: &Phase, speed: f64) -> Result<Option<Impact>, Error> {
+        let p = self.peak_acceleration();
+        let away = self.falls_away_at(from.angle());
+        let pull = 1.0 - p * from.sin();
+        let impact = if speed <= 0.0 {
+            if !away {
+                return Err(Error::NoLiftOff { phase: from.angle(), peak_acceleration: p });
+            }
+            self.brief_flight_from_rest(from)
+        } else if !away && is_brief(speed, pull) && self.time_to_separation(from.angle()) >= BRIEFEST {
+            // The smallest of doubles is as near to no duration as there is.
+            let h = (2.0 * speed / pull).max(f64::from_bits(1));
+            let (phase, turns) = turned_by(*from, h);
+            Some(Impact { periods: 0, remainder: h, turns, phase, velocity: -speed, evaluations: 0 })
+        } else {
+            None
+        };
+        match impact {
+            Some(impact) => Ok(Some(impact)),
+            None => self.short_flight_with_speed(from, speed),
+        }
+    }
+
     /// The impact of a flight from rest that starts while the platform has nearly stopped to fall away: the acceleration
     /// c0 = P sin tau - 1 with which it does is then smaller than the rounding of that difference, and is taken from the
     /// distances to the two phases where it vanishes. `None` for all other launches.
     ///
     /// Over so short a flight the acceleration is c0 + c1 h - h^2/2, c1 = P cos tau, which integrates to
     /// gap = h^2 (c0/2 + c1 h/6 - h^2/24) (docs/numerics.md, section 2).
-    #[cold]
-    #[inline(never)]
-    fn brief_flight_from_rest(&self, from: Phase) -> Option<Impact> {
+    fn brief_flight_from_rest(&self, from: &Phase) -> Option<Impact> {
         let p = self.peak_acceleration();
         let angle = from.angle();
         // P sin tau - P sin sigma as a product.
@@ -365,7 +396,7 @@ impl Vibration {
         let root = (drift * drift + 3.0 * away).sqrt();
         let h = if late { 6.0 * away / (root - drift) } else { 2.0 * (drift + root) };
         let velocity = h * (away + h * (0.5 * drift - h * (1.0 / 6.0)));
-        let (phase, turns) = turned_by(from, h);
+        let (phase, turns) = turned_by(*from, h);
         let velocity = if velocity < 0.0 { velocity } else { 0.0 };
         Some(Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations: 0 })
     }

@@ -5,6 +5,7 @@ use crate::elementary::{
     rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
 };
 use crate::error::Error;
+use crate::vibration::Vibration;
 
 /// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
 /// is below twice the seventh power, 4e-17 rad.
@@ -393,6 +394,9 @@ impl GapForm for LaunchForm {
     }
 }
 
+/// A launch that is [brief](is_brief) is no faster than this, whatever pulls the disk back: less than 1 + P.
+pub(crate) const FASTEST_BRIEF: f64 = BRIEFEST * Vibration::MAX_PEAK_ACCELERATION;
+
 /// Whether a launch with `speed` against `pull` returns within [`BRIEFEST`].
 #[inline(always)]
 pub(crate) fn is_brief(speed: f64, pull: f64) -> bool {
@@ -463,10 +467,6 @@ impl ShortForm {
     #[inline(always)]
     pub(crate) fn root_in_first_piece(&self, end: f64, evaluations: &mut u32) -> Option<(f64, f64)> {
         let mut h = self.expected();
-        if is_brief(self.speed, self.pull) {
-            // The smallest of doubles is as near to no duration as there is.
-            return (end >= BRIEFEST).then_some((h.max(f64::from_bits(1)), -self.speed));
-        }
         for _ in 0..4 {
             if !(h > 0.0 && h < end) {
                 return None;
@@ -483,6 +483,7 @@ impl ShortForm {
         None
     }
 
+    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
     /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
     pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let mut h = 0.5 * (bracket.lo + bracket.hi);

@@ -44,6 +44,12 @@ impl Phase {
         Self { angle, sin, cos }
     }
 
+    /// The same, number by number: what a function has just written in parts is read whole only after a stall.
+    #[inline(always)]
+    pub(crate) const fn in_parts(self) -> Self {
+        Self::from_parts(self.angle, self.sin, self.cos)
+    }
+
     /// A phase from its three numbers.
     #[inline(always)]
     pub(crate) const fn from_parts(angle: f64, sin: f64, cos: f64) -> Self {

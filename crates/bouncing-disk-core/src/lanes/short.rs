@@ -10,7 +10,7 @@ use super::platform::Platform;
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask};
 use crate::elementary::{sine_deficit_ratio, versine_ratio};
 use crate::flight::SHORT_FLIGHT;
-use crate::gap::{CrestForm, ShortForm, is_brief};
+use crate::gap::{CrestForm, FASTEST_BRIEF, ShortForm};
 use crate::shortcuts::clears;
 
 /// Steps of Newton's iteration, as in `root_in_first_piece`.
@@ -202,9 +202,8 @@ impl Short {
         self.end[k] = if away { retention - angle } else { to_separation };
         let next = if away { 2.0 * separation } else { -2.0 * separation };
         self.next_end[k] = self.end[k] + (PI + next);
-        let pull = 1.0 - self.sine[k];
-        // Brief flights are left to the solver of one flight.
-        self.pulled[k] = mask(!away && launches.speed[lane] > 0.0 && !is_brief(launches.speed[lane], pull));
+        // Launches that may be brief are left to the solver of one flight.
+        self.pulled[k] = mask(!away && launches.speed[lane] > FASTEST_BRIEF);
     }
 
     /// What became of the flight of number `k`.
@@ -233,7 +232,7 @@ impl Short {
         let second_piece = end_ratio > 0.0 && self.next_end[k] >= SHORT_FLIGHT + 1.0e-9 && !dips;
         let flies_on = last_ratio > 0.0
             && (self.end[k] >= SHORT_FLIGHT || second_piece)
-            && (self.speed[k] > 0.0 || self.away[k]);
+            && (self.speed[k] > FASTEST_BRIEF || self.away[k]);
         match (flies_on, self.low[k]) {
             (true, true) => Fate::GoesLow,
             (true, false) => Fate::GoesAbove,
