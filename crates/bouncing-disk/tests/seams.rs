@@ -10,6 +10,8 @@
 mod launches;
 #[path = "../../bouncing-disk-core/tests/first_impact/seams.rs"]
 mod seams;
+#[path = "../../bouncing-disk-core/tests/first_impact/shards.rs"]
+mod shards;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,6 +23,7 @@ use bouncing_disk::{
 
 use launches::SplitMix;
 use seams::{angle, nearby, one_of, peak};
+use shards::Kind;
 
 /// Bound on the closure of the energy balance, relative to what was added up (docs/numerics.md, section 6).
 const CLOSURE: f64 = 1.0e-13;
@@ -144,10 +147,20 @@ fn contradiction(system: &Dimensionless, record: &EventRecord) -> Option<String>
         .then(|| format!("the load's work is {work:e}, not {:e}", load * turned))
 }
 
-/// Events of motions that start on seams; how many there were.
-fn attack(seed: u64, motions: u64, events: usize) -> u64 {
+/// What an attack has seen.
+#[derive(Debug, Default)]
+struct Tally {
+    motions: u64,
+    events: u64,
+    /// Motions that end because a flight or a slip would be longer than the engine follows.
+    refused: u64,
+    failures: Vec<String>,
+}
+
+/// Events of motions that start on seams.
+fn attack(seed: u64, motions: u64, events: usize) -> Tally {
     let mut random = SplitMix::new(seed);
-    let mut seen = 0;
+    let mut tally = Tally { motions, ..Tally::default() };
     for motion in 0..motions {
         let system = system(&mut random);
         let start = start(&mut random, &system);
@@ -157,32 +170,63 @@ fn attack(seed: u64, motions: u64, events: usize) -> u64 {
             |what: String| format!("seed {seed}, motion {motion}: {system:?} {start:?} {policy:?}: {what}");
         let mut engine = match Engine::new(system, start, policy) {
             Ok(engine) => engine,
-            Err(Error::Core(CoreError::NoLiftOff { .. } | CoreError::FlightTooLong { .. })) => continue,
-            Err(error) => panic!("{}", told(error.to_string())),
+            Err(Error::Core(CoreError::NoLiftOff { .. } | CoreError::FlightTooLong { .. })) => {
+                tally.refused += 1;
+                continue;
+            }
+            Err(error) => {
+                tally.failures.push(told(error.to_string()));
+                continue;
+            }
         };
         for _ in 0..events {
             match engine.advance() {
                 Ok(Some(record)) => {
-                    seen += 1;
+                    tally.events += 1;
                     if let Some(what) = contradiction(&system, &record) {
-                        panic!("{}", told(format!("{what}: {record:?}")));
+                        tally.failures.push(told(format!("{what}: {record:?}")));
+                        break;
                     }
                 }
                 Ok(None) => break,
                 Err(
                     Error::SlipTooLong { .. }
                     | Error::Core(CoreError::FlightTooLong { .. } | CoreError::NoLiftOff { .. }),
-                ) => break,
-                Err(error) => panic!("{}", told(error.to_string())),
+                ) => {
+                    tally.refused += 1;
+                    break;
+                }
+                Err(error) => {
+                    tally.failures.push(told(error.to_string()));
+                    break;
+                }
             }
         }
     }
-    seen
+    tally
 }
 
 #[test]
 fn motions_from_seams_keep_time_and_energy() {
-    assert!(attack(201, 60_000, 40) > 1_000_000);
+    let tally = attack(201, 60_000, 40);
+    assert!(tally.failures.is_empty(), "{} failed, the first: {}", tally.failures.len(), tally.failures[0]);
+    assert!(tally.events > 1_000_000, "{tally:?}");
+}
+
+/// The engine's part of the campaign of docs/numerics.md, section 10.
+///
+/// `CAMPAIGN=folder cargo test --release -p bouncing-disk --test seams -- --ignored campaign`
+#[test]
+#[ignore = "takes minutes"]
+fn campaign() {
+    shards::run(&[Kind {
+        name: "engine",
+        shards: 100,
+        run: |seed| {
+            let Tally { motions, events, refused, failures } = attack(seed, 60_000, 40);
+            serde_json::json!({ "motions": motions, "events": events, "refused": refused, "failures": failures })
+        },
+    }]);
 }
 
 /// Motors on seams: many at once are those of one after the other, errors included.

@@ -12,3 +12,4 @@ mod march;
 mod oracle;
 mod properties;
 mod seams;
+mod shards;

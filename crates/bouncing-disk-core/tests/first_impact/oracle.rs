@@ -134,6 +134,20 @@ fn turned(pair: &(High, High), by: &High, terms: usize) -> (High, High) {
     (&pair.0 * &cosine + &pair.1 * &sine, &pair.1 * cosine - &pair.0 * sine)
 }
 
+/// 1 - cos h and h - sin h of a short flight as series: no digit cancels.
+fn versine_and_deficit(h: &High) -> (High, High) {
+    let factors = &tables().inverse_factorials;
+    let square = h * h;
+    let series = |first: usize| {
+        let mut sum = high(0.0);
+        for n in (first..TERMS).step_by(2).rev() {
+            sum = &factors[n] - sum * &square;
+        }
+        sum
+    };
+    (series(2) * &square, series(3) * &square * h)
+}
+
 /// asin(1/P) with its sine and cosine.
 fn separation_of(p: &High) -> (High, High, High) {
     let sine = high(1.0) / p;
@@ -288,19 +302,9 @@ impl Exact {
         Point { gap, velocity, sin, cos }
     }
 
-    /// [`Self::point`] with 1 - cos h and h - sin h as series: no digit of a short flight cancels.
+    /// [`Self::point`] without cancellation in a short flight.
     fn point_of_short_flight(&self, h: &High, sin: High, cos: High) -> Point {
-        let factors = &tables().inverse_factorials;
-        let square = h * h;
-        let series = |first: usize| {
-            let mut sum = high(0.0);
-            for n in (first..TERMS).step_by(2).rev() {
-                sum = &factors[n] - sum * &square;
-            }
-            sum
-        };
-        let versine = series(2) * &square;
-        let deficit = series(3) * &square * h;
+        let (versine, deficit) = versine_and_deficit(h);
         let speed = high(self.speed);
         let gap = high(self.start_gap)
             + h * (&speed - h * &self.half)
@@ -341,8 +345,23 @@ impl Exact {
     /// One unit roundoff in each of P, w and the launch phase, at the time `h`, as the gap, the impact phase
     /// and the velocity see it.
     pub fn limits(&self, h: &High, at: &Point) -> Limits {
-        let by_peak = self.peak * low(&(h * &self.c0 - (&at.sin - &self.s0))).abs();
-        let by_phase = self.peak * low(&(&self.s0 * h + (&at.cos - &self.c0))).abs();
+        // What the sine and the cosine of the phase gain, and by how much less than a tangent says.
+        let (sine_gain, cosine_gain, sine_bend, cosine_bend) = if low(h) < 1.0e-2 {
+            let (versine, deficit) = versine_and_deficit(h);
+            let sine = h - &deficit;
+            (
+                &self.c0 * &sine - &self.s0 * &versine,
+                -(&self.s0 * &sine + &self.c0 * &versine),
+                &self.s0 * &versine + &self.c0 * &deficit,
+                &self.s0 * &deficit - &self.c0 * &versine,
+            )
+        } else {
+            let (sine, cosine) = (&at.sin - &self.s0, &at.cos - &self.c0);
+            let bends = (h * &self.c0 - &sine, &self.s0 * h + &cosine);
+            (sine, cosine, bends.0, bends.1)
+        };
+        let by_peak = self.peak * low(&sine_bend).abs();
+        let by_phase = self.peak * low(&cosine_bend).abs();
         // Behind a crest heights are counted from the crests, with a rounding of their own.
         let crest = if self.passes_crest(h) { self.peak } else { 0.0 };
         let gap =
@@ -356,8 +375,8 @@ impl Exact {
         };
         let own = self.own_shift();
         let phase = time + own + U * TAU;
-        let velocity_by_peak = self.peak * low(&(&at.cos - &self.c0)).abs();
-        let velocity_by_phase = self.peak * low(&(&at.sin - &self.s0)).abs();
+        let velocity_by_peak = self.peak * low(&cosine_gain).abs();
+        let velocity_by_phase = self.peak * low(&sine_gain).abs();
         let velocity = U * (self.speed.abs() + velocity_by_peak + slope)
             + self.launch_shift * velocity_by_phase
             + time * (curvature + self.peak * low(&at.cos).abs() * time);
