@@ -390,6 +390,37 @@ mod tests {
         assert!(summed > 1_000 && 5 * seen > 2 * refused, "{seen} of {refused}, not of {summed}");
     }
 
+    /// One place for each of the three bounds: an ordinary pull, none that grows with the time, and none that grows with its square.
+    #[test]
+    fn what_ends_within_a_rounding_is_told_to_the_digit() {
+        for restitution in [0.0, 0.5, 1.0 - 1e-6] {
+            let left = COMPLETION_ERROR * (1.0 - restitution);
+            let calm = Vibration::new(0.5).expect("legal");
+            let falling = Phase::new(2.0).expect("finite");
+            let strong = Vibration::new(1.5).expect("legal");
+            let end = Phase::new(strong.retention_angle).expect("finite");
+            let just = Vibration::new(1.0).expect("legal");
+            let crest = Phase::from_parts(CREST, 1.0, 0.0);
+            for (vibration, phase, slowest) in [
+                (calm, falling, 0.5 * left * calm.contact_force(falling)),
+                (strong, end, left * left * -strong.velocity(end) / 17.0),
+                (just, crest, left * left * left / 24.0),
+            ] {
+                for (share, ends) in [(0.999_999, true), (1.000_001, false)] {
+                    let speed = share * slowest;
+                    assert_eq!(
+                        vibration.ends_within_a_rounding(phase, speed, restitution),
+                        ends,
+                        "{vibration:?} {restitution} {share}"
+                    );
+                }
+            }
+            // Before the crest the pull shrinks.
+            let rising = Phase::new(1.0).expect("finite");
+            assert!(!calm.ends_within_a_rounding(rising, f64::MIN_POSITIVE, restitution));
+        }
+    }
+
     /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the window.
     fn window_holds_all_exactly(peak: f64, pull: f64, drift: f64, restitution: f64, x: f64) -> bool {
         type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
