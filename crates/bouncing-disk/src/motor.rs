@@ -184,27 +184,8 @@ mod tests {
 
     use super::*;
     use crate::rotor::{Rotor, RotorStep};
-    use crate::{DiskParameters, Engine, PlatformParameters, Start};
-
-    /// The motor of Table III.
-    fn motor(amplitude: f64, load_acceleration: f64) -> System {
-        let omega = TAU * 70e3;
-        let platform = PlatformParameters {
-            amplitude,
-            twist_amplitude: 30.0 / omega,
-            angular_frequency: omega,
-            phase_lag: 0.0,
-        };
-        let disk = DiskParameters {
-            contact_radius: 1.25e-3,
-            gyration_radius: 6.3e-3,
-            friction: 0.1,
-            restitution: 0.5,
-            preload_acceleration: 9.8,
-            load_acceleration,
-        };
-        System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
-    }
+    use crate::testing::motor;
+    use crate::{Engine, Start};
 
     #[test]
     fn a_spread_is_that_of_a_sample() {

@@ -1,4 +1,4 @@
-//! Random systems and starts for property tests, biased to the legal limits.
+//! Systems of tests: the motor of the paper, and random ones for property tests, biased to the legal limits.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,6 +8,27 @@ use proptest::prelude::*;
 
 use crate::dimensionless::{Dimensionless, DimensionlessParameters};
 use crate::start::Start;
+use crate::{DiskParameters, PlatformParameters, System};
+
+/// The motor of Table III, at an `amplitude` in m and a load in rad/s^2.
+pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
+    let omega = TAU * 70e3;
+    let platform = PlatformParameters {
+        amplitude,
+        twist_amplitude: 30.0 / omega,
+        angular_frequency: omega,
+        phase_lag: 0.0,
+    };
+    let disk = DiskParameters {
+        contact_radius: 1.25e-3,
+        gyration_radius: 6.3e-3,
+        friction: 0.1,
+        restitution: 0.5,
+        preload_acceleration: 9.8,
+        load_acceleration,
+    };
+    System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
+}
 
 /// Well spread numbers in [0, 1).
 pub(crate) fn golden_spread(k: u64) -> f64 {

@@ -383,7 +383,7 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{DiskParameters, PlatformParameters};
+    use crate::testing;
 
     /// The published values of the generator for the seed 1234567.
     #[test]
@@ -468,25 +468,6 @@ mod tests {
         assert!((bins.finished()[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
     }
 
-    fn motor() -> System {
-        let omega = TAU * 70e3;
-        let platform = PlatformParameters {
-            amplitude: 1e-8,
-            twist_amplitude: 30.0 / omega,
-            angular_frequency: omega,
-            phase_lag: 0.0,
-        };
-        let disk = DiskParameters {
-            contact_radius: 1.25e-3,
-            gyration_radius: 6.3e-3,
-            friction: 0.1,
-            restitution: 0.5,
-            preload_acceleration: 9.8,
-            load_acceleration: 0.0,
-        };
-        System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
-    }
-
     fn refused<T: std::fmt::Debug>(result: Result<T, Error>, name: &str) {
         let error = result.expect_err(name);
         assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
@@ -497,7 +478,11 @@ mod tests {
     fn durations_that_periods_cannot_count_are_refused() {
         let phase = Phase::new(4.0).expect("finite");
         let run = |duration: f64, intervals: usize| {
-            transient(&motor(), phase, &TransientSettings { duration, intervals, ..Default::default() })
+            transient(
+                &testing::motor(1e-8, 0.0),
+                phase,
+                &TransientSettings { duration, intervals, ..Default::default() },
+            )
         };
         for duration in [5e-324, 1e-310, 1e-300, 1e-21] {
             refused(run(duration, 600), "duration of an interval");

@@ -511,26 +511,6 @@ fn a_platform_that_falls_away_launches_the_disk_at_once() {
     assert!(engine.launches());
 }
 
-/// Table III with the preload of gravity and 70 kHz, in the system's own units.
-fn motor(amplitude: f64) -> crate::System {
-    let angular_frequency = TAU * 70.0e3;
-    let platform = crate::PlatformParameters {
-        amplitude,
-        twist_amplitude: 30.0 / angular_frequency,
-        angular_frequency,
-        phase_lag: 0.0,
-    };
-    let disk = crate::DiskParameters {
-        contact_radius: 1.25e-3,
-        gyration_radius: 6.3e-3,
-        friction: 0.1,
-        restitution: 0.5,
-        preload_acceleration: 9.8,
-        load_acceleration: 0.0,
-    };
-    crate::System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap()
-}
-
 /// Long flights at 70 kHz: energy is accounted for to rounding over 1e5 events, and the angle is the integral of the
 /// angular speed.
 #[test]
@@ -538,7 +518,7 @@ fn motor_flights_close_and_the_angle_does_not_drift() {
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
     for amplitude in [1e-9, 1e-8, 1e-7] {
         for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
-            let system = motor(amplitude);
+            let system = testing::motor(amplitude, 0.0);
             let start = Start::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 0.0 };
             let mut angle = *Engine::new(system, start, policy).unwrap().state();
             let mut energy_error = 0.0_f64;
