@@ -470,3 +470,18 @@ fn a_disk_next_to_weightlessness_comes_to_rest() {
         }
     }
 }
+
+/// The cut of the paper drops impacts without a bound on what they would have done; a disk without rebound drops none.
+#[test]
+fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
+    for (restitution, bound) in [(0.5, f64::INFINITY), (0.0, 0.0)] {
+        let attached =
+            map(0.2, restitution).orbit(state(3.0, -2.0), ChatterPolicy::Paper).find_map(|event| match event
+                .expect("no failure")
+            {
+                OrbitEvent::Stick(stick) => Some(stick.attachment.error_bound),
+                _ => None,
+            });
+        assert_eq!(attached, Some(bound), "{restitution}");
+    }
+}
