@@ -43,8 +43,10 @@ pub enum ResultsError {
         /// The figure.
         id: String,
     },
-    /// The data of a figure are not those that were written.
-    #[error("{id}.json was changed since it was made")]
+    /// The files of a figure are not those that were written for the page.
+    #[error(
+        "the files of {id} were changed since they were made, or made again in another quality or with measurements"
+    )]
     Changed {
         /// The figure.
         id: String,
@@ -98,13 +100,16 @@ struct Made {
     section: String,
 }
 
-fn made(entry: &dyn Entry, folder: &OutputFolder) -> Result<Made, ResultsError> {
+/// The page shows no measurements: what was made with some, or in another quality by a run since, is not taken for it.
+fn made(entry: &dyn Entry, folder: &OutputFolder, quality: Quality) -> Result<Made, ResultsError> {
     let id = entry.id();
     let missing = || ResultsError::Missing { id: id.to_owned() };
     let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
     let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
+    let stamp = folder.stamp(id).ok_or_else(missing)?;
     // What the program did not write itself may have any form.
-    if !folder.stamp(id).ok_or_else(missing)?.holds(&format!("{id}.json"), &data) {
+    let whole = stamp.holds(&format!("{id}.json"), &data) && stamp.holds(&format!("{id}.svg"), &drawing);
+    if !(whole && stamp.quality == quality && !stamp.shows_measurements()) {
         return Err(ResultsError::Changed { id: id.to_owned() });
     }
     let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
@@ -131,11 +136,13 @@ pub fn write(
     let pictures = OutputFolder::create(docs.path().join(PICTURES_FOLDER))?;
     let mut digests = Digests::default();
     let (mut sections, mut claims, mut files) = (String::new(), Vec::new(), Vec::new());
+    // No other run may put figures of its own there meanwhile.
+    let _held = (draft.lock()?, paper.lock()?);
     for entry in entries {
         let id = entry.id();
         let failed = |source: ExperimentError| ResultsError::Figure { id: id.to_owned(), source };
-        let made_in_draft = made(&**entry, draft)?;
-        let made = made(&**entry, paper)?;
+        let made_in_draft = made(&**entry, draft, Quality::Draft)?;
+        let made = made(&**entry, paper, Quality::Paper)?;
         let figure = made.outcome.draw().map_err(failed)?;
         let picture = figure.to_png_within(PICTURE_WIDTH).map_err(|error| failed(error.into()))?;
         let figure =
@@ -186,7 +193,7 @@ pub fn outdated(
             Quality::Paper => &known.paper,
         };
         let picture = pictures.read(&picture_name(id))?;
-        let current = match made(*entry, folder) {
+        let current = match made(*entry, folder, quality) {
             Ok(made) => made.digest == *expected,
             Err(ResultsError::Missing { .. }) => true,
             Err(ResultsError::Output(error)) => return Err(error.into()),
@@ -362,6 +369,20 @@ mod tests {
         assert!(check(&folders, &entries, Quality::Paper).is_empty());
         pictures.write(DIGESTS_FILE, b"").expect("writable");
         assert_eq!(check(&folders, &entries, Quality::Paper), [RESULTS_FILE.to_owned(), picture]);
+    }
+
+    /// Another run may make the figure again between the two steps of `--docs`.
+    #[test]
+    fn the_page_is_not_made_of_drafts_or_measurements() {
+        let (folders, entries) = folders("other");
+        let again = |quality: Quality, measured: &str| {
+            let files = product::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
+            folders.paper.write_set("demo", quality, measured, 0.1, &files).expect("writable");
+            write(&entries, &folders.paper, &folders.draft, &folders.docs)
+        };
+        assert!(matches!(again(Quality::Draft, ""), Err(ResultsError::Changed { .. })));
+        assert!(matches!(again(Quality::Paper, "0123"), Err(ResultsError::Changed { .. })));
+        assert!(again(Quality::Paper, "").is_ok());
     }
 
     #[test]

@@ -79,6 +79,11 @@ impl Stamp {
         self.files.keys().map(String::as_str)
     }
 
+    /// Whether a user's measurements, readable or not, were there when it was made.
+    pub fn shows_measurements(&self) -> bool {
+        !self.measured.is_empty()
+    }
+
     /// Whether this is the content of the file when it was made.
     pub fn holds(&self, name: &str, bytes: &[u8]) -> bool {
         self.files.get(name).is_some_and(|expected| digest(bytes) == *expected)

@@ -43,10 +43,13 @@ impl Summary {
         let mut warnings = Vec::new();
         for entry in entries {
             let id = entry.id();
-            // Without a stamp the files may be from different runs.
-            let Some(stamp) = folder.stamp(id) else { continue };
             let name = format!("{id}.json");
             let Some(bytes) = folder.read(&name)? else { continue };
+            // Without a stamp the files may be from different runs.
+            let Some(stamp) = folder.stamp(id) else {
+                left_out.push((id.to_owned(), "the run that made it was interrupted".to_owned()));
+                continue;
+            };
             // What the program did not write itself may have any form.
             if !stamp.holds(&name, &bytes) {
                 left_out.push((id.to_owned(), Stale::File { name }.to_string()));
@@ -157,6 +160,10 @@ mod tests {
             Summary::of(&entries, &folder, &Measurements::none()).expect("readable").left_out.len(),
             1
         );
+        // A run that was killed before it wrote its stamp.
+        std::fs::remove_file(path.join("demo.stamp")).expect("removable");
+        let interrupted = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
+        assert_eq!(interrupted.left_out.len(), 1, "{interrupted:?}");
         std::fs::remove_dir_all(path).expect("removable");
     }
 }

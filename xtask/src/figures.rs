@@ -89,7 +89,8 @@ impl Options {
         for (option, folder) in [("--out", &self.out), ("--measured", &self.measured)] {
             let Some(folder) = folder else { continue };
             let folder = shell_word(folder.as_os_str());
-            command.push_str(&format!(" {option} {folder}"));
+            // With an equals sign, as a name may begin like an option.
+            command.push_str(&format!(" {option}={folder}"));
         }
         command
     }
@@ -401,7 +402,7 @@ mod tests {
         assert_eq!(options(Quality::Paper, None).command(&[]), "cargo xtask figures");
         assert_eq!(
             options(Quality::Draft, Some("my figures")).command(&["fig06"]),
-            "cargo xtask figures fig06 --quality draft --out 'my figures'"
+            "cargo xtask figures fig06 --quality draft --out='my figures'"
         );
         for (folder, word) in [
             ("$(reboot)", "'$(reboot)'"),
@@ -412,7 +413,7 @@ mod tests {
         ] {
             assert_eq!(
                 options(Quality::Paper, Some(folder)).command(&[]),
-                format!("cargo xtask figures --out {word}")
+                format!("cargo xtask figures --out={word}")
             );
         }
     }

@@ -4,6 +4,8 @@ mod lockstep;
 mod screen;
 mod starts;
 
+use core::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
 use crate::chatter::ChatterPolicy;
@@ -130,6 +132,13 @@ impl Grid {
         within("lowest normalised speed", speed.low(), 0.0, Self::MAX_SPEED, "[0, 1e100]")?;
         within("highest normalised speed", speed.high(), 0.0, Self::MAX_SPEED, "[0, 1e100]")?;
         Ok(Self { phase, speed })
+    }
+
+    /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: of whole periods nothing is left to round.
+    #[must_use]
+    pub fn impact_angle(&self, column: usize) -> f64 {
+        let cycles = self.phase.centre(column);
+        (cycles - cycles.floor()) * TAU
     }
 
     /// Impact phase in periods.

@@ -94,7 +94,12 @@ pub struct ChatterImpact {
 
 impl Vibration {
     /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0, or `None`
-    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad.
+    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau
+    /// that P and the carried pair give. Next to weightlessness one rounding of P or of the phase is another pull, and the
+    /// duration another one: that is the conditioning of the problem and not counted in the bound.
+    ///
+    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the phase has the
+    /// duration 0.
     ///
     /// `restitution` in [0, 1).
     #[must_use]
@@ -134,7 +139,24 @@ impl Vibration {
         }
         let duration = expansion.duration(speed);
         let (angle, turns) = wrapped(phase.angle() + duration);
+        if self.peak_acceleration() > 1.0
+            && (duration >= self.time_to_separation(phase.angle()) || self.falls_away_at(angle))
+        {
+            return self.rests_until_separation(phase, speed);
+        }
         Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
+    }
+
+    /// A chatter that would end at the separation or behind it, where the pull that proves it an end is a rounding: the disk
+    /// rests if its next flight is too short to change the phase, else it bounces on.
+    #[cold]
+    fn rests_until_separation(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
+        (2.0 * speed <= 2.0 * COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
+            duration: 0.0,
+            error_bound: COMPLETION_ERROR,
+            phase,
+            turns: 0,
+        })
     }
 
     /// A disk without relative speed is at rest at once, unless the platform falls away; and so is one whose chatter ends
@@ -187,7 +209,7 @@ impl Vibration {
     }
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
-    /// [`Self::accumulation`] accepts, until they carry less than 1e-17 of the first one's impulse or are launched with
+    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first one's impulse or are launched with
     /// less than the smallest normal number.
     ///
     /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
@@ -209,7 +231,8 @@ impl Vibration {
         let first = self.contact_force(phase);
         let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
         core::iter::from_fn(move || {
-            if launch <= last_speed {
+            // Not a number, too, comes to an end; nothing bounces where nothing pulls.
+            if !(launch > last_speed && first > 0.0) {
                 return None;
             }
             let peak = vibration.peak_acceleration();
@@ -419,6 +442,46 @@ mod tests {
             let rising = Phase::new(1.0).expect("finite");
             assert!(!calm.ends_within_a_rounding(rising, f64::MIN_POSITIVE, restitution));
         }
+    }
+
+    /// The pull is a rounding there, and so was the proof that the disk chatters to rest before: it attached at or behind the
+    /// separation, and rested for a period on a platform that fell away.
+    #[test]
+    fn no_chatter_ends_behind_the_separation() {
+        let (mut attached, mut at_once) = (0, 0);
+        for k in 0..200_000 {
+            // P from next to 1 on, and distances to the separation at which the pull is some roundings.
+            let excess = libm::exp10(9.0 * spread(k, 0.754_877_666) - 9.0);
+            let vibration = Vibration::new(1.0 + excess).expect("legal");
+            let separation = vibration.separation_phase().expect("separates").angle();
+            let slope = libm::sqrt(excess * (2.0 + excess));
+            let distance = f64::EPSILON / slope * libm::exp10(4.0 * spread(k, 0.569_840_29) - 2.0);
+            let fresh = Phase::new((separation - distance).max(0.0)).expect("finite");
+            let by = [0.0, 1.1e-16, -1.1e-16][k as usize % 3];
+            let phase = Phase::from_parts(fresh.angle(), fresh.sin() + by, fresh.cos());
+            let restitution = [0.5, 0.1, 0.99][k as usize / 3 % 3];
+            let pull = vibration.contact_force(phase).max(1e-17);
+            let speed = pull * distance * libm::exp10(-4.0 * spread(k, 0.414_213_562));
+            let Some(at) = vibration.accumulation(phase, speed, restitution) else { continue };
+            attached += 1;
+            at_once += u32::from(at.duration <= 0.0);
+            assert!(
+                at.duration < vibration.time_to_separation(phase.angle())
+                    && !vibration.falls_away_at(at.phase.angle()),
+                "{vibration:?} {phase:?} {speed:e} {restitution}: {at:?}"
+            );
+        }
+        assert!(attached > 10_000 && at_once > 10, "{attached} {at_once}");
+    }
+
+    /// Nothing pulls where the platform has just stopped to fall away: no flight follows, and the impacts had no end.
+    #[test]
+    fn impacts_come_to_an_end_where_nothing_pulls() {
+        let vibration = Vibration::new(1.0).expect("legal");
+        let phase = Phase::new(CREST.next_up()).expect("finite");
+        let at = vibration.accumulation(phase, 1e-60, 0.5).expect("rests");
+        assert!(at.duration <= 0.0 && vibration.contact_force(phase) <= 0.0);
+        assert_eq!(vibration.chatter_impacts(phase, 1e-60, 0.5).count(), 0);
     }
 
     /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the window.

@@ -222,7 +222,7 @@ pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
 
 /// The phase of an impact, in [0, 2 pi), and how many turns were taken away, from its unwrapped angle in [-2 pi, 6 pi].
 ///
-/// [`nearby_wrapped`], but for the seam: an angle that lies below zero by less than the spacing of doubles below 2 pi
+/// [`nearby_wrapped`], but for the seam: an angle that lies below zero by less than half the spacing of doubles below 2 pi
 /// rounds to 2 pi itself. That is phase 0 of the next turn, and the turn counts.
 #[inline(always)]
 pub(crate) fn impact_phase(angle: f64) -> (f64, f64) {

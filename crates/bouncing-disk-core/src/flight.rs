@@ -27,9 +27,7 @@ use crate::elementary::{
     CREST, impact_phase, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
 use crate::error::Error;
-use crate::gap::{
-    BRIEFEST, Bracket, CrestForm, FASTEST_BRIEF, GapForm, LaunchForm, Root, ShortForm, is_brief,
-};
+use crate::gap::{Bracket, CrestForm, FASTEST_BRIEF, GapForm, LaunchForm, Root, ShortForm, is_brief};
 use crate::phase::Phase;
 use crate::shortcuts::{arc_speed, clears_by_tangents, may_return_soon};
 use crate::vibration::Vibration;
@@ -345,7 +343,7 @@ pub(crate) fn turned_by(from: Phase, h: f64) -> (Phase, u64) {
 const DOUBTFUL_PULL: f64 = 1.0e-13;
 
 impl Vibration {
-    /// [`Self::short_flight`] from rest, or of a launch that may be back within [`BRIEFEST`], where the search cannot find it.
+    /// [`Self::short_flight`] from rest, or of a launch that may be [brief](is_brief), where the search cannot find it.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] from rest where the platform does not fall away.
@@ -360,7 +358,7 @@ impl Vibration {
                 return Err(Error::NoLiftOff { phase: from.angle(), peak_acceleration: p });
             }
             self.brief_flight_from_rest(from)
-        } else if !away && is_brief(speed, pull) && self.time_to_separation(from.angle()) >= BRIEFEST {
+        } else if !away && is_brief(speed, pull) {
             // The smallest of doubles is as near to no duration as there is.
             let h = (2.0 * speed / pull).max(f64::from_bits(1));
             let (phase, turns) = turned_by(*from, h);
@@ -451,7 +449,13 @@ impl Vibration {
     ) {
         let p = self.peak_acceleration();
         let lost = speed + p * (from.cos() - impact.phase().cos()) - impact.velocity();
-        let rounding = CLOCK_ROUNDING * (1.0 + p + speed.abs() + duration);
+        // Pairs that have been turned by many short flights are off their angles, which tell the time.
+        let parted = |phase: Phase| {
+            let (sin, cos) = crate::elementary::sin_cos(phase.angle());
+            (phase.sin() * cos - phase.cos() * sin).abs()
+        };
+        let rounding =
+            CLOCK_ROUNDING * (1.0 + p + speed.abs() + duration) + p * (parted(from) + parted(impact.phase()));
         assert!(
             impact.velocity() >= 0.0 || (lost - duration).abs() <= rounding,
             "a flight of {duration:e} rad loses {lost:e} of its speed: P = {p:e}, {from:?}, {speed:e}, {impact:?}"

@@ -484,7 +484,6 @@ impl ShortForm {
     }
 
     /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
-    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
     pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let mut h = 0.5 * (bracket.lo + bracket.hi);
         let before = *evaluations;

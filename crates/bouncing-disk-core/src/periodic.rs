@@ -203,7 +203,7 @@ impl ImpactMap {
         let mut residual = f64::INFINITY;
         // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
         let mut found = None;
-        for _ in 0..MAX_NEWTON_STEPS {
+        for iterations in 1..=MAX_NEWTON_STEPS {
             let Shooting { matrix, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
                 Ok(shooting) => shooting,
                 Err(error) => return found.map_or(Err(error), accepted),
@@ -228,16 +228,13 @@ impl ImpactMap {
             states = match moved.collect::<Result<_, _>>() {
                 Ok(states) => states,
                 Err(_) => {
-                    let singular = Error::NotSettled {
-                        what: "multiple shooting",
-                        iterations: MAX_NEWTON_STEPS,
-                        residual,
-                    };
+                    let singular = Error::NotSettled { what: "multiple shooting", iterations, residual };
                     return found.map_or(Err(singular), accepted);
                 }
             };
         }
-        Err(Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual })
+        let error = Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual };
+        found.map_or(Err(error), accepted)
     }
 
     /// The equations of one step of the multiple shooting, and how far `states` are from an orbit.
@@ -250,20 +247,21 @@ impl ImpactMap {
             turns: 0,
             worst: 0.0,
         };
+        let mut turns = 0;
         for (i, &state) in states.iter().enumerate() {
             let impact = self.step(state)?;
             let jacobian = self.jacobian(state, &impact);
             shooting.monodromy = jacobian * shooting.monodromy;
-            shooting.turns += impact.turns;
+            turns += impact.turns as i64;
             let j = (i + 1) % n;
             let target = states[j];
             let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
             let phase = phase_difference(landed, aimed);
             // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
             if landed - aimed > PI {
-                shooting.turns += 1;
+                turns += 1;
             } else if aimed - landed > PI {
-                shooting.turns = shooting.turns.saturating_sub(1);
+                turns -= 1;
             }
             let velocity = impact.velocity - target.velocity();
             shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
@@ -277,6 +275,7 @@ impl ImpactMap {
             shooting.right[(2 * i, 0)] = -phase;
             shooting.right[(2 * i + 1, 0)] = -velocity;
         }
+        shooting.turns = turns.max(0) as u64;
         Ok(shooting)
     }
 

@@ -10,8 +10,8 @@ use crate::error::Error;
 /// A phase of the platform's cycle: the angle tau in [0, 2 pi) with its sine and cosine.
 ///
 /// The three travel together because an impact is found with all of them known: an orbit that carries the pair
-/// does not pay for it again at the next launch. The carried pair may differ in the last place from
-/// [`sin_cos`] of the angle, so a chaotic orbit is only continued bit for bit from all three numbers.
+/// does not pay for it again at the next launch. The carried pair may differ from
+/// [`sin_cos`] of the angle, in the last place after a flight of more than half a radian, so a chaotic orbit is only continued bit for bit from all three numbers.
 ///
 /// How far the two may drift apart: a flight of more than half a radian evaluates the pair anew, so that it agrees with the
 /// angle to 7e-16. A shorter one turns the pair that it started with, and both it and the angle are rounded: with each further

@@ -485,3 +485,27 @@ fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
         assert_eq!(attached, Some(bound), "{restitution}");
     }
 }
+
+/// A grid of whole periods away has the labels of the period from 0 to 1; its phases were rounded in periods times 2 pi.
+#[test]
+fn grids_a_trillion_periods_away_have_the_same_phases() {
+    let speed = Axis::new(0.0, 2.0, 2).unwrap();
+    for whole in [-1.0e12, -3.0, 1.0, 1.0e6, 1.0e14] {
+        let far = Grid::new(Axis::new(whole, whole + 1.0, 8).unwrap(), speed).unwrap();
+        let near = Grid::new(Axis::new(0.0, 1.0, 8).unwrap(), speed).unwrap();
+        for column in 0..8 {
+            // Exact as long as sixteenths of a period are.
+            assert_eq!(far.impact_angle(column).to_bits(), near.impact_angle(column).to_bits(), "{whole}");
+        }
+    }
+}
+
+/// Each of 600,000 short flights turns the carried pair a little off its angle: no defect of the clock.
+#[test]
+fn a_launch_after_a_long_chatter_keeps_time() {
+    let map = ImpactMap::new(Vibration::new(2.0).unwrap(), 1.0 - 1.0e-9).unwrap();
+    let mut state = state(2.9, -1.0e-6);
+    state = map.iterate(state, 600_000).unwrap();
+    let impact = map.vibration().first_impact(Launch::new(state.phase(), 1.0).unwrap()).unwrap();
+    assert!(impact.duration() > 0.5, "{impact:?}");
+}

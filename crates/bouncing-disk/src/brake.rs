@@ -48,10 +48,15 @@ pub fn friction_from_braking(braking: &Braking) -> Result<f64, Error> {
             legal: "[2.3e-308, 1.7e308] (kg m^2)",
         });
     }
-    not_negative(
-        "friction",
-        -inertia * braking.angular_acceleration / (braking.contact_radius * braking.normal_force),
-    )
+    let arm = braking.contact_radius * braking.normal_force;
+    if !arm.is_normal() {
+        return Err(Error::OutOfRange {
+            field: "contact radius times normal force",
+            value: arm,
+            legal: "[2.3e-308, 1.7e308] (N m)",
+        });
+    }
+    not_negative("friction", -inertia * braking.angular_acceleration / arm)
 }
 
 #[cfg(test)]
@@ -84,7 +89,12 @@ mod tests {
             (Braking { mass: -1.0, ..BRAKING }, "mass"),
             (Braking { contact_radius: 0.0, ..BRAKING }, "contact_radius"),
             (Braking { gyration_radius: f64::INFINITY, ..BRAKING }, "gyration_radius"),
-            (Braking { contact_radius: 1e-320, ..BRAKING }, "friction"),
+            (Braking { contact_radius: 1e-320, ..BRAKING }, "contact radius times normal force"),
+            // Their product overflows, and the friction vanished.
+            (
+                Braking { contact_radius: 1e160, normal_force: 1e160, ..BRAKING },
+                "contact radius times normal force",
+            ),
             // Its square vanishes, and with it the friction did.
             (Braking { gyration_radius: 1e-170, ..BRAKING }, "moment of inertia"),
         ] {

@@ -27,12 +27,13 @@ pub struct DiskParameters {
 }
 
 impl DiskParameters {
-    /// The same disk with a load `torque` (N m) on a disk of `mass` (kg), positive: with any other mass the load is not a number,
-    /// and [`Self::build`] refuses it.
+    /// The same disk with a load `torque` (N m) on a disk of `mass` (kg), positive: with any other mass, or with a moment of inertia
+    /// that no double holds, the load is not a number, and [`Self::build`] refuses it.
     #[must_use]
     pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Self {
-        let mass = if mass > 0.0 && mass.is_finite() { mass } else { f64::NAN };
-        self.load_acceleration = torque / (mass * self.gyration_radius * self.gyration_radius);
+        let inertia = mass * self.gyration_radius * self.gyration_radius;
+        self.load_acceleration =
+            if inertia > 0.0 && inertia.is_normal() { torque / inertia } else { f64::NAN };
         self
     }
 

@@ -167,9 +167,10 @@ pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     if speeds.len() != n {
         return illegal("number of speeds", speeds.len() as f64, "the number of times");
     }
-    let rising = times.iter().zip(&times[1..]).all(|(a, b)| b > a);
-    if !(rising && times[0] >= 0.0 && times[n - 1].is_finite()) {
-        return illegal("times of the speed curve", times[0], "finite, not negative, rising (s)");
+    let below_zero = -f64::from_bits(1);
+    let before = std::iter::once(&below_zero).chain(times);
+    if let Some((_, &bad)) = before.zip(times).find(|&(before, time)| !(time > before && time.is_finite())) {
+        return illegal("times of the speed curve", bad, "finite, not negative, rising (s)");
     }
     if let Some(&bad) = speeds.iter().find(|speed| !speed.is_finite()) {
         return illegal("speed", bad, "finite (rad/s)");
@@ -328,6 +329,25 @@ mod tests {
         // A disk that does not turn.
         let still = ExponentialFit::new(&times[..3], &[0.0; 3]).expect("three points are enough");
         assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
+    }
+
+    #[test]
+    fn the_time_that_is_out_of_order_is_named() {
+        for (times, bad) in [
+            ([-1e-310, 1.0, 2.0], -1e-310),
+            ([0.0, 2.0, 1.0], 1.0),
+            ([0.0, 1.0, f64::INFINITY], f64::INFINITY),
+            ([0.0, 1.0, f64::NAN], f64::NAN),
+            ([f64::NAN, 1.0, 2.0], f64::NAN),
+        ] {
+            match ExponentialFit::new(&times, &[1.0; 3]) {
+                Err(Error::OutOfRange { field: "times of the speed curve", value, .. }) => {
+                    assert_eq!(value.to_bits(), bad.to_bits(), "{times:?}");
+                }
+                other => panic!("{times:?}: {other:?}"),
+            }
+        }
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[1.0; 3]).is_ok());
     }
 
     #[test]

@@ -53,10 +53,17 @@ impl EnergyLedger {
         self.rotary_kinetic_change - (self.friction_work - self.friction_loss - self.load_work)
     }
 
-    /// The larger of the two closures relative to the sizes of what was added up; zero where nothing was.
+    /// The larger of the two closures relative to the sizes of what was added up; zero where nothing was, infinite where a
+    /// term is not finite.
     #[must_use]
     pub fn relative_closure(&self) -> f64 {
-        let relative = |closure: f64, magnitude: f64| closure.abs() / magnitude.max(LEAST_MAGNITUDE);
+        let relative = |closure: f64, magnitude: f64| {
+            if closure.is_finite() && magnitude.is_finite() {
+                closure.abs() / magnitude.max(LEAST_MAGNITUDE)
+            } else {
+                f64::INFINITY
+            }
+        };
         relative(self.axial_closure(), self.axial_magnitude)
             .max(relative(self.rotary_closure(), self.rotary_magnitude))
     }
@@ -128,5 +135,27 @@ impl Add for EnergyLedger {
 impl Sum for EnergyLedger {
     fn sum<I: Iterator<Item = Self>>(ledgers: I) -> Self {
         ledgers.fold(Self::default(), Add::add)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ledger_with_a_number_that_is_none_does_not_balance() {
+        let balanced =
+            EnergyLedger { axial_magnitude: 1.0, rotary_magnitude: 1.0, ..EnergyLedger::default() };
+        assert!(balanced.relative_closure() <= 0.0);
+        for broken in [
+            EnergyLedger { normal_work: f64::NAN, ..balanced },
+            EnergyLedger { rotary_magnitude: f64::NAN, ..balanced },
+            EnergyLedger { axial_magnitude: f64::INFINITY, ..balanced },
+            EnergyLedger { load_work: f64::INFINITY, ..balanced },
+        ] {
+            assert_eq!(broken.relative_closure(), f64::INFINITY, "{broken:?}");
+        }
+        let off = EnergyLedger { friction_loss: 0.5, rotary_magnitude: 2.0, ..balanced };
+        assert!((off.relative_closure() - 0.25).abs() <= 0.0);
     }
 }

@@ -77,8 +77,8 @@ impl TryFrom<UncheckedSpread> for Spread {
 /// Most members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;
 
-/// Most speeds of all members of an ensemble together.
-pub const MAX_SPEEDS: usize = 1 << 30;
+/// Most speeds of all members of an ensemble together: with their times a gigabyte.
+pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// An ensemble of transients of one motor.
 ///

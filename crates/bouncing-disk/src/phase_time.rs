@@ -113,7 +113,8 @@ impl PhaseSpan {
     /// The span in radians (rounded: the exact value is `periods` and `remainder`).
     #[must_use]
     pub fn radians(&self) -> f64 {
-        self.periods as f64 * TAU + self.remainder
+        let Self { periods, remainder } = self.normalised();
+        periods as f64 * TAU + remainder
     }
 }
 
@@ -167,6 +168,7 @@ mod tests {
         let later = |remainder: f64| now.after(PhaseSpan { periods: 2, remainder });
         for remainder in [f64::NAN, -1.0, f64::NEG_INFINITY] {
             assert_eq!(later(remainder), PhaseTime { periods: 9, ..now }, "{remainder}");
+            assert!((PhaseSpan { periods: 2, remainder }.radians() - 2.0 * TAU).abs() <= 0.0, "{remainder}");
         }
         let three = later(3.0 * TAU + 0.5);
         assert_eq!(three.periods, 12);

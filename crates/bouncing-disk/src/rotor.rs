@@ -24,7 +24,7 @@ pub(crate) enum RotorStep {
     Contact,
     /// The disk has separated from rest: the next flight starts here.
     Separation,
-    /// Nothing more happens; the speed stays what it is.
+    /// Nothing more happens: the disk stays on the platform, at rest on it, sliding or turning with it.
     Ended,
 }
 

@@ -50,7 +50,9 @@ impl Spell {
         let platform = PlatformState::at(system, time.phase);
         // Any other sequence might never end.
         let chatters = |speed: &f64| {
-            system.vibration().accumulation(self.start.phase, *speed, system.restitution()).is_some()
+            let vibration = system.vibration();
+            let at = vibration.accumulation(self.start.phase, *speed, system.restitution());
+            at.is_some_and(|at| at.duration > 0.0)
         };
         let disk = match (self.state.mode, self.chatter_speed.filter(chatters)) {
             (Mode::Flight, None) => self.flown(system, span),

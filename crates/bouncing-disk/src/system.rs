@@ -231,6 +231,8 @@ mod tests {
             DISK.with_load_torque(1.0, 0.0),
             DISK.with_load_torque(1.0, -0.05),
             DISK.with_load_torque(0.0, f64::INFINITY),
+            // Its moment of inertia overflows, and the load vanished.
+            DiskParameters { gyration_radius: 1e10, ..DISK }.with_load_torque(1.0, 1e300),
         ] {
             assert!(parameters.build().is_err());
         }

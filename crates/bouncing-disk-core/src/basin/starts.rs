@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::lanes::{Batch, LANES, Lanes};
 use crate::phase::Phase;
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 /// Most cells in a share, but for longer rows: enough that a thread seldom waits for the next one, few enough for the threads to finish together.
 const SHARE: usize = 1_024;
@@ -38,7 +38,7 @@ impl<'l, Done: Fn()> Cells<'l, Done> {
         row_done: Done,
     ) -> Result<Self, Error> {
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
-        let phases = (0..columns).map(|column| Phase::new(grid.phase().centre(column) * TAU));
+        let phases = (0..columns).map(|column| Phase::new(grid.impact_angle(column)));
         let share = SHARE.min(labels.len().div_ceil(threads));
         let rows_of_share = (share / columns).max(1);
         Ok(Self {

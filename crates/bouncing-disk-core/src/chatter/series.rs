@@ -131,7 +131,7 @@ pub struct ChatterSeries {
 
 impl Vibration {
     /// The chatter after a launch at `phase` with `speed` > 0 in closed form, for a sequence that
-    /// [`Self::accumulation`] accepts and a `restitution` in (0, 1).
+    /// [`Self::accumulation`] accepts with a duration above 0 and a `restitution` in (0, 1).
     #[must_use]
     pub fn chatter_series(&self, phase: Phase, speed: f64, restitution: f64) -> ChatterSeries {
         let (pull, drift) = (self.contact_force(phase), self.velocity(phase));

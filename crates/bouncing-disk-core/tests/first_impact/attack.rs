@@ -446,15 +446,14 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
         let phase = Axis::new(-1.0 / 32.0, 33.0 / 32.0, 17).unwrap();
         let fastest = 4.0 / (1.0 + map.restitution());
         let speed = Axis::new(0.0, fastest * (1.0 + 1.0 / 16.0), 17).unwrap();
-        let Ok(basins) = map.basins(Grid::new(phase, speed).unwrap(), &known, settings, || ()) else {
+        let grid = Grid::new(phase, speed).unwrap();
+        let Ok(basins) = map.basins(grid, &known, settings, || ()) else {
             continue;
         };
         for row in 0..17 {
             for (column, &label) in basins.row(row).iter().enumerate() {
-                let start = ImpactState::new(
-                    Phase::new(phase.centre(column) * TAU).unwrap(),
-                    -speed.centre(row) * PI,
-                );
+                let start =
+                    ImpactState::new(Phase::new(grid.impact_angle(column)).unwrap(), -speed.centre(row) * PI);
                 let alone = map.basin_label(start.unwrap(), &known, settings).unwrap();
                 assert_eq!(label, alone, "{map:?} {start:?}");
                 labels[usize::from(label).min(2)] += 1;
