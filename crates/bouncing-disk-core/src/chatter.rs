@@ -527,6 +527,34 @@ mod tests {
         assert!(held > 5_000 && refused > 5_000, "{held} {refused}");
     }
 
+    /// At ordinary restitutions the ratio of launches decides, not the least pull.
+    #[test]
+    fn a_window_is_proven_as_far_as_the_launches_shrink() {
+        let (mut held, mut refused) = (0, 0);
+        for k in 0..4_000 {
+            let restitution = [0.1, 0.3, 0.5, 0.8, 0.95][k as usize % 5];
+            let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 2.0);
+            let vibration = Vibration::new(peak).expect("legal");
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let (pull, drift) = (vibration.contact_force(phase), vibration.velocity(phase));
+            if pull <= 1e-3 * peak || drift.abs() <= 0.1 * peak {
+                continue;
+            }
+            // The share of the pull that changes within the window: up to all of it.
+            let x = pull / (3.0 * drift.abs()) * spread(k, 0.414_213_562);
+            let holds =
+                window_holds_all(peak, pull, drift, x * (pull * (1.0 - restitution)), restitution, 2.0 * x);
+            assert_eq!(
+                holds,
+                window_holds_all_exactly(peak, pull, drift, restitution, x),
+                "{peak} {phase:?} {restitution} {x:e}"
+            );
+            held += u32::from(holds);
+            refused += u32::from(!holds);
+        }
+        assert!(held > 100 && refused > 500, "{held} {refused}");
+    }
+
     /// From the smallest number on, and next to separations, where the pull is a rounding: nothing that is summed is said
     /// to bounce on, the sum comes before the separation, and the impacts end.
     #[test]

@@ -312,6 +312,9 @@ fn a_launch_from_rest_at_the_end_of_the_fall_lands_after_three_times_the_rest_of
             if left < 1.0e-6 * (retention - separation.angle()) {
                 brief += 1;
                 assert!((rest.remainder / (3.0 * left) - 1.0).abs() < 1.0e-5, "P {peak}: {rest:?} {left:e}");
+                // P cos sigma is what the pull grows by in a radian.
+                let velocity = -1.5 * ((peak - 1.0) * (peak + 1.0)).sqrt() * left * left;
+                assert!((rest.velocity / velocity - 1.0).abs() < 3.0e-5, "P {peak}: {rest:?} {velocity:e}");
             }
             for speed in [f64::from_bits(1), 1.0e-300, 1.0e-200, 1.0e-121, 1.0e-60] {
                 for angle in [angle, retention, retention.next_up()] {
