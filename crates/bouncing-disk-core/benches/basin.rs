@@ -48,7 +48,7 @@ impl W3 {
         let mut sum = 0;
         for row in 0..grid.speed().cells() {
             for column in 0..grid.phase().cells() {
-                let angle = grid.phase().centre(column) * std::f64::consts::TAU;
+                let angle = grid.impact_angle(column);
                 let start =
                     ImpactState::from_normalised(angle, grid.speed().centre(row)).expect("legal state");
                 sum += u32::from(self.map.basin_label(start, &self.known, SETTINGS).expect("no failure"));

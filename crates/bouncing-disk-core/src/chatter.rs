@@ -147,11 +147,11 @@ impl Vibration {
         Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
     }
 
-    /// A chatter that would end at the separation or behind it, where the pull that proves it an end is a rounding: the disk
-    /// rests if its next flight is too short to change the phase, else it bounces on.
+    /// A chatter whose sum ends at the separation or behind it, as the pull that it was proven with is a rounding: the disk
+    /// rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to change the phase; else it bounces on.
     #[cold]
     fn rests_until_separation(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
-        (2.0 * speed <= 2.0 * COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
+        (speed <= COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
             duration: 0.0,
             error_bound: COMPLETION_ERROR,
             phase,
@@ -209,8 +209,8 @@ impl Vibration {
     }
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
-    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first one's impulse or are launched with
-    /// less than the smallest normal number.
+    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first one's
+    /// impulse or are launched with less than the smallest normal number.
     ///
     /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
     /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.

@@ -268,7 +268,7 @@ fn basin_labels() {
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
     let one_by_one: Vec<Label> = (0..CELLS * CELLS)
         .map(|cell| {
-            let angle = grid.phase().centre(cell % CELLS) * TAU;
+            let angle = grid.impact_angle(cell % CELLS);
             let start =
                 ImpactState::from_normalised(angle, grid.speed().centre(cell / CELLS)).expect("legal");
             map.basin_label(start, &known, settings).expect("no failure")

@@ -196,8 +196,6 @@ impl<'a> Lockstep<'a> {
 
 #[cfg(test)]
 mod tests {
-    use core::f64::consts::TAU;
-
     use super::super::starts::Share;
     use super::super::{ATTACHED, Axis, Grid};
     use super::*;
@@ -225,9 +223,8 @@ mod tests {
         let mut counts = [0; 4];
         for row in 0..cells {
             for (column, &label) in basins.row(row).iter().enumerate() {
-                let start =
-                    ImpactState::from_normalised(grid.phase().centre(column) * TAU, grid.speed().centre(row))
-                        .expect("legal");
+                let start = ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
+                    .expect("legal");
                 let expected = map.basin_label(start, &known, settings).expect("no failure");
                 assert_eq!(label, expected, "Gamma {axial_forcing}: {start:?}");
                 counts[usize::from(label).min(3)] += 1;

@@ -1,7 +1,5 @@
 //! The basins at one forcing.
 
-use std::f64::consts::TAU;
-
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Multipliers, OrbitEvent,
     Phase, UNDECIDED, Vibration, lives,
@@ -39,7 +37,7 @@ fn spot(state: ImpactState) -> Spot {
 }
 
 fn start(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, ExperimentError> {
-    ImpactState::from_normalised(grid.phase().centre(column) * TAU, grid.speed().centre(row))
+    ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
         .map_err(ExperimentError::model)
 }
 
