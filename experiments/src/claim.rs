@@ -2,9 +2,13 @@
 //!
 //! The verdict is the result of a comparison; nothing in this crate can set it by hand. What is printed comes from the
 //! [ledger]; a printed number is compared at the precision it is printed with: half a unit of its last digit, read off
-//! the printed text.
+//! the printed text. A statement that depends on digits which the paper does not print is judged over many inputs that print
+//! alike: [`Claim::printed_share`].
+//!
+//! Only what the paper itself asserts counts for or against it: the [`Class`] of a claim tells that from inputs, from what was
+//! fitted, from what is true by construction, and from what this work adds.
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::ledger::{self, PrintedEntry};
 use crate::printed::PrintedNumber;
@@ -17,18 +21,97 @@ pub enum Verdict {
     Reproduced,
     /// It does not.
     Differs,
+    /// It holds for some of the inputs that print like the paper's, and not for others.
+    DependsOnUnprintedDigits,
     /// The paper's text does not contain what would be needed to compute it.
     NotComputable,
 }
 
 impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Reproduced, Self::Differs, Self::DependsOnUnprintedDigits, Self::NotComputable];
+
     /// The name used in `claims.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
             Self::Differs => "differs",
+            Self::DependsOnUnprintedDigits => "depends-on-unprinted-digits",
             Self::NotComputable => "not-computable",
         }
+    }
+}
+
+/// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Class {
+    /// A number or statement of the paper that a computation can confirm or contradict.
+    #[default]
+    Paper,
+    /// A number of the paper for which a parameter of ours was chosen so that it comes out.
+    Fitted,
+    /// A parameter, a choice of a picture, a measurement that is put in, a quotation.
+    Input,
+    /// True by construction: a definition, an equation that the code implements, printed against printed.
+    Identity,
+    /// A further reading of a printed number, or a finding that the paper does not have.
+    ThisWork,
+}
+
+impl Class {
+    /// All of them, the paper's first.
+    pub const ALL: [Self; 5] = [Self::Paper, Self::Fitted, Self::Input, Self::Identity, Self::ThisWork];
+
+    /// The name used in `claims.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Fitted => "fitted",
+            Self::Input => "input",
+            Self::Identity => "identity",
+            Self::ThisWork => "this-work",
+        }
+    }
+}
+
+/// The least share of the inputs that print alike for which a statement counts as reproduced; one minus it is the largest for
+/// which it counts as differing.
+pub const AGREED_SHARE: f64 = 0.95;
+
+/// For how many of the inputs that print like the paper's a statement holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Agreement {
+    /// Inputs for which it holds.
+    pub holding: usize,
+    /// Inputs tried.
+    pub tried: usize,
+}
+
+impl Agreement {
+    /// Counts the inputs for which a statement holds.
+    pub fn of(holds: impl IntoIterator<Item = bool>) -> Self {
+        let mut agreement = Self { holding: 0, tried: 0 };
+        for held in holds {
+            agreement.tried += 1;
+            agreement.holding += usize::from(held);
+        }
+        agreement
+    }
+
+    /// The share of the inputs for which it holds; `None` where none was tried.
+    pub fn share(self) -> Option<f64> {
+        (self.tried > 0).then(|| self.holding as f64 / self.tried as f64)
+    }
+
+    fn verdict(self) -> Option<Verdict> {
+        self.share().map(|share| match share {
+            share if share >= AGREED_SHARE => Verdict::Reproduced,
+            // Of whole numbers, so that one in twenty is no matter of rounding.
+            _ if 20 * self.holding <= self.tried => Verdict::Differs,
+            _ => Verdict::DependsOnUnprintedDigits,
+        })
     }
 }
 
@@ -69,6 +152,9 @@ pub struct Claim {
     computed: Computed,
     tolerance: Option<f64>,
     verdict: Verdict,
+    class: Class,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    share: Option<f64>,
     note: String,
     /// The number behind the printed text; `None` for statements and labels.
     #[serde(skip)]
@@ -112,10 +198,43 @@ impl Claim {
 
     /// The answer to the entry `key`, a statement in words: whether our data agree, and the numbers that show it.
     /// The entry may name a number, as in "for Γ < 0.52 ...".
-    pub fn printed_statement(key: &str, holds: bool, evidence: impl Into<String>) -> Self {
+    ///
+    /// `None` says that there are no data to judge it by ([`all`], [`any`] of nothing), which is a [fault](Self::lacks_data).
+    pub fn printed_statement(key: &str, holds: impl Into<Option<bool>>, evidence: impl Into<String>) -> Self {
         Self::of_entry(key, |entry| {
             Self::statement(&entry.figure, &entry.place, &entry.quantity, holds, evidence)
         })
+    }
+
+    /// The answer to the entry `key`, a statement that depends on digits the paper does not print: reproduced where it holds for
+    /// [`AGREED_SHARE`] of the inputs that print alike, differing where it fails for as many.
+    pub fn printed_share(key: &str, agreement: Agreement, evidence: impl Into<String>) -> Self {
+        Self::of_entry(key, |entry| {
+            Self::statement(&entry.figure, &entry.place, &entry.quantity, None, evidence)
+                .judged_over(agreement)
+        })
+    }
+
+    /// Judges a statement of this work over inputs that print alike, like [`printed_share`](Self::printed_share).
+    pub fn judged_over(mut self, agreement: Agreement) -> Self {
+        if let (Some(share), Some(verdict)) = (agreement.share(), agreement.verdict()) {
+            self.computed =
+                Computed::Text(format!("holds for {} of {} inputs", agreement.holding, agreement.tried));
+            self.share = Some(share);
+            self.verdict = verdict;
+        }
+        self
+    }
+
+    /// Says that a parameter of ours was chosen so that this number comes out, and which: it does not count for the paper.
+    pub fn fitted(self, parameter: impl AsRef<str>) -> Self {
+        let note = format!("fitted: {}", parameter.as_ref());
+        Self { class: Class::Fitted, ..self }.note(note)
+    }
+
+    /// Says that a statement of this work is true by construction.
+    pub fn identity(self) -> Self {
+        Self { class: Class::Identity, ..self }
     }
 
     /// A further comparison with the printed number of the entry `key`, by the figure or table `id`: another way to
@@ -140,7 +259,7 @@ impl Claim {
 
     fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
         let claim = match ledger::find(key) {
-            Ok(entry) => make(entry),
+            Ok(entry) => Self { class: entry.class, ..make(entry) },
             Err(error) => {
                 // The first part of the key at least says which file was meant.
                 let mut claim = Self::label("", key, "", "", "");
@@ -153,7 +272,7 @@ impl Claim {
 
     fn into_reading(self) -> Self {
         match self.source {
-            Source::Entry(key) => Self { source: Source::Reading(key), ..self },
+            Source::Entry(key) => Self { source: Source::Reading(key), class: Class::ThisWork, ..self },
             _ => self,
         }
     }
@@ -163,7 +282,7 @@ impl Claim {
         let printed = entry.printed.as_deref().unwrap_or("true");
         let claim =
             Self::not_computable(&entry.figure, &entry.place, &entry.quantity, &entry.unit, printed, reason);
-        Self { source: Source::Entry(entry.key.clone()), ..claim }
+        Self { source: Source::Entry(entry.key.clone()), class: entry.class, ..claim }
     }
 
     /// A printed number, compared within half a unit of its last printed digit. In a figure it comes from the ledger:
@@ -196,6 +315,8 @@ impl Claim {
             },
             tolerance: read.map(|number| number.half_unit),
             verdict: Verdict::Differs,
+            class: Class::ThisWork,
+            share: None,
             note: String::new(),
             printed_value: read.map(|number| number.value),
             source: Source::default(),
@@ -226,6 +347,8 @@ impl Claim {
             printed,
             computed: Computed::Text(computed),
             tolerance: None,
+            class: Class::ThisWork,
+            share: None,
             note: String::new(),
             printed_value: None,
             source: Source::default(),
@@ -235,24 +358,31 @@ impl Claim {
     /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper will
     /// want. What is printed comes from the ledger: [`printed_statement`](Self::printed_statement).
     ///
-    /// `quantity` is the statement, `holds` whether our data agree, `evidence` the numbers
+    /// `quantity` is the statement, `holds` whether our data agree (`None`: there are none), `evidence` the numbers
     /// that show it.
     pub fn statement(
         id: impl Into<String>,
         place: impl Into<String>,
         quantity: impl Into<String>,
-        holds: bool,
+        holds: impl Into<Option<bool>>,
         evidence: impl Into<String>,
     ) -> Self {
+        let holds = holds.into();
         Self {
             id: id.into(),
             place: place.into(),
             quantity: quantity.into(),
             unit: String::new(),
             printed: "true".to_owned(),
-            computed: Computed::Boolean(holds),
+            computed: holds.map_or(Computed::Nothing, Computed::Boolean),
             tolerance: None,
-            verdict: if holds { Verdict::Reproduced } else { Verdict::Differs },
+            verdict: match holds {
+                Some(true) => Verdict::Reproduced,
+                Some(false) => Verdict::Differs,
+                None => Verdict::NotComputable,
+            },
+            class: Class::ThisWork,
+            share: None,
             note: evidence.into(),
             printed_value: None,
             source: Source::default(),
@@ -277,6 +407,8 @@ impl Claim {
             computed: Computed::Nothing,
             tolerance: None,
             verdict: Verdict::NotComputable,
+            class: Class::ThisWork,
+            share: None,
             note: reason.into(),
             printed_value: PrintedNumber::read(&printed).map(|number| number.value),
             source: Source::default(),
@@ -313,6 +445,15 @@ impl Claim {
         // the unit is itself rounded, hence the small widening.
         let reproduced = (computed - printed).abs() <= tolerance * (1.0 + 1e-9);
         self.verdict = if reproduced { Verdict::Reproduced } else { Verdict::Differs };
+    }
+
+    /// Whether it should have been judged by data and there are none. Such a claim is no finding but a fault of the experiment.
+    pub fn lacks_data(&self) -> bool {
+        let reasoned = match &self.source {
+            Source::Entry(key) => ledger::find(key).is_ok_and(|entry| entry.reason.is_some()),
+            _ => false,
+        };
+        matches!(self.computed, Computed::Nothing) && !reasoned
     }
 
     /// Where the printed side comes from.
@@ -360,15 +501,76 @@ impl Claim {
         self.verdict
     }
 
+    /// What it is about.
+    pub fn class(&self) -> Class {
+        self.class
+    }
+
+    /// The share of the inputs that print alike for which it holds; `None` where it does not depend on unprinted digits.
+    pub fn share(&self) -> Option<f64> {
+        self.share
+    }
+
     /// Remarks.
     pub fn remarks(&self) -> &str {
         &self.note
     }
 }
 
+/// Whether a test holds for all of the data; `None` if there are none.
+pub fn all<T>(data: impl IntoIterator<Item = T>, mut test: impl FnMut(T) -> bool) -> Option<bool> {
+    data.into_iter().map(&mut test).fold(None, |so_far, holds| Some(so_far.unwrap_or(true) && holds))
+}
+
+/// Whether a test holds for any of the data; `None` if there are none.
+pub fn any<T>(data: impl IntoIterator<Item = T>, mut test: impl FnMut(T) -> bool) -> Option<bool> {
+    all(data, |item| !test(item)).map(|none| !none)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_share_of_the_inputs_that_print_alike_decides() {
+        let verdict = |holding, tried| {
+            let claim = Claim::printed_share("section5.oscillation_grows", Agreement { holding, tried }, "");
+            (claim.verdict(), claim.share().map(|share| (1000.0 * share).round() as u32))
+        };
+        assert_eq!(verdict(190, 200), (Verdict::Reproduced, Some(950)));
+        assert_eq!(verdict(189, 200), (Verdict::DependsOnUnprintedDigits, Some(945)));
+        assert_eq!(verdict(11, 200), (Verdict::DependsOnUnprintedDigits, Some(55)));
+        assert_eq!(verdict(10, 200), (Verdict::Differs, Some(50)));
+        assert_eq!(verdict(0, 0), (Verdict::NotComputable, None));
+        assert_eq!(Agreement::of([true, false, true]), Agreement { holding: 2, tried: 3 });
+    }
+
+    #[test]
+    fn nothing_is_no_evidence() {
+        assert_eq!((all([1, 2], |n| n > 0), all([1, -2], |n| n > 0)), (Some(true), Some(false)));
+        assert_eq!((any([-1, 2], |n| n > 0), any([-1, -2], |n| n > 0)), (Some(true), Some(false)));
+        assert_eq!((all([0; 0], |_| true), any([0; 0], |_| true)), (None, None));
+        let key = "section5.oscillation_grows";
+        assert!(Claim::printed_statement(key, None, "no transients").lacks_data());
+        assert!(Claim::printed_share(key, Agreement::of([]), "").lacks_data());
+        assert!(!Claim::printed_statement(key, false, "").lacks_data());
+        let inputs = ledger::not_computable("fig10");
+        assert!(!inputs.is_empty() && inputs.iter().all(|claim| !claim.lacks_data()));
+    }
+
+    #[test]
+    fn only_the_answer_to_an_entry_of_the_paper_counts_for_it() {
+        assert_eq!(Claim::printed("section4.doubling_1", 0.486).class(), Class::Paper);
+        assert_eq!(Claim::reading("fig06", "section4.doubling_1", "", 0.486).class(), Class::ThisWork);
+        assert_eq!(Claim::statement("fig06", "", "", true, "").class(), Class::ThisWork);
+        assert_eq!(Claim::statement("fig06", "", "", true, "").identity().class(), Class::Identity);
+        let fitted = Claim::printed("section4.share_at_fig7a", 11.6).fitted("the window");
+        assert_eq!((fitted.class(), fitted.remarks()), (Class::Fitted, "fitted: the window"));
+        assert_eq!(Claim::printed_statement("section3.stroke_components", true, "").class(), Class::Identity);
+        let names: Vec<_> =
+            Class::ALL.iter().map(|class| serde_json::to_value(class).expect("a name")).collect();
+        assert!(Class::ALL.iter().zip(names).all(|(class, name)| name == class.name()));
+    }
 
     #[test]
     fn a_text_that_is_no_number_differs() {
@@ -386,8 +588,8 @@ mod tests {
         assert_eq!((claim.computed(), claim.tolerance()), (&Computed::Number(14.25), Some(0.5)));
         assert_eq!(claim.source(), &Source::ThisWork);
         assert_eq!(
-            [Verdict::Reproduced, Verdict::Differs, Verdict::NotComputable].map(Verdict::name),
-            ["reproduced", "differs", "not-computable"]
+            Verdict::ALL.map(Verdict::name),
+            ["reproduced", "differs", "depends-on-unprinted-digits", "not-computable"]
         );
     }
 
@@ -445,10 +647,23 @@ mod tests {
         let claim = Claim::number("fig06", "Fig. 6 caption", "ratio", "", "4.891", f64::NAN);
         let json = serde_json::to_value(&claim).expect("plain data");
         let keys: Vec<_> = json.as_object().expect("an object").keys().cloned().collect();
-        let mut agreed =
-            ["id", "place", "quantity", "unit", "printed", "computed", "tolerance", "verdict", "note"];
+        let mut agreed = [
+            "id",
+            "place",
+            "quantity",
+            "unit",
+            "printed",
+            "computed",
+            "tolerance",
+            "verdict",
+            "class",
+            "note",
+        ];
         agreed.sort_unstable();
         assert_eq!(keys, agreed);
+        let shared =
+            Claim::statement("fig10", "", "", None, "").judged_over(Agreement { holding: 3, tried: 4 });
+        assert_eq!(serde_json::to_value(&shared).expect("plain data")["share"], 0.75);
         assert_eq!(json["computed"], "NaN");
         assert_eq!(json["verdict"], "differs");
         let claim = Claim::not_computable("fig09", "text", "μ", "", "0.1", "no measured points in the text");

@@ -92,6 +92,12 @@ pub enum ExperimentError {
     /// A number printed in the paper could not be read.
     #[error("the ledger of printed numbers failed")]
     Ledger(#[from] LedgerError),
+    /// A number or statement has no data to be judged by.
+    #[error("\"{quantity}\" has no data to be judged by")]
+    NoData {
+        /// The number or statement.
+        quantity: String,
+    },
     /// A user's measurements cannot be used.
     #[error(transparent)]
     Measured(#[from] MeasuredError),

@@ -22,6 +22,7 @@ pub mod fig14;
 mod hand_path;
 mod impulse;
 mod motor_case;
+mod printed_inputs;
 mod regression;
 mod synthetic;
 pub mod table1;

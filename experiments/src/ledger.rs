@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::claim::{Claim, Computed, Source};
+use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::printed::PrintedNumber;
 
 /// One printed number or statement.
@@ -32,6 +32,8 @@ pub struct PrintedEntry {
     pub printed: Option<String>,
     /// Why nothing can be computed for it.
     pub reason: Option<String>,
+    /// What it is: the paper's own, an input, or true by construction.
+    pub class: Class,
 }
 
 /// Why an entry cannot be used.
@@ -126,14 +128,16 @@ struct Stored {
     unit: String,
     printed: Option<String>,
     reason: Option<String>,
+    #[serde(default)]
+    class: Class,
 }
 
 fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, LedgerError> {
     let content: File =
         serde_json::from_str(text).map_err(|cause| LedgerError::File { file, cause: Arc::new(cause) })?;
     let entries = content.values.0.into_iter().map(|(entry, stored)| {
-        let Stored { figure, place, quantity, unit, printed, reason } = stored;
-        PrintedEntry { key: format!("{name}.{entry}"), figure, place, quantity, unit, printed, reason }
+        let Stored { figure, place, quantity, unit, printed, reason, class } = stored;
+        PrintedEntry { key: format!("{name}.{entry}"), figure, place, quantity, unit, printed, reason, class }
     });
     Ok(entries.collect())
 }
@@ -198,7 +202,8 @@ pub fn not_computable(figure: &str) -> Vec<Claim> {
 }
 
 /// What is wrong with the claims of a figure or table: entries that are not answered by exactly one claim, claims that
-/// answer what is not theirs, and numbers that come from no entry.
+/// answer what is not theirs, numbers that come from no entry, claims without data, and claims that count for the paper though
+/// they do not answer an entry of its own.
 pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let mut faults = Vec::new();
     let entries = match entries() {
@@ -215,12 +220,27 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
         }
     }
     for claim in claims {
+        if claim.lacks_data() {
+            faults.push(format!("\"{}\" has no data to be judged by", claim.quantity()));
+        }
+        let of_paper = match claim.source() {
+            Source::Entry(key) => find(key).is_ok_and(|entry| entry.class == Class::Paper),
+            _ => false,
+        };
+        if claim.class() == Class::Paper && !of_paper {
+            faults.push(format!("\"{}\" counts for the paper and is not its own", claim.quantity()));
+        }
+        if claim.verdict() == Verdict::Differs && claim.remarks().is_empty() {
+            faults.push(format!("\"{}\" differs and no reason is given", claim.quantity()));
+        }
         match claim.source() {
             Source::Entry(key) if !own.contains(key.as_str()) => {
                 faults.push(format!("{key} is no entry of {figure}"));
             }
             Source::Reading(key) if find(key).is_err() => faults.push(format!("{key} is no entry")),
-            Source::ThisWork if !matches!(claim.computed(), Computed::Boolean(_)) => {
+            Source::ThisWork
+                if !matches!(claim.computed(), Computed::Boolean(_)) && claim.share().is_none() =>
+            {
                 faults.push(format!("\"{}\" comes from no entry", claim.quantity()));
             }
             _ => {}
@@ -232,7 +252,6 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claim::Verdict;
 
     fn all() -> &'static [PrintedEntry] {
         entries().expect("all files parse")
@@ -249,6 +268,16 @@ mod tests {
         }
         for figure in legal {
             assert!(all().iter().any(|entry| entry.figure == figure), "{figure} has no entry");
+        }
+    }
+
+    /// What is fitted or found is a matter of a claim, not of what is printed.
+    #[test]
+    fn an_entry_is_of_the_paper_an_input_or_an_identity() {
+        for entry in all() {
+            let legal = [Class::Paper, Class::Input, Class::Identity].contains(&entry.class);
+            assert!(legal, "{}: {:?}", entry.key, entry.class);
+            assert!(entry.class != Class::Identity || entry.reason.is_none(), "{}", entry.key);
         }
     }
 

@@ -12,6 +12,7 @@
 //! committed page.
 
 pub mod claim;
+pub mod count;
 pub mod draw;
 pub mod experiment;
 pub mod figures;

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::claim::{Claim, Computed, Verdict};
+use crate::claim::{Claim, Class, Computed, Verdict};
+use crate::count::Counts;
 use crate::experiment::Quality;
 use crate::visible::visible;
 
@@ -54,11 +55,7 @@ pub fn html(sections: &[Section]) -> String {
 }
 
 fn push_header(page: &mut String, sections: &[Section]) {
-    let count = |verdict| {
-        sections.iter().flat_map(|section| &section.claims).filter(|claim| claim.verdict() == verdict).count()
-    };
-    let (reproduced, differs) = (count(Verdict::Reproduced), count(Verdict::Differs));
-    let not_computable = count(Verdict::NotComputable);
+    let counts = Counts::of(sections.iter().flat_map(|section| &section.claims));
     page.push_str(
         "<header>\n<h1>Rotating bouncing disks, tossing pizza dough, and ultrasonic motors</h1>\n\
          <p>Figures and tables of K.-C. Liu, J. Friend and L. Yeo, Phys. Rev. E <b>80</b>, 046201 (2009), computed \
@@ -67,11 +64,10 @@ fn push_header(page: &mut String, sections: &[Section]) {
     );
     let _ = writeln!(
         page,
-        "<p>{} figures and tables; of the printed numbers and statements \
-         <span class=\"reproduced\"><b>{reproduced} reproduced</b></span>, \
-         <span class=\"differs\"><b>{differs} differ</b></span>, \
-         <span class=\"not-computable\"><b>{not_computable} not computable</b></span>.</p>",
-        sections.len()
+        "<p>{} figures and tables. <b>{}</b> {}</p>",
+        sections.len(),
+        escaped(&counts.headline()),
+        escaped(&counts.beside())
     );
     page.push_str("<nav>");
     for section in sections {
@@ -133,17 +129,19 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
     }
     page.push_str(
         "<h3>Printed against computed</h3>\n<table class=\"claims\">\n<thead><tr><th>Place</th><th>Quantity</th>\
-         <th>Printed</th><th>Computed</th><th>Tolerance</th><th>Verdict</th><th>Note</th></tr></thead>\n<tbody>\n",
+         <th>Printed</th><th>Computed</th><th>Tolerance</th><th>Class</th><th>Verdict</th><th>Note</th></tr></thead>\n<tbody>\n",
     );
     for claim in claims {
         let ClaimTexts { computed, printed, tolerance } = ClaimTexts::new(claim);
         let verdict = claim.verdict().name();
+        let words = verdict_words(claim);
         let cells = [
             ("Place", "", claim.place()),
             ("Quantity", "", claim.quantity()),
             ("Printed", "number", printed.as_str()),
             ("Computed", "number", computed.as_str()),
             ("Tolerance", "number", tolerance.as_str()),
+            ("Class", "", class_words(claim.class())),
         ];
         page.push_str("<tr>");
         for (label, class, text) in cells {
@@ -155,11 +153,35 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
             page,
             "<td data-label=\"Verdict\"><span class=\"verdict {verdict}\">{}</span></td>\
              <td data-label=\"Note\">{}</td></tr>",
-            verdict.replace('-', " "),
+            words,
             escaped(note)
         );
     }
     page.push_str("</tbody>\n</table>\n");
+}
+
+/// The class of a claim as one reads it.
+pub(crate) fn class_words(class: Class) -> &'static str {
+    match class {
+        Class::Paper => "paper",
+        Class::Fitted => "fitted",
+        Class::Input => "input",
+        Class::Identity => "identity",
+        Class::ThisWork => "this work",
+    }
+}
+
+/// The verdict of a claim as one reads it. What is not the paper's is neither reproduced nor does it differ.
+pub(crate) fn verdict_words(claim: &Claim) -> &'static str {
+    match (claim.class(), claim.verdict()) {
+        (Class::Input, Verdict::NotComputable) => "put in",
+        (_, Verdict::NotComputable) => "no data",
+        (_, Verdict::DependsOnUnprintedDigits) => "depends on unprinted digits",
+        (Class::Paper, Verdict::Reproduced) => "reproduced",
+        (Class::Paper, Verdict::Differs) => "differs",
+        (_, Verdict::Reproduced) => "agrees",
+        (_, Verdict::Differs) => "does not agree",
+    }
 }
 
 /// The numbers of a claim as one reads them.
@@ -180,6 +202,7 @@ impl ClaimTexts {
         };
         let printed = match claim.computed() {
             Computed::Boolean(_) => "stated".to_owned(),
+            _ if claim.share().is_some() => "stated".to_owned(),
             _ => with_unit(claim.printed_text(), claim.unit()),
         };
         let tolerance =

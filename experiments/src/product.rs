@@ -47,7 +47,7 @@ impl std::fmt::Debug for Stored {
 ///
 /// # Errors
 ///
-/// When the model fails, a number is not finite, or the figure cannot be drawn.
+/// When the model fails, a number is not finite, a claim has no data to be judged by, or the figure cannot be drawn.
 pub fn make(
     entry: &dyn Entry,
     quality: Quality,
@@ -55,6 +55,9 @@ pub fn make(
     progress: &dyn Progress,
 ) -> Result<Vec<File>, ExperimentError> {
     let mut outcome = entry.run(quality, progress)?;
+    if let Some(claim) = outcome.claims().iter().find(|claim| claim.lacks_data()) {
+        return Err(ExperimentError::NoData { quantity: claim.quantity().to_owned() });
+    }
     let mut warnings = Vec::new();
     for series in entry.measurements().iter().filter_map(|layout| measurements.series(layout)) {
         let added = series.map_err(ExperimentError::from).and_then(|series| outcome.overlay(&series));

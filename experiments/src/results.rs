@@ -10,10 +10,11 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::{Claim, Computed, Source, Verdict};
+use crate::claim::{Claim, Class, Computed, Source, Verdict};
+use crate::count::Counts;
 use crate::experiment::{Entry, ExperimentError, Outcome, Quality, chain};
 use crate::output::{OutputError, OutputFolder};
-use crate::page::{ClaimTexts, like, name};
+use crate::page::{ClaimTexts, class_words, like, name, verdict_words};
 use crate::product;
 
 /// The page, in the folder of the documentation.
@@ -206,6 +207,14 @@ pub fn outdated(
     Ok(outdated)
 }
 
+/// What the classes mean.
+const CLASSES: &str = "\
+    A row of class *paper* is a number or a statement of the paper, and only these count for or against it. *Fitted*: a parameter of ours was\n\
+    chosen so that the number comes out. *Input*: a parameter, a choice, a measurement or a quotation, with nothing to compute. *Identity*: true by\n\
+    construction, a definition or an equation that the code implements, or one printed number against another. *This work*: a further reading of a\n\
+    printed number, or a finding that the paper does not have. A statement that hangs on digits which the paper does not print is judged over\n\
+    inputs that all round to the printed ones: reproduced where it holds for 95 % of them, differing where it holds for at most 5 %.\n";
+
 fn picture_name(id: &str) -> String {
     format!("{id}.png")
 }
@@ -217,21 +226,26 @@ fn head(claims: &[(&str, Vec<Claim>)]) -> String {
         and testable statement that the paper prints, compared with ours. A number counts as reproduced when ours agrees within half a unit\n\
         of its last printed digit, unless another tolerance is given. Why a number differs stands in its note and in [errata.md](errata.md).\n\
         This page is generated in paper quality by `cargo xtask figures --docs`; `cargo xtask figures --check` says whether it is up to date.\n\n\
-        | | reproduced | differs | not computable |\n| --- | --- | --- | --- |\n"
+"
         .to_owned();
-    let count = |claims: &[Claim], verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
-    let verdicts = [Verdict::Reproduced, Verdict::Differs, Verdict::NotComputable];
-    let mut totals = [0; 3];
-    for (id, claims) in claims {
-        let counts = verdicts.map(|verdict| count(claims, verdict));
-        for (total, count) in totals.iter_mut().zip(counts) {
-            *total += count;
-        }
-        let [reproduced, differs, not_computable] = counts;
-        let _ = writeln!(text, "| [{}](#{id}) | {reproduced} | {differs} | {not_computable} |", name(id));
+    let rows: Vec<_> = claims.iter().map(|(id, claims)| (*id, Counts::of(claims))).collect();
+    let total = rows.iter().fold(Counts::default(), |total, (_, counts)| total.and(*counts));
+    let _ = writeln!(text, "**{}** {}\n", total.headline(), total.beside());
+    text.push_str(CLASSES);
+    text.push_str("\n| | ");
+    text.push_str("reproduced | differs | depends on unprinted digits | no data | fitted | input | identity | this work |\n");
+    text.push_str("| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    let mut row = |name: &str, counts: &Counts| {
+        let of_paper = Verdict::ALL.map(|verdict| counts.count(Class::Paper, verdict));
+        let beside = [Class::Fitted, Class::Input, Class::Identity, Class::ThisWork];
+        let numbers = of_paper.into_iter().chain(beside.map(|class| counts.of_class(class)));
+        let cells = numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(" | ");
+        let _ = writeln!(text, "| {name} | {cells} |");
+    };
+    for (id, counts) in &rows {
+        row(&format!("[{}](#{id})", name(id)), counts);
     }
-    let [reproduced, differs, not_computable] = totals;
-    let _ = writeln!(text, "| together | {reproduced} | {differs} | {not_computable} |");
+    row("together", &total);
     text
 }
 
@@ -254,19 +268,20 @@ fn section(entry: &dyn Entry, outcome: &dyn Outcome) -> Result<String, ResultsEr
     }
     if !claims.is_empty() {
         text.push_str(
-            "\n| place | quantity | printed | computed | tolerance | verdict | note |\n\
-             | --- | --- | --- | --- | --- | --- | --- |\n",
+            "\n| place | quantity | printed | computed | tolerance | class | verdict | note |\n\
+             | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         );
     }
     for claim in &claims {
         let ClaimTexts { computed, printed, tolerance } = ClaimTexts::new(claim);
-        let verdict = match claim.verdict() {
-            Verdict::Differs => "**differs**".to_owned(),
-            verdict => verdict.name().replace('-', " "),
+        let verdict = match (claim.class(), claim.verdict()) {
+            (Class::Paper, Verdict::Differs) => "**differs**",
+            _ => verdict_words(claim),
         };
-        let cells =
-            [claim.place(), claim.quantity(), &printed, &computed, &tolerance, &verdict, claim.remarks()];
-        let _ = writeln!(text, "| {} |", cells.map(cell).join(" | "));
+        let class = class_words(claim.class());
+        let left =
+            [claim.place(), claim.quantity(), &printed, &computed, &tolerance, class].map(cell).join(" | ");
+        let _ = writeln!(text, "| {left} | {verdict} | {} |", cell(claim.remarks()));
     }
     Ok(text)
 }
@@ -346,7 +361,8 @@ mod tests {
         assert!(page.contains("It shows that | is escaped."), "{page}");
         assert!(page.contains("| restitution ε | 0.5 |"), "{page}");
         assert!(page.contains("| Sec. 1 | last phase | 0.36\u{a0}rad |"), "{page}");
-        assert!(page.contains("| together | 1 | 0 | 0 |"), "{page}");
+        assert!(page.contains("| together | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 1 |"), "{page}");
+        assert!(page.contains("| this work | agrees |"), "{page}");
         for quality in [Quality::Draft, Quality::Paper] {
             assert!(check(&folders, &entries, quality).is_empty());
         }

@@ -1,6 +1,7 @@
 //! What is made from all figures together: `claims.json` and the gallery.
 
 use crate::claim::Claim;
+use crate::count::Counts;
 use crate::experiment::{self, Entry};
 use crate::measured::Measurements;
 use crate::output::{LockedFolder, OutputError, OutputFolder};
@@ -15,6 +16,8 @@ pub struct Summary {
     pub claims: String,
     /// The content of `index.html`.
     pub page: String,
+    /// How many claims of all these figures came out how.
+    pub counts: Counts,
     /// Identifiers of figures whose stored data could not be used, and why.
     pub left_out: Vec<(String, String)>,
     /// Identifiers of figures without measurements that there are, and what is wrong with those.
@@ -83,9 +86,10 @@ impl Summary {
             claims.extend(section.claims.iter().cloned());
             sections.push(section);
         }
+        let counts = Counts::of(&claims);
         // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
         let claims = serde_json::to_value(&claims).unwrap_or_default();
-        Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), left_out, warnings })
+        Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), counts, left_out, warnings })
     }
 
     /// Collects all figures whose results lie in the folder and writes the common files. No other run writes

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
+use bouncing_disk_experiments::count::Counts;
 use bouncing_disk_experiments::experiment::Entry;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
@@ -329,7 +330,7 @@ fn make(
         say!("    make it again: {}", options.command(&[id]))?;
     }
     let faults = faults(options, selected, measurements, &summary);
-    conclude(options, &finished, folder, &faults)
+    conclude(options, &finished, folder, &faults, &summary.counts)
 }
 
 /// Prints the times, the measurements that were left out and the failures.
@@ -341,6 +342,7 @@ fn conclude(
     finished: &[Finished],
     folder: &OutputFolder,
     faults: &[String],
+    counts: &Counts,
 ) -> anyhow::Result<ExitCode> {
     let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
     made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
@@ -351,6 +353,8 @@ fn conclude(
         }
     }
     say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
+    say!("{}", counts.headline())?;
+    say!("{}", counts.beside())?;
     if !faults.is_empty() {
         say!("")?;
     }

@@ -1,4 +1,5 @@
-//! Seeded noise for estimators that have no measured points to run on. Whatever is made with it is labelled synthetic.
+//! Seeded random numbers: noise for estimators that have no measured points to run on (whatever is made with it is labelled
+//! synthetic), and inputs that print alike.
 
 use bouncing_disk::core::elementary::{exp, ln};
 
@@ -12,7 +13,7 @@ impl Noise {
     }
 
     /// Evenly in [0, 1).
-    fn even(&mut self) -> f64 {
+    pub(crate) fn even(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

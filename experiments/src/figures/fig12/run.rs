@@ -126,8 +126,8 @@ fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
     for step in 0..MOST_STEPS {
         for sign in [1.0, -1.0] {
             let near = beside(case, sign * f64::from(step));
-            let flights = near.cycle(ChatterPolicy::Complete)?.flights();
-            if flights.is_some_and(|flights| (2..=LOW_PERIOD_FLIGHTS).contains(&flights)) {
+            let cycle = near.cycle(ChatterPolicy::Complete)?;
+            if cycle.is_low_period() && !cycle.is_one_flight() {
                 return Ok(near);
             }
         }
@@ -143,7 +143,7 @@ fn start() -> Result<Start, ExperimentError> {
 fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {
     let system = motor.system()?;
     let cycle = motor.cycle(ChatterPolicy::Complete)?;
-    let low = cycle.flights().is_some_and(|flights| flights <= LOW_PERIOD_FLIGHTS);
+    let low = cycle.is_low_period();
     let prediction = predict(&motor, low)?;
     let duration_s = if low { LOW_RISES * prediction.reached_s } else { LONG_RISES * motor.rise_time_s() };
 
@@ -259,7 +259,7 @@ fn zoom(motor: &MotorCase, cycle: Cycle, from_s: f64) -> Result<Zoom, Experiment
         }
     }
     // Three cycles of low period, else a number of flights.
-    let low = cycle.flights().filter(|flights| *flights <= LOW_PERIOD_FLIGHTS);
+    let low = cycle.flights().filter(|_| cycle.is_low_period());
     let flights = low.map_or(ZOOM_FLIGHTS, |flights| 3 * flights);
     let mut seen = 0;
     let record = Trajectory::record(&mut engine, |record| {

@@ -2,7 +2,7 @@
 
 use super::data::{Fig12Data, Reading, Rounding, Shown};
 use crate::claim::Claim;
-use crate::figures::motor_case::{Cycle, perturbation_words};
+use crate::figures::motor_case::perturbation_words;
 
 const ID: &str = "fig12";
 const SECTION: &str = "Sec. V C";
@@ -51,10 +51,6 @@ fn printed_low(data: &Fig12Data) -> Option<&Reading> {
     data.printed.iter().find(|reading| reading.preload_acceleration_m_per_s2.total_cmp(&low).is_eq())
 }
 
-fn is_low(data: &Fig12Data, cycle: Cycle) -> bool {
-    cycle.flights().is_some_and(|flights| flights <= data.low_period_flights)
-}
-
 fn readings(data: &Fig12Data) -> String {
     let words = data.printed.iter().map(|reading| {
         format!(
@@ -87,12 +83,12 @@ pub(super) fn claims(data: &Fig12Data) -> Vec<Claim> {
     vec![
         Claim::printed_statement(
             "section5.long_period_case",
-            !is_low(data, long.cycle),
+            !long.cycle.is_low_period(),
             format!("classified by the collisions of the unperturbed motor: {}", readings(data)),
         ),
         Claim::printed_statement(
             "section5.low_period_case",
-            printed_low(data).is_some_and(|reading| is_low(data, reading.cycle)),
+            printed_low(data).is_some_and(|reading| reading.cycle.is_low_period()),
             format!(
                 "{}. The last places of the arithmetic decide: {}. A relative change of {:.1e} gives the cycle of {} that is \
                  drawn. So the paper's low-period orbit is one that its own rounding may have chosen",
@@ -223,7 +219,7 @@ fn smallest_of_fig10(data: &Fig12Data) -> Claim {
         ID,
         "Fig. 10(a)",
         "the motor of Fig. 10(a) is not on a low-period orbit",
-        !is_low(data, data.smallest_of_fig10),
+        !data.smallest_of_fig10.is_low_period(),
         format!(
             "at A ω²/g = {:.3} = 2π² its cycle has {}: low-period chattering at parameters that the paper shows as exponential",
             data.smallest_of_fig10_peak_acceleration,

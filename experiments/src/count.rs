@@ -1,0 +1,89 @@
+//! How many claims of which class came out how, in the words that every summary uses.
+//!
+//! Results page, gallery, README and the last lines of `cargo xtask figures` all count here, so that they cannot count differently. The
+//! headline is about the paper alone: what was fitted, put in, is true by construction or was added by this work stands beside it.
+
+use crate::claim::{Claim, Class, Verdict};
+
+/// Numbers of claims by class and verdict.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts([[usize; Verdict::ALL.len()]; Class::ALL.len()]);
+
+impl Counts {
+    /// Counts the claims.
+    pub fn of<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Self {
+        let mut counts = Self::default();
+        for claim in claims {
+            counts.0[claim.class() as usize][claim.verdict() as usize] += 1;
+        }
+        counts
+    }
+
+    /// Both together.
+    pub fn and(mut self, other: Self) -> Self {
+        for (row, more) in self.0.iter_mut().zip(other.0) {
+            for (count, more) in row.iter_mut().zip(more) {
+                *count += more;
+            }
+        }
+        self
+    }
+
+    /// Claims of a class with a verdict.
+    pub fn count(&self, class: Class, verdict: Verdict) -> usize {
+        self.0[class as usize][verdict as usize]
+    }
+
+    /// Claims of a class.
+    pub fn of_class(&self, class: Class) -> usize {
+        self.0[class as usize].iter().sum()
+    }
+
+    /// What came out of the paper's own numbers and statements, in a sentence.
+    pub fn headline(&self) -> String {
+        let [reproduced, differs, depends, no_data] =
+            Verdict::ALL.map(|verdict| self.count(Class::Paper, verdict));
+        format!(
+            "Of {} numbers and statements of the paper, {reproduced} are reproduced, {differs} differ, {depends} depend on digits that \
+             it does not print, and for {no_data} there are no data to compute from.",
+            self.of_class(Class::Paper),
+        )
+    }
+
+    /// What is no evidence for or against the paper, in a sentence.
+    pub fn beside(&self) -> String {
+        let [fitted, inputs, identities, this_work] =
+            [Class::Fitted, Class::Input, Class::Identity, Class::ThisWork].map(|class| self.of_class(class));
+        format!(
+            "Beside these and not counted with them: {fitted} numbers that we fitted, {inputs} inputs and quotations, {identities} \
+             identities, {this_work} readings and findings of this work."
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_fitted_or_true_by_construction_is_not_counted_with_the_paper() {
+        let claims = [
+            Claim::printed("section4.doubling_1", 0.486),
+            Claim::printed("section4.doubling_2", 0.6),
+            Claim::printed("section4.share_at_fig7a", 11.6).fitted("the window"),
+            Claim::printed_statement("section3.stroke_components", true, ""),
+            Claim::reading("fig06", "section4.doubling_1", "again", 0.486),
+            Claim::statement("fig06", "", "ours", true, ""),
+        ];
+        let counts = Counts::of(&claims);
+        assert_eq!(Verdict::ALL.map(|verdict| counts.count(Class::Paper, verdict)), [1, 1, 0, 0]);
+        assert_eq!(Class::ALL.map(|class| counts.of_class(class)), [2, 1, 0, 1, 2]);
+        assert!(
+            counts
+                .headline()
+                .starts_with("Of 2 numbers and statements of the paper, 1 are reproduced, 1 differ")
+        );
+        assert!(counts.beside().contains("1 numbers that we fitted"));
+        assert_eq!(counts.and(counts).of_class(Class::ThisWork), 4);
+    }
+}

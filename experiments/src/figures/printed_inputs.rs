@@ -1,0 +1,178 @@
+//! Motors whose inputs all round to the printed ones.
+//!
+//! The orbit of a motor hangs on digits that the paper does not print: at A = 1 nm and g = 9.8 m/s² to all digits A ω²/g is 2π², and the
+//! motor repeats a cycle that it does not have at 9.81. A statement about such an orbit is therefore judged over many motors, drawn evenly from all that print like
+//! the paper's ([`Claim::printed_share`](crate::claim::Claim::printed_share)). This is the only place where they are drawn.
+
+use super::motor_case::MotorCase;
+use super::synthetic::Noise;
+use crate::experiment::ExperimentError;
+use crate::ledger::{self, LedgerError};
+
+/// How many are drawn for a verdict.
+pub(crate) const DRAWN: usize = 200;
+
+/// An input between what still rounds to the printed number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Range {
+    low: f64,
+    high: f64,
+}
+
+impl Range {
+    /// All that rounds to the entry `key`, times a power of ten. A printed zero is a choice, θ = 0 for a linear motion, and taken as exact: there is no
+    /// last digit to round.
+    fn printed(key: &str, power: i32) -> Result<Self, LedgerError> {
+        let number = ledger::number(key, power)?;
+        let half = if number.value == 0.0 { 0.0 } else { number.half_unit };
+        Ok(Self { low: number.value - half, high: number.value + half })
+    }
+
+    fn at(self, share: f64) -> f64 {
+        self.low + share * (self.high - self.low)
+    }
+}
+
+/// The ranges of all inputs of a motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PrintedInputs {
+    friction: Range,
+    restitution: Range,
+    phase_lag_rad: Range,
+    amplitude_m: Range,
+    peak_angular_speed_rad_per_s: Range,
+    contact_radius_m: Range,
+    gyration_radius_m: Range,
+    preload_acceleration_m_per_s2: Range,
+    frequency_hz: Range,
+}
+
+impl PrintedInputs {
+    /// The motor of Table III. Its g is printed as "70" alone, which is ω/2π; what is meant is gravity, so that every g counts that rounds to the 9.8 of Table I
+    /// or lies between it and the 10 m/s² up to which Sec. V B varies g.
+    pub(crate) fn table_three() -> Result<Self, ExperimentError> {
+        let gravity = Range::printed("table1.preload_acceleration", 0)?;
+        let highest = ledger::number("section5.highest_preload_acceleration", 0)?.value;
+        Ok(Self {
+            friction: Range::printed("table3.friction", 0)?,
+            restitution: Range::printed("table3.restitution", 0)?,
+            phase_lag_rad: Range::printed("table3.phase_lag", 0)?,
+            amplitude_m: Range::printed("table3.amplitude", 0)?,
+            peak_angular_speed_rad_per_s: Range::printed("table3.peak_angular_speed", 0)?,
+            contact_radius_m: Range::printed("table3.contact_radius", -3)?,
+            gyration_radius_m: Range::printed("table3.gyration_radius", -3)?,
+            preload_acceleration_m_per_s2: Range { high: highest, ..gravity },
+            frequency_hz: Range::printed("section1.own_motor_frequency", 3)?,
+        })
+    }
+
+    /// With the amplitude printed as the entry `key`, in metres.
+    pub(crate) fn amplitude(self, key: &str) -> Result<Self, ExperimentError> {
+        Ok(Self { amplitude_m: Range::printed(key, 0)?, ..self })
+    }
+
+    /// With the preload acceleration printed as the entry `key`, in m/s².
+    pub(crate) fn preload_acceleration(self, key: &str) -> Result<Self, ExperimentError> {
+        Ok(Self { preload_acceleration_m_per_s2: Range::printed(key, 0)?, ..self })
+    }
+
+    /// With exactly this restitution.
+    pub(crate) fn restitution(self, restitution: f64) -> Self {
+        Self { restitution: Range { low: restitution, high: restitution }, ..self }
+    }
+
+    /// The first `count` motors of the seeded sequence, each input drawn evenly and independently of the others.
+    pub(crate) fn drawn(&self, count: usize, seed: u64) -> Vec<MotorCase> {
+        let mut noise = Noise::new(seed);
+        let mut draw = |range: Range| range.at(noise.even());
+        (0..count)
+            .map(|_| MotorCase {
+                friction: draw(self.friction),
+                restitution: draw(self.restitution),
+                phase_lag_rad: draw(self.phase_lag_rad),
+                amplitude_m: draw(self.amplitude_m),
+                peak_angular_speed_rad_per_s: draw(self.peak_angular_speed_rad_per_s),
+                contact_radius_m: draw(self.contact_radius_m),
+                gyration_radius_m: draw(self.gyration_radius_m),
+                preload_acceleration_m_per_s2: draw(self.preload_acceleration_m_per_s2),
+                frequency_hz: draw(self.frequency_hz),
+            })
+            .collect()
+    }
+
+    /// The ranges, for notes and parameter lists.
+    pub(crate) fn words(&self) -> String {
+        let range = |name: &str, range: Range, unit: &str| {
+            format!("{name} {:.4} to {:.4}{unit}", range.low, range.high)
+        };
+        [
+            range("ε", self.restitution, ""),
+            format!("A {:.1e} to {:.1e} m", self.amplitude_m.low, self.amplitude_m.high),
+            range("g", self.preload_acceleration_m_per_s2, " m/s²"),
+            range(
+                "ω/2π",
+                Range { low: 1e-3 * self.frequency_hz.low, high: 1e-3 * self.frequency_hz.high },
+                " kHz",
+            ),
+        ]
+        .join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printed::PrintedNumber;
+
+    #[test]
+    fn every_drawn_input_prints_like_the_papers() {
+        let motors = PrintedInputs::table_three().expect("reads").drawn(DRAWN, 7);
+        assert_eq!(motors.len(), DRAWN);
+        let prints = |value: f64, printed: &str| {
+            let printed = PrintedNumber::read(printed).expect("a number");
+            (value - printed.value).abs() <= printed.half_unit * (1.0 + 1e-9)
+        };
+        for motor in &motors {
+            assert!(prints(motor.friction, "0.1") && prints(motor.restitution, "0.5"), "{motor:?}");
+            assert!(
+                prints(motor.amplitude_m, "10⁻⁸") && prints(motor.peak_angular_speed_rad_per_s, "30"),
+                "{motor:?}"
+            );
+            assert!(
+                prints(1e3 * motor.contact_radius_m, "1.25") && prints(1e3 * motor.gyration_radius_m, "6.3"),
+                "{motor:?}"
+            );
+            assert!(prints(1e-3 * motor.frequency_hz, "70"), "{motor:?}");
+            assert!((9.75..=10.0).contains(&motor.preload_acceleration_m_per_s2), "{motor:?}");
+            assert_eq!(motor.phase_lag_rad.to_bits(), 0.0_f64.to_bits(), "a printed zero is a choice");
+        }
+        // They fill the ranges, and another seed draws others.
+        let extent = |of: fn(&MotorCase) -> f64| {
+            let values = motors.iter().map(of);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            })
+        };
+        let (low, high) = extent(|motor| motor.restitution);
+        assert!(low < 0.452 && high > 0.548, "{low} {high}");
+        assert_ne!(motors, PrintedInputs::table_three().expect("reads").drawn(DRAWN, 8));
+    }
+
+    #[test]
+    fn one_input_can_be_another_printed_one_or_be_set() {
+        let inputs = PrintedInputs::table_three().expect("reads");
+        let smaller =
+            inputs.amplitude("section5.smallest_amplitude_of_fig10").expect("reads").restitution(0.3);
+        for motor in smaller.drawn(20, 1) {
+            assert!((0.5e-9..=1.5e-9).contains(&motor.amplitude_m), "{motor:?}");
+            assert_eq!(motor.restitution.to_bits(), 0.3_f64.to_bits());
+        }
+        let light =
+            inputs.preload_acceleration("section5.preload_acceleration_of_low_period").expect("reads");
+        assert!(
+            light.drawn(20, 1).iter().all(|motor| (0.5..=1.5).contains(&motor.preload_acceleration_m_per_s2))
+        );
+        assert!(inputs.amplitude("section5.no_such_amplitude").is_err());
+        assert!(inputs.words().contains("g 9.7500 to 10.0000 m/s²"), "{}", inputs.words());
+    }
+}
