@@ -385,6 +385,16 @@ mod tests {
     use super::*;
     use crate::testing;
 
+    /// A curve is off by at most a period of its platform where the sign is wrong, which nothing else sees.
+    #[test]
+    fn the_angle_turned_in_a_period_adds_to_the_whole_ones() {
+        let time = seconds(2.0, 0.5, 3.0);
+        assert!((time - 3.0 * (2.0 * TAU + 0.5)).abs() < 1e-13, "{time}");
+        // The phase may lie behind that of the start.
+        let time = seconds(2.0, -0.5, 3.0);
+        assert!((time - 3.0 * (2.0 * TAU - 0.5)).abs() < 1e-13, "{time}");
+    }
+
     /// The published values of the generator for the seed 1234567.
     #[test]
     fn the_generator_is_splitmix64() {

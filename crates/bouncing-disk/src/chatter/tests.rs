@@ -42,6 +42,24 @@ impl Case {
     }
 }
 
+/// The closure of the rotary energy is relative to the terms that balance: work, and the loss of the whole slip.
+#[test]
+fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
+    let mut ledger = EnergyLedger::default();
+    let energy = ImpactEnergy {
+        axial: 1.5,
+        relative_velocity: -1.0,
+        restitution: 0.5,
+        platform_velocity: 0.25,
+        rotary: 0.5,
+        slip: -3.0,
+        platform_speed: -0.75,
+    };
+    book_impact(&mut ledger, energy);
+    assert!((ledger.rotary_magnitude - (0.375 + 1.5)).abs() < 1e-15, "{ledger:?}");
+    assert!((ledger.friction_loss - 0.5 * 2.75).abs() < 1e-15, "{ledger:?}");
+}
+
 /// Largest launch speed with which the disk attaches; `None` where the platform does not pull back.
 fn largest_speed(system: &Dimensionless, phase: Phase) -> Option<f64> {
     let accepted = |exponent: f64| {
