@@ -14,6 +14,7 @@
 pub mod claim;
 pub mod count;
 pub mod draw;
+pub mod errata;
 pub mod experiment;
 pub mod figures;
 mod finite;

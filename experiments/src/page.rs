@@ -244,7 +244,7 @@ pub(crate) fn like(printed: &str, number: f64, digits: usize) -> String {
 }
 
 /// A number with so many significant digits, as one reads it.
-fn significant(number: f64, digits: usize) -> String {
+pub(crate) fn significant(number: f64, digits: usize) -> String {
     if number == 0.0 {
         return "0".to_owned();
     }

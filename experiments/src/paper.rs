@@ -294,6 +294,9 @@ structs! {
 /// Density of steel, kg/m³: a handbook value; the paper weighs the rotor but does not print the weight.
 pub const STEEL_DENSITY: f64 = 7850.0;
 
+/// Standard gravity, m/s²: it prints as the 9.8 of Table I, and is taken where exactly 9.8 is an exception (`docs/errata.md`).
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
 impl SectionFive {
     /// The mass of the rotor, kg: a solid steel ball.
     pub fn rotor_mass_kg(&self) -> f64 {

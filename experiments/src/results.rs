@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::count::Counts;
+use crate::errata::{self, ERRATA_FILE, ErrataError};
 use crate::experiment::{Entry, ExperimentError, Outcome, Quality, chain};
 use crate::output::{OutputError, OutputFolder};
 use crate::page::{ClaimTexts, class_words, like, name, verdict_words};
@@ -60,6 +61,9 @@ pub enum ResultsError {
         /// The entry.
         key: String,
     },
+    /// The errata refer to a number that is not there.
+    #[error("docs/errata.md")]
+    Errata(#[from] ErrataError),
     /// A file cannot be read or written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -73,6 +77,12 @@ pub enum ResultsError {
 pub struct Digests {
     /// Digest of the page.
     pub results: String,
+    /// Digest of the errata page.
+    #[serde(default)]
+    pub errata: String,
+    /// Digest of the template that it was made from.
+    #[serde(default)]
+    pub errata_template: String,
     /// By identifier of the figure.
     pub figures: BTreeMap<String, FigureDigests>,
 }
@@ -122,13 +132,14 @@ fn made(entry: &dyn Entry, folder: &OutputFolder, quality: Quality) -> Result<Ma
     Ok(Made { outcome, digest: digest(&all), section })
 }
 
-/// Writes the page, its pictures and their digests into `docs` from the figures in both output folders:
+/// Writes the page, the errata from their template, the pictures and their digests into `docs` from the figures in both output folders:
 /// nothing before everything is drawn, and the digests, which all is compared with, last.
 ///
 /// # Errors
 ///
-/// When a figure is missing in one of them or cannot be drawn, or the system refuses.
+/// When a figure is missing in one of them or cannot be drawn, the errata refer to what is not there, or the system refuses.
 pub fn write(
+    errata: &str,
     entries: &[Box<dyn Entry>],
     paper: &OutputFolder,
     draft: &OutputFolder,
@@ -136,6 +147,8 @@ pub fn write(
 ) -> Result<(), ResultsError> {
     let pictures = OutputFolder::create(docs.path().join(PICTURES_FOLDER))?;
     let mut digests = Digests::default();
+    let cited = errata::figures(errata);
+    let mut data = BTreeMap::new();
     let (mut sections, mut claims, mut files) = (String::new(), Vec::new(), Vec::new());
     // No other run may put figures of its own there meanwhile.
     let _held = (draft.lock()?, paper.lock()?);
@@ -151,17 +164,26 @@ pub fn write(
         files.push((picture_name(id), picture));
         digests.figures.insert(id.to_owned(), figure);
         sections.push_str(&made.section);
+        if cited.contains(&id) {
+            data.insert(id, made.outcome.to_json().map_err(failed)?);
+        }
         claims.push((id, made.outcome.claims()));
     }
     let page = format!("{}{sections}", head(&claims));
     digests.results = digest(page.as_bytes());
+    let numbers = errata::claim_numbers(claims.iter().flat_map(|(_, claims)| claims));
+    let errata_page = errata::filled(errata, |id| {
+        if id == errata::CLAIMS { Some(numbers.clone()) } else { data.get(id).cloned() }
+    })?;
+    digests.errata = digest(errata_page.as_bytes());
+    digests.errata_template = digest(errata.as_bytes());
     let mut text = serde_json::to_vec_pretty(&digests).map_err(ResultsError::Digests)?;
     text.push(b'\n');
     files.push((DIGESTS_FILE.to_owned(), text));
     let files: Vec<_> = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
     // Page and pictures of one run.
     let locked = docs.lock()?;
-    locked.write(&[(RESULTS_FILE, page.as_bytes())])?;
+    locked.write(&[(RESULTS_FILE, page.as_bytes()), (ERRATA_FILE, errata_page.as_bytes())])?;
     Ok(pictures.lock()?.write(&files)?)
 }
 
@@ -172,6 +194,7 @@ pub fn write(
 ///
 /// When a file exists and cannot be read.
 pub fn outdated(
+    errata: &str,
     entries: &[&dyn Entry],
     quality: Quality,
     folder: &OutputFolder,
@@ -185,6 +208,12 @@ pub fn outdated(
     let page = docs.read(RESULTS_FILE)?;
     if page.is_none_or(|page| digest(&page) != digests.results) {
         outdated.push(RESULTS_FILE.to_owned());
+    }
+    let errata_page = docs.read(ERRATA_FILE)?;
+    if errata_page.is_none_or(|page| digest(&page) != digests.errata)
+        || digest(errata.as_bytes()) != digests.errata_template
+    {
+        outdated.push(ERRATA_FILE.to_owned());
     }
     for entry in entries {
         let id = entry.id();
@@ -323,6 +352,8 @@ mod tests {
     use crate::progress::Silent;
     use crate::testing::demo_entries;
 
+    const ERRATA: &str = "The last phase is {demo:/impact_phase_rad/0:.2}.\n";
+
     struct Folders {
         paper: OutputFolder,
         draft: OutputFolder,
@@ -339,7 +370,7 @@ mod tests {
             let files = product::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
             folder.write_set("demo", quality, "", 0.1, &files).expect("writable");
         }
-        write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
         (folders, entries)
     }
 
@@ -349,7 +380,7 @@ mod tests {
             Quality::Paper => &folders.paper,
         };
         let entries: Vec<&dyn Entry> = entries.iter().map(|entry| &**entry).collect();
-        outdated(&entries, quality, folder, &folders.docs).expect("readable")
+        outdated(ERRATA, &entries, quality, folder, &folders.docs).expect("readable")
     }
 
     #[test]
@@ -359,6 +390,8 @@ mod tests {
         let page = String::from_utf8(page).expect("text");
         assert!(page.contains("![A demonstration](figures/demo.png)"), "{page}");
         assert!(page.contains("It shows that | is escaped."), "{page}");
+        let errata = folders.docs.read(ERRATA_FILE).expect("readable").expect("written");
+        assert_eq!(errata, b"The last phase is 0.09.\n");
         assert!(page.contains("| restitution ε | 0.5 |"), "{page}");
         assert!(page.contains("| Sec. 1 | last phase | 0.36\u{a0}rad |"), "{page}");
         assert!(page.contains("| together | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 1 |"), "{page}");
@@ -368,17 +401,35 @@ mod tests {
         }
     }
 
+    /// The numbers of verdicts that the README names are those of the page.
+    #[test]
+    fn the_readme_counts_like_the_page() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let read = |name: &str| std::fs::read_to_string(root.join(name)).expect("committed");
+        let page = read("docs/results.md");
+        let headline =
+            page.lines().find_map(|line| line.strip_prefix("**Of ")?.split_once("**")).expect("a headline");
+        let readme = read("README.md").replace('\n', " ");
+        assert!(readme.contains(&format!("Of {}", headline.0)), "{}", headline.0);
+    }
+
     #[test]
     fn every_way_to_be_out_of_date_is_seen() {
         let (folders, entries) = folders("stale");
         let picture = "figures/demo.png".to_owned();
+        folders.docs.write(ERRATA_FILE, b"edited").expect("writable");
+        assert_eq!(check(&folders, &entries, Quality::Draft), [ERRATA_FILE.to_owned()]);
+        let references: Vec<&dyn Entry> = entries.iter().map(|entry| &**entry).collect();
+        write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        let other = outdated("Another text.", &references, Quality::Draft, &folders.draft, &folders.docs);
+        assert_eq!(other.expect("readable"), [ERRATA_FILE.to_owned()]);
         let pictures = OutputFolder::existing(folders.docs.path().join(PICTURES_FOLDER));
         folders.docs.write(RESULTS_FILE, b"edited").expect("writable");
         assert_eq!(check(&folders, &entries, Quality::Draft), [RESULTS_FILE.to_owned()]);
-        write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
         pictures.write("demo.png", b"edited").expect("writable");
         assert_eq!(check(&folders, &entries, Quality::Draft), std::slice::from_ref(&picture));
-        write(&entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
+        write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
         // Another drawing of the draft alone.
         folders.draft.write("demo.svg", b"<svg/>").expect("writable");
         assert_eq!(check(&folders, &entries, Quality::Draft), std::slice::from_ref(&picture));
@@ -394,7 +445,7 @@ mod tests {
         let again = |quality: Quality, measured: &str| {
             let files = product::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
             folders.paper.write_set("demo", quality, measured, 0.1, &files).expect("writable");
-            write(&entries, &folders.paper, &folders.draft, &folders.docs)
+            write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs)
         };
         assert!(matches!(again(Quality::Draft, ""), Err(ResultsError::Changed { .. })));
         assert!(matches!(again(Quality::Paper, "0123"), Err(ResultsError::Changed { .. })));

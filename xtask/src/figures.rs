@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use bouncing_disk_experiments::count::Counts;
+use bouncing_disk_experiments::errata;
 use bouncing_disk_experiments::experiment::Entry;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
@@ -54,10 +55,10 @@ pub(crate) struct Options {
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
-    /// Write nothing; fail when an output, docs/results.md or a picture in docs/figures is missing or out of date
+    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
-    /// Make everything and write docs/results.md and docs/figures from it
+    /// Make everything and write docs/results.md, docs/errata.md and docs/figures from it
     #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date
@@ -182,7 +183,8 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
         }
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    results::write(run.entries, folder, &drafts, &docs).context("the documentation cannot be written")?;
+    results::write(errata::TEMPLATE, run.entries, folder, &drafts, &docs)
+        .context("the documentation cannot be written")?;
     say!("{} is up to date", visible_path(&docs.path().join(results::RESULTS_FILE)))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -276,7 +278,7 @@ fn check(
         .copied()
         .filter(|entry| measurements.digest(entry.measurements()) == none.digest(entry.measurements()))
         .collect();
-    let committed = results::outdated(&comparable, options.quality, &folder, &docs)?;
+    let committed = results::outdated(errata::TEMPLATE, &comparable, options.quality, &folder, &docs)?;
     for name in &committed {
         say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
     }

@@ -9,6 +9,7 @@ use bouncing_disk::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claim::Claim;
 use crate::experiment::ExperimentError;
 use crate::paper::{SectionFive, TableThree};
 
@@ -19,15 +20,18 @@ pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
 
 /// A fit whose constant exceeds this share of the duration, or whose residual exceeds this share of its steady
 /// speed, has no meaning: the speed does not settle, or it is not told apart from zero.
-const LARGEST_CONSTANT: f64 = 0.5;
+pub(crate) const LARGEST_CONSTANT: f64 = 0.5;
 /// See [`LARGEST_CONSTANT`].
-const LARGEST_RESIDUAL: f64 = 0.25;
+pub(crate) const LARGEST_RESIDUAL: f64 = 0.25;
 
 /// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
 /// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
 const LOCKED_WITHIN: f64 = 0.05;
 /// See [`LOCKED_WITHIN`].
 const LOCKED_FLIGHTS: usize = 8;
+
+/// Two speeds that differ by no more standard errors count as the same.
+const SAME_WITHIN: f64 = 3.0;
 
 /// Impacts in which an unperturbed cycle is looked for.
 const EXAMINED_IMPACTS: usize = 2_048;
@@ -177,9 +181,17 @@ impl Cycle {
         }
     }
 
+    /// Its flights of more than half a period, if it is a chattering cycle.
+    pub(crate) fn chattering_flights(self) -> Option<usize> {
+        match self {
+            Self::Chattering { long_flights, .. } => Some(long_flights),
+            Self::Periodic { .. } | Self::Longer | Self::AtRest => None,
+        }
+    }
+
     /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle, however short.
     pub(crate) fn is_low_period(self) -> bool {
-        matches!(self, Self::Chattering { long_flights, .. } if long_flights <= LOW_PERIOD_FLIGHTS)
+        self.chattering_flights().is_some_and(|flights| flights <= LOW_PERIOD_FLIGHTS)
     }
 
     /// Whether every flight ends in a rest.
@@ -326,6 +338,33 @@ pub(crate) fn perturbation_words(table: &[PerturbationEffect]) -> String {
         )
     });
     words.collect::<Vec<_>>().join("; ")
+}
+
+/// The statement that the steady speed is the same for every size of the relaunch perturbation, from none on: all sizes that were tried, against
+/// their standard errors.
+pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[PerturbationEffect]) -> Claim {
+    let speeds = || table.iter().map(|effect| effect.statistics.steady_speed_rad_per_s);
+    let least = speeds().min_by(|one, other| one.mean.total_cmp(&other.mean));
+    let most = speeds().max_by(|one, other| one.mean.total_cmp(&other.mean));
+    let (holds, range) = match (least, most) {
+        (Some(least), Some(most)) => {
+            let difference = most.mean - least.mean;
+            let error = (least.standard_error * least.standard_error
+                + most.standard_error * most.standard_error)
+                .sqrt();
+            let range = format!(
+                "the slowest and the fastest differ by {difference:.2} ± {error:.2} rad/s, {:.1} % of the speed",
+                100.0 * difference / most.mean.abs()
+            );
+            (Some(difference <= SAME_WITHIN * error), range)
+        }
+        _ => (None, String::new()),
+    };
+    let evidence = format!(
+        "steady speed (rad/s) and stall acceleration (rad/s²) by perturbation (g/ω), with standard errors: {}; {range}. Small perturbations leave the first impacts after a relaunch the same every time, the more of them the smaller they are, and short cycles alive",
+        perturbation_words(table)
+    );
+    Claim::statement(id, "our ensemble", quantity, holds, evidence)
 }
 
 /// Largest minus smallest over the mean of all values.

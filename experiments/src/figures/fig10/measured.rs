@@ -102,7 +102,7 @@ pub(super) fn panel(area: Rect, trials: &[Trial], trial: &Trial, model: Exponent
     let bottom = if fit.steady_speed < 0.0 { 0.74 } else { 0.04 };
     let note =
         |line: f64, text: String| Text::at_axes(0.96, bottom + 0.08 * line, text).anchor(Anchor::Right);
-    let curve = |fit: ExponentialFit| super::sampled(last, move |time| fit.speed(time));
+    let curve = |fit: ExponentialFit| super::picture::sampled(last, move |time| fit.speed(time));
     let drawn = Panel::new(area)
         .letter_in(
             ["g", "h", "i"].get(trial.trial as usize - 1).copied().unwrap_or_default(),

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{Cycle, MotorCase, PerturbationEffect};
 use crate::paper::ChatteringCases;
 
@@ -21,9 +22,38 @@ pub struct Fig12Data {
     pub(super) low_period_flights: usize,
     /// The motor of the low-period case against the size of the relaunch perturbation.
     pub(super) perturbations: Vec<PerturbationEffect>,
-    /// The low-period case of Fig. 10(a): default values with A = 1 nm.
-    pub(super) smallest_of_fig10: Cycle,
-    pub(super) smallest_of_fig10_peak_acceleration: f64,
+    /// Motors that print like those of both cases.
+    pub(super) alike: [Alike; 2],
+    /// Motors of low period among those that print like the low-period case.
+    pub(super) alike_of_low_period: LowPeriod,
+}
+
+/// Motors whose inputs all print like the paper's.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Alike {
+    /// The ranges drawn from.
+    pub(super) inputs: String,
+    pub(super) motors: Vec<AlikeMotor>,
+}
+
+/// The first motors of low period of a longer sequence of those that print alike.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct LowPeriod {
+    /// Motors drawn to find them.
+    pub(super) drawn: usize,
+    pub(super) motors: Vec<AlikeMotor>,
+    /// For each the lines that its speed forms.
+    pub(super) lines: Vec<Lines>,
+}
+
+/// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for each flight of the cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Lines {
+    pub(super) flights: usize,
+    /// Largest distance of neighbouring lines, over what the speed gains in a cycle.
+    pub(super) gap_over_gain: f64,
+    /// The same over ωΦ.
+    pub(super) gap_over_peak_angular_speed: f64,
 }
 
 /// A printed case under one reading of its frequency and one chattering policy.
@@ -80,9 +110,12 @@ pub(super) struct Fits {
     pub(super) ramp_residual_rad_per_s: f64,
     /// Mean over the last fifth.
     pub(super) last_speed_rad_per_s: f64,
-    /// Straight line through the first half of the rise.
+    /// Straight line through the whole of the rise, and its largest distance from the curve.
     pub(super) slope_rad_per_s2: f64,
     pub(super) slope_error_rad_per_s2: f64,
+    pub(super) farthest_from_line_rad_per_s: f64,
+    /// Straight line through the first tenth of the rise.
+    pub(super) first_slope_rad_per_s2: f64,
     /// First time at which the speed is within 2 % of the last one.
     pub(super) reached_s: Option<f64>,
 }
@@ -105,10 +138,13 @@ pub(super) struct Prediction {
     pub(super) balance: f64,
 }
 
-/// A short part of the rise.
+/// A short part of the rise. Of the low-period case the flights of many cycles, which form its lines.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Zoom {
     pub(super) time_s: Vec<f64>,
     pub(super) speed_rad_per_s: Vec<f64>,
     pub(super) height_m: Vec<f64>,
+    /// Flights of many cycles: their starts and speeds.
+    pub(super) flight_time_s: Vec<f64>,
+    pub(super) flight_speed_rad_per_s: Vec<f64>,
 }

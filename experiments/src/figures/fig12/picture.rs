@@ -22,9 +22,11 @@ pub(super) fn draw(data: &Fig12Data) -> Figure {
     for (column, (shown, title, printed)) in columns.into_iter().enumerate() {
         let letters = [["a", "b", "c"], ["d", "e", "f"]][column];
         let top = whole(grid.cell(0, column), shown, printed, column == 1);
+        let cell = grid.cell(1, column);
+        let speeds = if column == 0 { speeds(cell, shown) } else { lines(cell, shown) };
         figure = figure
             .panel(top.letter(letters[0]).title(title))
-            .panel(speeds(grid.cell(1, column), shown).letter(letters[1]))
+            .panel(speeds.letter(letters[1]))
             .panel(heights(grid.cell(2, column), shown).letter(letters[2]));
     }
     figure
@@ -96,6 +98,34 @@ fn speeds(area: Rect, shown: &Shown) -> Panel {
     zoomed(area, shown)
         .y(y.ticks(Ticks::every(tick_step(fastest - slowest))))
         .layer(Line::new(points).width(0.8))
+}
+
+/// The flights of some cycles of low period, each of a cycle in a shade of its own: they form lines.
+fn lines(area: Rect, shown: &Shown) -> Panel {
+    let zoom = &shown.zoom;
+    let points: Vec<(f64, f64)> =
+        zoom.flight_time_s.iter().copied().zip(zoom.flight_speed_rad_per_s.iter().copied()).collect();
+    let flights = shown.cycle.flights().unwrap_or(1).max(1);
+    let extent = |of: fn(&(f64, f64)) -> f64| {
+        let values = points.iter().map(of);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let ((first, last), (slowest, fastest)) = (extent(|point| point.0), extent(|point| point.1));
+    let margin = 0.03 * (last - first);
+    let mut panel =
+        Panel::new(area).x(Axis::linear(first - margin, last + margin).label(r"$t$ (s)")).y(Axis::around([
+            slowest, fastest,
+        ])
+        .label(r"$\dot{\alpha}$ (rad/s)")
+        .ticks(Ticks::every(tick_step(fastest - slowest))));
+    for flight in 0..flights {
+        let of_flight: Vec<(f64, f64)> = points.iter().copied().skip(flight).step_by(flights).collect();
+        let colour = [Colour::BLUE, Colour::VERMILION, Colour::GREEN, Colour::BLACK][flight % 4];
+        panel = panel
+            .layer(Line::new(of_flight.clone()).colour(colour).width(0.5))
+            .layer(Scatter::new(of_flight).marker(Marker::Dot).size(3.0).colour(colour));
+    }
+    panel
 }
 
 /// A round step that divides `range` into at most four parts.

@@ -7,10 +7,14 @@ use bouncing_disk::{
     CollisionEvent, Collisions, Engine, RampFit, Start, Trajectory, TransientSettings, transient,
 };
 
-use super::data::{Fig12Data, Fits, Prediction, Reading, Rounding, Shown, Zoom};
+use rayon::prelude::*;
+
+use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Reading, Rounding, Shown, Zoom};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::alike::alike;
 use crate::figures::impulse::Impulses;
 use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error, perturbation_table};
+use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
 use crate::paper;
 use crate::progress::Progress;
@@ -32,6 +36,13 @@ const IMPULSES: usize = 20_000;
 /// Samples of a zoom, and its flights.
 const ZOOM_SAMPLES: usize = 1_500;
 const ZOOM_FLIGHTS: usize = 12;
+/// Cycles of low period whose flights are drawn: enough to show their lines.
+const LINE_CYCLES: usize = 10;
+/// The first slope is that of this share of the rise.
+const FIRST_PART: f64 = 0.1;
+/// Seed of the inputs that print alike, and how many are drawn at most to find those of low period.
+const SEED: u64 = 12;
+const MOST_DRAWN: usize = 6_000;
 /// The zoom starts at this share of the time to the steady speed; of the long-period case, of the rise time.
 const ZOOM_AT: f64 = 0.5;
 /// The speed has reached its last value when it differs from it by this share.
@@ -51,7 +62,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
         preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
         ..motor
     };
-    progress.start(6, "cases");
+    progress.start(7, "cases");
     let mut printed = Vec::new();
     for case in [long, low] {
         // ω read as 2π times 70 kHz, and as 70 000 rad/s.
@@ -81,7 +92,19 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
     progress.advance(1);
     let perturbations = perturbation_table(&near, &PERTURBATIONS, 6.0, quality.choose(4, 16))?;
     progress.advance(1);
-    let smallest = MotorCase { amplitude_m: section.amplitudes_of_fig10_m[0], ..motor };
+    let count = quality.choose(DRAWN / 5, DRAWN);
+    let inputs = PrintedInputs::table_three()?;
+    let of_case = |amplitude, preload| inputs.amplitude(amplitude)?.preload_acceleration(preload);
+    let both = [
+        of_case("section5.amplitude_of_long_period", "section5.preload_acceleration_of_long_period")?,
+        of_case("section5.amplitude_of_low_period", "section5.preload_acceleration_of_low_period")?,
+    ];
+    let [long_like, low_like] = both.map(|inputs| {
+        let motors = alike(&inputs.drawn(count, SEED), LONG_RISES)?;
+        Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
+    });
+    let alike_of_low_period = first_of_low_period(&both[1], count)?;
+    progress.advance(1);
     Ok(Fig12Data {
         cases,
         long_period,
@@ -90,9 +113,93 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
         rounding,
         low_period_flights: LOW_PERIOD_FLIGHTS,
         perturbations,
-        smallest_of_fig10: smallest.cycle(ChatterPolicy::Complete)?,
-        smallest_of_fig10_peak_acceleration: smallest.system()?.peak_acceleration(),
+        alike: [long_like?, low_like?],
+        alike_of_low_period,
     })
+}
+
+/// The first `count` motors of low period that are drawn.
+fn first_of_low_period(inputs: &PrintedInputs, count: usize) -> Result<LowPeriod, ExperimentError> {
+    let drawn = inputs.drawn(MOST_DRAWN, SEED);
+    let cycles = drawn
+        .par_iter()
+        .map(|motor| motor.cycle(ChatterPolicy::Complete))
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let found: Vec<usize> =
+        (0..drawn.len()).filter(|&index| cycles[index].is_low_period()).take(count).collect();
+    let chosen: Vec<MotorCase> = found.iter().map(|&index| drawn[index]).collect();
+    Ok(LowPeriod {
+        drawn: found.last().map_or(drawn.len(), |last| last + 1),
+        lines: chosen
+            .par_iter()
+            .zip(&found)
+            .map(|(motor, &index)| lines(motor, cycles[index]))
+            .collect::<Result<_, _>>()?,
+        motors: alike(&chosen, LONG_RISES)?,
+    })
+}
+
+/// The lines of a low-period cycle, from two rounds of it right after the start.
+fn lines(motor: &MotorCase, cycle: Cycle) -> Result<Lines, ExperimentError> {
+    let flights = cycle.flights().unwrap_or_default();
+    let flown = flown(motor, 3 * flights, f64::INFINITY)?;
+    // The first round begins with a rest that is not of the cycle.
+    let points: Vec<(f64, f64)> =
+        flown.times_s.iter().copied().zip(flown.speeds_rad_per_s.iter().copied()).skip(flights).collect();
+    let (Some(&(began, first)), Some(&(again, second))) = (points.first(), points.get(flights)) else {
+        return Ok(Lines { flights, gap_over_gain: 0.0, gap_over_peak_angular_speed: 0.0 });
+    };
+    let gain = second - first;
+    let mut offsets: Vec<f64> = points[..flights]
+        .iter()
+        .map(|(time, speed)| speed - gain * (time - began) / (again - began))
+        .collect();
+    offsets.sort_by(f64::total_cmp);
+    let gap = offsets.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    // A cycle that drives the rotor neither way gains nothing, and its lines lie level.
+    let gap_over_gain = if gain == 0.0 { 0.0 } else { gap / gain.abs() };
+    Ok(Lines {
+        flights,
+        gap_over_gain,
+        gap_over_peak_angular_speed: gap / motor.peak_angular_speed_rad_per_s,
+    })
+}
+
+/// Flights longer than half a period: their starts and the speed during each.
+struct Flown {
+    times_s: Vec<f64>,
+    speeds_rad_per_s: Vec<f64>,
+}
+
+/// The flights of the motor from rest, at most so many and for so long.
+fn flown(motor: &MotorCase, flights: usize, duration_s: f64) -> Result<Flown, ExperimentError> {
+    let system = motor.system()?;
+    let scales = system.scales();
+    let mut collisions =
+        Collisions::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut flown = Flown { times_s: Vec::new(), speeds_rad_per_s: Vec::new() };
+    let mut last = None;
+    while flown.times_s.len() < flights
+        && let Some(event) = collisions.advance().map_err(ExperimentError::model)?
+    {
+        let time = match event {
+            CollisionEvent::Collision(collision) => {
+                let long = |from| collision.time.since(&from).radians() > PI;
+                if let Some(from) = last.filter(|from| long(*from)) {
+                    flown.times_s.push(scales.time_seconds(from));
+                    flown.speeds_rad_per_s.push(scales.angular_speed * collision.angular_speed);
+                }
+                collision.time
+            }
+            CollisionEvent::Attachment { time, .. } | CollisionEvent::Separation { time, .. } => time,
+            _ => continue,
+        };
+        last = Some(time);
+        if scales.time_seconds(time) > duration_s {
+            break;
+        }
+    }
+    Ok(flown)
 }
 
 /// The motor at the amplitude `step` relative steps from that of `case`.
@@ -147,29 +254,8 @@ fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentEr
     let prediction = predict(&motor, low)?;
     let duration_s = if low { LOW_RISES * prediction.reached_s } else { LONG_RISES * motor.rise_time_s() };
 
-    let scales = system.scales();
-    let mut collisions =
-        Collisions::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
-    let (mut flight_time_s, mut flight_speed_rad_per_s) = (Vec::new(), Vec::new());
-    let mut last = None;
-    while let Some(event) = collisions.advance().map_err(ExperimentError::model)? {
-        let time = match event {
-            CollisionEvent::Collision(collision) => {
-                let long = |from| collision.time.since(&from).radians() > PI;
-                if let Some(from) = last.filter(|from| long(*from)) {
-                    flight_time_s.push(scales.time_seconds(from));
-                    flight_speed_rad_per_s.push(scales.angular_speed * collision.angular_speed);
-                }
-                collision.time
-            }
-            CollisionEvent::Attachment { time, .. } | CollisionEvent::Separation { time, .. } => time,
-            _ => continue,
-        };
-        last = Some(time);
-        if scales.time_seconds(time) > duration_s {
-            break;
-        }
-    }
+    let Flown { times_s: flight_time_s, speeds_rad_per_s: flight_speed_rad_per_s } =
+        flown(&motor, usize::MAX, duration_s)?;
     Ok(Shown {
         amplitude_offset: motor.amplitude_m / printed_amplitude - 1.0,
         axial_forcing: system.axial_forcing(),
@@ -178,7 +264,12 @@ fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentEr
         largest_acceleration_rad_per_s2: motor.largest_acceleration(),
         duration_s,
         fits: fits(&motor, duration_s)?,
-        zoom: zoom(&motor, cycle, ZOOM_AT * if low { prediction.reached_s } else { motor.rise_time_s() })?,
+        zoom: zoom(
+            &motor,
+            cycle,
+            ZOOM_AT * if low { prediction.reached_s } else { motor.rise_time_s() },
+            (&flight_time_s, &flight_speed_rad_per_s),
+        )?,
         flight_time_s,
         flight_speed_rad_per_s,
         prediction,
@@ -199,8 +290,19 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
     let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
     let last = curve.mean_over_last(0.2).map_err(ExperimentError::model)?;
     let points = || curve.times.iter().copied().zip(curve.speeds.iter().copied());
-    let rise: Vec<(f64, f64)> = points().take_while(|(_, speed)| *speed < 0.5 * last).collect();
+    let reached_s = points().find(|(_, speed)| (speed - last).abs() <= REACHED_WITHIN * last.abs());
+    let reached_s = reached_s.map(|point| point.0);
+    let until = |share: f64| {
+        let end = share * reached_s.unwrap_or(duration);
+        points().take_while(|(time, _)| *time < end).collect::<Vec<(f64, f64)>>()
+    };
+    let rise = until(1.0);
     let line = StraightLine::through(&rise);
+    let first = StraightLine::through(&until(FIRST_PART));
+    let farthest = |line: StraightLine| {
+        let off = rise.iter().map(|(time, speed)| (speed - line.intercept - line.slope * time).abs());
+        off.fold(0.0, f64::max)
+    };
     Ok(Fits {
         exponential_steady_speed_rad_per_s: exponential.steady_speed,
         time_constant_s: exponential.time_constant,
@@ -211,9 +313,9 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
         last_speed_rad_per_s: last,
         slope_rad_per_s2: line.map_or(0.0, |line| line.slope),
         slope_error_rad_per_s2: line.map_or(0.0, |line| line.slope_error),
-        reached_s: points()
-            .find(|(_, speed)| (speed - last).abs() <= REACHED_WITHIN * last.abs())
-            .map(|point| point.0),
+        farthest_from_line_rad_per_s: line.map_or(0.0, farthest),
+        first_slope_rad_per_s2: first.map_or(0.0, |line| line.slope),
+        reached_s,
     })
 }
 
@@ -246,7 +348,12 @@ fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, Experiment
 }
 
 /// Speed and height from the first separation after `from_s` on.
-fn zoom(motor: &MotorCase, cycle: Cycle, from_s: f64) -> Result<Zoom, ExperimentError> {
+fn zoom(
+    motor: &MotorCase,
+    cycle: Cycle,
+    from_s: f64,
+    flown: (&[f64], &[f64]),
+) -> Result<Zoom, ExperimentError> {
     let system = motor.system()?;
     let scales = system.scales();
     let mut engine =
@@ -268,7 +375,16 @@ fn zoom(motor: &MotorCase, cycle: Cycle, from_s: f64) -> Result<Zoom, Experiment
         seen >= flights && (low.is_none() || record.event == bouncing_disk::Event::Separation)
     })
     .map_err(ExperimentError::model)?;
-    let mut zoom = Zoom { time_s: Vec::new(), speed_rad_per_s: Vec::new(), height_m: Vec::new() };
+    let first = flown.0.partition_point(|time| *time < from_s);
+    let many = LINE_CYCLES * cycle.flights().filter(|_| cycle.is_low_period()).unwrap_or_default();
+    let of_lines = |values: &[f64]| values.iter().skip(first).take(many).copied().collect();
+    let mut zoom = Zoom {
+        time_s: Vec::new(),
+        speed_rad_per_s: Vec::new(),
+        height_m: Vec::new(),
+        flight_time_s: of_lines(flown.0),
+        flight_speed_rad_per_s: of_lines(flown.1),
+    };
     if !started {
         return Ok(zoom);
     }

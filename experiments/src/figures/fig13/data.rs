@@ -8,8 +8,6 @@ use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect}
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Fig13Data {
     pub(super) motor: MotorCase,
-    /// ε below which the paper finds low-period chattering prevalent.
-    pub(super) prevalent_below_restitution: f64,
     pub(super) members: usize,
     pub(super) rises: f64,
     pub(super) relaunch_perturbation: f64,
@@ -20,8 +18,8 @@ pub struct Fig13Data {
     pub(super) sweeps: Vec<Sweep>,
     /// Where the impulse falls in the cycle, for three ε.
     pub(super) impulses: Vec<ImpulsePhases>,
-    /// How common short cycles are, by ε.
-    pub(super) prevalence: Vec<Prevalence>,
+    /// Motors that print alike, by ε.
+    pub(super) alike: AlikeMotors,
     /// The default motor, and one with a low-period cycle.
     pub(super) perturbations: Vec<PerturbedMotor>,
 }
@@ -58,6 +56,17 @@ impl Parameter {
             Self::PhaseLag => "rad",
             Self::Amplitude => "m",
             Self::PeakAngularSpeed => "rad/s",
+        }
+    }
+
+    /// Its value for a motor.
+    pub(super) const fn of(self, motor: &MotorCase) -> f64 {
+        match self {
+            Self::Friction => motor.friction,
+            Self::Restitution => motor.restitution,
+            Self::PhaseLag => motor.phase_lag_rad,
+            Self::Amplitude => motor.amplitude_m,
+            Self::PeakAngularSpeed => motor.peak_angular_speed_rad_per_s,
         }
     }
 
@@ -121,17 +130,54 @@ pub(super) struct ImpulsePhases {
     pub(super) contact_share: f64,
 }
 
-/// The cycles of unperturbed motors whose amplitudes all print as the default one.
+/// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at each. Nothing perturbs
+/// them.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct AlikeMotors {
+    /// The ranges drawn from.
+    pub(super) inputs: String,
+    /// Motors drawn.
+    pub(super) drawn: usize,
+    /// By rising ε.
+    pub(super) prevalence: Vec<Prevalence>,
+    /// By draw.
+    pub(super) draws: Vec<Draw>,
+}
+
+/// The cycles of these motors at one ε.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Prevalence {
     pub(super) restitution: f64,
-    pub(super) amplitudes: usize,
-    /// Number of flights, and the share of motors with cycles of no more.
+    /// Share of motors of low period.
+    pub(super) share_of_low_period: f64,
+    /// Number of flights, and the share of motors with chattering cycles of no more.
     pub(super) share_up_to: Vec<(usize, f64)>,
     /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in lines.
     pub(super) share_of_short: f64,
     /// Half of the motors have cycles of no more flights; `None` if that is not known of half of them.
     pub(super) median_flights: Option<usize>,
+    /// Share of motors whose α̇_ss/t_c is above the limit μ a_e g/a_g².
+    pub(super) share_above_limit: f64,
+    /// Medians over the motors: steady speed over ωΦ; α̇_ss/t_c over the limit, over those that settle.
+    pub(super) median_speed_ratio: f64,
+    pub(super) median_stall_over_limit: Option<f64>,
+}
+
+/// One draw of the inputs other than ε.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Draw {
+    /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit, against ε.
+    pub(super) speed_ratio_slope: Option<f64>,
+    pub(super) stall_over_limit_slope: Option<f64>,
+    /// The largest α̇_ss/t_c over the limit, at any of the ε.
+    pub(super) largest_stall_over_limit: f64,
+    /// The largest steady speed over ωΦ.
+    pub(super) largest_speed_ratio: f64,
+    /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
+    pub(super) share_of_exponential: f64,
+    /// Exponents of A in both, over the three printed amplitudes at the printed ε.
+    pub(super) speed_amplitude_exponent: Option<f64>,
+    pub(super) stall_amplitude_exponent: Option<f64>,
 }
 
 /// A motor against the size of the relaunch perturbation.

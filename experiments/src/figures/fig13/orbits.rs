@@ -1,11 +1,14 @@
 //! What the orbits do to steady speed and stall torque.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
 use bouncing_disk::core::elementary::ln;
 
 use super::data::{Fig13Data, Parameter, Prevalence, SweepPoint};
 use super::reading::{extent, sweep, sweep_points, words};
 use super::statements::ID;
-use crate::claim::Claim;
+use crate::claim::{Agreement, Claim, all};
+use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
 use crate::figures::regression::StraightLine;
 
 /// A quotient that changes by less than this share over two decades of A counts as constant.
@@ -13,7 +16,7 @@ const CONSTANT_WITHIN: f64 = 0.1;
 
 /// ε at which a share that falls with ε crosses one half, between the values computed.
 fn crossing(data: &Fig13Data, share: impl Fn(&Prevalence) -> f64) -> f64 {
-    let pairs = data.prevalence.windows(2).rev();
+    let pairs = data.alike.prevalence.windows(2).rev();
     pairs
         .filter(|pair| share(&pair[0]) >= 0.5 && share(&pair[1]) < 0.5)
         .map(|pair| {
@@ -29,31 +32,95 @@ fn up_to(entry: &Prevalence, index: usize) -> f64 {
     entry.share_up_to.get(index).map_or(f64::NAN, |share| share.1)
 }
 
+/// The ε below which most motors are of low period, by the one definition, and by others.
 pub(super) fn prevalent(data: &Fig13Data) -> Vec<Claim> {
-    let rows = data.prevalence.iter().map(|entry| {
+    let alike = &data.alike;
+    let rows = alike.prevalence.iter().map(|entry| {
         let shares =
             entry.share_up_to.iter().map(|(flights, share)| format!("{:.0} % ≤ {flights}", 100.0 * share));
         format!(
-            "ε = {:.2}: {:.0} % (flights in a cycle: {}; median {})",
+            "ε = {:.2}: {} (median {})",
             entry.restitution,
-            100.0 * entry.share_of_short,
             shares.collect::<Vec<_>>().join(", "),
             entry.median_flights.map_or_else(|| "more".to_owned(), |flights| flights.to_string()),
         )
     });
     const KEY: &str = "section5.low_period_restitution";
-    let mut claims = vec![Claim::printed(KEY, crossing(data, |entry| entry.share_of_short)).note(format!(
-        "the ε at which half of the unperturbed motors, with amplitudes that round to the default, have a cycle of at most a \
-         hundredth of the rise time, so that the speed rises in lines. The paper does not say what low period is. Shares: {}",
+    let mut claims = vec![Claim::printed(KEY, crossing(data, |entry| entry.share_of_low_period)).note(format!(
+        "the ε at which half of {} motors that print alike ({}; ε set; nothing perturbs them) are of low period: a chattering cycle of at most \
+         {LOW_PERIOD_FLIGHTS} flights of more than half a period, from rest to rest. The paper does not say what low period is, and the answer hangs on it: flights in a \
+         cycle: {}",
+        alike.drawn,
+        alike.inputs,
         rows.collect::<Vec<_>>().join("; ")
     ))];
-    let counts = data.prevalence.first().map_or(0, |entry| entry.share_up_to.len());
+    let counts = alike.prevalence.first().map_or(0, |entry| entry.share_up_to.len());
     for index in 0..counts {
-        let flights = data.prevalence[0].share_up_to[index].0;
-        let quantity = format!("the same for cycles of at most {flights} flights");
-        claims.push(Claim::reading(ID, KEY, quantity, crossing(data, |entry| up_to(entry, index))));
+        let flights = alike.prevalence[0].share_up_to[index].0;
+        if flights == LOW_PERIOD_FLIGHTS {
+            continue;
+        }
+        let quantity = format!("the same if cycles of at most {flights} flights are called low-period");
+        let claim = Claim::reading(ID, KEY, quantity, crossing(data, |entry| up_to(entry, index)));
+        claims.push(claim.note("another definition of low period"));
     }
+    claims.push(
+        Claim::reading(
+            ID,
+            KEY,
+            "the same if cycles of at most a hundredth of the rise time are",
+            crossing(data, |entry| entry.share_of_short),
+        )
+        .note("another definition of low period: the speed rises in lines"),
+    );
     claims
+}
+
+/// How often the exponential fits better, and that low period is the more common the smaller ε is.
+pub(super) fn commonness(data: &Fig13Data) -> [Claim; 2] {
+    let alike = &data.alike;
+    let mut shares: Vec<f64> = alike.draws.iter().map(|draw| draw.share_of_exponential).collect();
+    shares.sort_by(f64::total_cmp);
+    let middle = shares.get(shares.len() / 2).copied().unwrap_or(f64::NAN);
+    let low = alike
+        .prevalence
+        .iter()
+        .map(|entry| format!("{:.2}: {:.1} %", entry.restitution, 100.0 * entry.share_of_low_period));
+    let rows = alike.prevalence.windows(2);
+    [
+        Claim::printed_share(
+            "section5.most_transients_exponential",
+            Agreement::of(shares.iter().map(|share| *share > 0.5)),
+            format!(
+                "whether the exponential fits better than a linear rise to a constant at more than half of the {} values of ε, for motors that print alike; the median \
+                 share is {:.0} %",
+                alike.prevalence.len(),
+                100.0 * middle
+            ),
+        ),
+        Claim::printed_statement(
+            "section5.smaller_restitution_gives_low_period",
+            all(rows, |pair| pair[0].share_of_low_period >= pair[1].share_of_low_period),
+            format!(
+                "share of low period among {} motors that print alike, by ε: {}",
+                alike.drawn,
+                low.collect::<Vec<_>>().join(", ")
+            ),
+        ),
+    ]
+}
+
+/// Width of the part of the cycle in which the collisions are said to be concentrated.
+const CONCENTRATED: f64 = FRAC_PI_2;
+
+/// The middle (rad) of the part of this width with the largest share of the impulse, and that share.
+fn densest(shares: &[f64]) -> Option<(f64, f64)> {
+    let parts = shares.len();
+    let wide = (parts as f64 * CONCENTRATED / TAU).round() as usize;
+    let share = |from: usize| (0..wide).map(|part| shares[(from + part) % parts]).sum::<f64>();
+    let from = (0..parts).max_by(|one, other| share(*one).total_cmp(&share(*other)))?;
+    let middle = (from as f64 + 0.5 * wide as f64) / parts as f64 * TAU - PI;
+    Some((if middle > PI { middle - TAU } else { middle }, share(from)))
 }
 
 pub(super) fn phases_of_impulse(data: &Fig13Data) -> [Claim; 2] {
@@ -70,17 +137,25 @@ pub(super) fn phases_of_impulse(data: &Fig13Data) -> [Claim; 2] {
         )
     });
     let rows = rows.collect::<Vec<_>>().join("; ");
+    let quarters: Vec<(f64, f64)> =
+        data.impulses.iter().filter_map(|impulse| densest(&impulse.shares)).collect();
+    let where_densest = quarters
+        .iter()
+        .map(|(middle, share)| format!("{:.1} % about τ = {:.2}π", 100.0 * share, middle / PI))
+        .collect::<Vec<_>>()
+        .join(", ");
     [
         Claim::printed_statement(
             "section5.collisions_at_zero_phase",
-            shares.iter().all(|share| *share > 0.25),
+            all(&quarters, |(middle, _)| middle.abs() <= 0.5 * CONCENTRATED),
             format!(
-                "{rows}. The peak before τ = 0 is where the first flight after a rest, of about Γ periods, ends"
+                "the quarter of the cycle with most of the normal impulse must hold τ = 0: {where_densest}. {rows}. The peak before τ = 0 is \
+                 where the first flight after a rest, of about Γ periods, ends"
             ),
         ),
         Claim::printed_statement(
             "section5.concentration_falls_with_restitution",
-            shares.windows(2).all(|pair| pair[0] > pair[1]),
+            all(shares.windows(2), |pair| pair[0] > pair[1]),
             rows,
         ),
     ]
@@ -133,48 +208,50 @@ pub(super) fn intervals(data: &Fig13Data) -> Claim {
     )
 }
 
-/// Both fall with ε, low-period cycles broken.
+/// Medians over the motors that print alike at the first and the last ε.
+fn ends(data: &Fig13Data, of: fn(&Prevalence) -> Option<f64>) -> String {
+    let rows = &data.alike.prevalence;
+    let value = |entry: Option<&Prevalence>| {
+        let value = entry.and_then(|entry| Some((of(entry)?, entry.restitution)));
+        value.map_or_else(|| "none".to_owned(), |(value, at)| format!("{value:.3} at ε = {at:.2}"))
+    };
+    format!("{}, {}", value(rows.first()), value(rows.last()))
+}
+
+fn negative(slope: Option<f64>) -> bool {
+    slope.is_some_and(|slope| slope < 0.0)
+}
+
+/// Both fall with ε.
 pub(super) fn restitution_lowers_both(data: &Fig13Data) -> Claim {
-    let points = sweep(data, Parameter::Restitution).map_or(&[][..], |sweep| &sweep.points);
-    let speeds: Vec<_> =
-        points.iter().map(|point| (point.value, point.broken.steady_speed_rad_per_s.mean)).collect();
-    let lines = [StraightLine::through(&speeds), broken_stall(data)];
-    Claim::printed_statement(
+    let falls = data.alike.draws.iter();
+    Claim::printed_share(
         "section5.restitution_lowers_both",
-        lines.iter().all(|line| line.is_some_and(|line| line.slope + 2.0 * line.slope_error < 0.0)),
+        Agreement::of(
+            falls.map(|draw| negative(draw.speed_ratio_slope) && negative(draw.stall_over_limit_slope)),
+        ),
         format!(
-            "slopes against ε over the whole range, low-period cycles broken by perturbations of {} g/ω: {} rad/s and {} rad/s²",
-            data.breaking_perturbation,
-            words(lines[0]),
-            words(lines[1]),
+            "signs of the slopes against ε of both, for {} motors that print alike ({}; ε set; nothing perturbs them). Medians: steady speed/(ωΦ) {}; α̇_ss/t_c \
+             over its limit {}",
+            data.alike.drawn,
+            data.alike.inputs,
+            ends(data, |entry| Some(entry.median_speed_ratio)),
+            ends(data, |entry| entry.median_stall_over_limit),
         ),
     )
 }
 
-/// The straight line through stall acceleration against ε, low-period cycles broken.
-fn broken_stall(data: &Fig13Data) -> Option<StraightLine> {
-    let points = sweep(data, Parameter::Restitution).map_or(&[][..], |sweep| &sweep.points).iter();
-    let read = points.filter_map(|point| {
-        point.broken.stall_acceleration_rad_per_s2.map(|spread| (point.value, spread.mean))
-    });
-    StraightLine::through(&read.collect::<Vec<_>>())
-}
-
 /// Ĥ/ΔT ~ μ g (1 + ε).
 pub(super) fn simplistic(data: &Fig13Data) -> Claim {
-    let line = broken_stall(data);
-    Claim::printed_statement(
+    Claim::printed_share(
         "section5.scaling_fails_for_restitution",
-        line.is_some_and(|line| line.slope + 2.0 * line.slope_error < 0.0),
+        Agreement::of(data.alike.draws.iter().map(|draw| negative(draw.stall_over_limit_slope))),
         format!(
-            "the stall acceleration (low-period cycles broken by perturbations of {} g/ω) falls with ε by {} rad/s², where the scaling \
-             has it rise from ε = 0 to 0.9 by 90 %. The interval between impacts is not w_A/g: the normal impulse (1 + ε)w_A per \
-             time equals the weight for any ε, so the factor 1 + ε cancels, and ε acts only through the phases of the impulse",
-            data.breaking_perturbation,
-            line.map_or_else(
-                || "?".to_owned(),
-                |line| format!("{:.1} ± {:.1}", -line.slope, line.slope_error)
-            ),
+            "whether α̇_ss/t_c falls with ε, for {} motors that print alike, where the scaling has it rise by 90 % from ε = 0 to 0.9. Medians, over the limit: \
+             {}. The interval between impacts is not w_A/g: the normal impulse (1 + ε)w_A per time equals the weight for any ε, so the factor 1 + ε \
+             cancels, and ε acts only through the phases of the impulse",
+            data.alike.drawn,
+            ends(data, |entry| entry.median_stall_over_limit),
         ),
     )
 }

@@ -12,21 +12,34 @@ use crate::draw::{
 const SPEED: Colour = Colour::BLACK;
 const STALL: Colour = Colour::BLUE;
 
+/// The panel with room for a legend: (e).
+const LEGEND: usize = 4;
+
 pub(super) fn draw(data: &Fig13Data) -> Figure {
     const HEIGHT: f64 = 500.0;
     let margins = Margins { left: 44.0, right: 44.0, top: 10.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 2).margins(margins).gaps(96.0, 40.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
     for (index, sweep) in data.sweeps.iter().enumerate() {
-        figure = figure.panel(sensitivity(grid.cell(index / 2, index % 2), sweep, index));
+        figure = figure.panel(sensitivity(grid.cell(index / 2, index % 2), data, sweep, index));
     }
     figure.panel(phases(grid.cell(2, 1), data))
 }
 
-fn sensitivity(area: Rect, sweep: &Sweep, index: usize) -> Panel {
+fn sensitivity(area: Rect, data: &Fig13Data, sweep: &Sweep, index: usize) -> Panel {
     let letter = ["a", "b", "c", "d", "e"][index.min(4)];
-    let highest = sweep.points.iter().filter_map(SweepPoint::stall).fold(0.0, f64::max);
-    let torque = if sweep.parameter == Parameter::Friction { 1.15 * highest } else { 40.0 };
+    // With their bars.
+    let stalls = sweep.points.iter().filter_map(|point| point.statistics.stall_acceleration_rad_per_s2);
+    let predicted = sweep.points.iter().filter_map(|point| point.predicted_stall_acceleration_rad_per_s2);
+    let highest = stalls.map(|spread| spread.mean.abs() + spread.deviation).chain(predicted);
+    let highest = highest.fold(0.0, f64::max);
+    let torque = (1.15 * highest).max(40.0);
+    let limits: Vec<(f64, f64)> = sweep
+        .points
+        .iter()
+        .map(|point| (point.value, sweep.parameter.set(&data.motor, point.value).largest_acceleration()))
+        .collect();
+    let default = sweep.parameter.of(&data.motor);
     let signed = sweep.parameter == Parameter::PhaseLag;
     let lowest = |top: f64| if signed { -top } else { 0.0 };
     let step = if torque > 60.0 { 30.0 } else { 10.0 };
@@ -50,7 +63,14 @@ fn sensitivity(area: Rect, sweep: &Sweep, index: usize) -> Panel {
     };
     let mut panel = panel
         .layer(predicted(|point| Some(point.predicted_speed_ratio), SPEED))
-        .layer_right(predicted(|point| point.predicted_stall_acceleration_rad_per_s2, STALL));
+        .layer_right(predicted(|point| point.predicted_stall_acceleration_rad_per_s2, STALL))
+        .layer(Line::new([(default, lowest(1.1)), (default, 1.1)]).colour(Colour::GREY).width(0.5));
+    for sign in if signed { &[1.0, -1.0][..] } else { &[1.0][..] } {
+        let line = Line::new(limits.iter().map(|(value, limit)| (*value, sign * limit)));
+        let line = line.colour(Colour::VERMILION).width(0.8).dash(Dash::DashDotted);
+        panel =
+            panel.layer_right(if index == LEGEND { line.name("limit of the stall torque") } else { line });
+    }
     for low_period in [true, false] {
         let points =
             || sweep.points.iter().filter(move |point| point.statistics.is_low_period() == low_period);
@@ -68,14 +88,14 @@ fn sensitivity(area: Rect, sweep: &Sweep, index: usize) -> Panel {
         let tint = |colour: Colour| if low_period { colour.mixed(Colour::WHITE, 0.6) } else { colour };
         let speeds = scatter(points().map(speed).collect(), tint(SPEED)).marker(Marker::Cross).size(5.0);
         let stalls = scatter(points().filter_map(stall).collect(), tint(STALL)).size(3.6);
-        let (speeds, stalls) = if index == 0 && !low_period {
+        let (speeds, stalls) = if index == LEGEND && !low_period {
             (speeds.name("speed, left scale"), stalls.name("stall, right scale"))
         } else {
             (speeds, stalls)
         };
         panel = panel.layer(speeds).layer_right(stalls);
     }
-    if index == 0 { panel.legend(Legend::at(Corner::BottomRight)) } else { panel }
+    if index == LEGEND { panel.legend(Legend::at(Corner::BottomRight)) } else { panel }
 }
 
 fn scatter(points: Vec<(f64, f64, f64)>, colour: Colour) -> Scatter {

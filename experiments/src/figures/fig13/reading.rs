@@ -24,11 +24,26 @@ pub(super) fn stall(point: &SweepPoint) -> Option<f64> {
     point.stall()
 }
 
-/// The points that no low-period cycle governs, as (value, reading).
+/// All points drawn, those on a low-period cycle among them, as (value, reading).
 pub(super) fn read(data: &Fig13Data, parameter: Parameter, of: Reading) -> Vec<(f64, f64)> {
     let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
-    let chaotic = points.iter().filter(|point| !point.statistics.is_low_period());
-    chaotic.filter_map(|point| of(point).map(|value| (point.value, value))).collect()
+    points.iter().filter_map(|point| of(point).map(|value| (point.value, value))).collect()
+}
+
+/// How many of the points of a sweep a low-period cycle governs, in words.
+pub(super) fn low_period_words(data: &Fig13Data, parameter: Parameter) -> String {
+    let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+    let low = points.iter().filter(|point| point.statistics.is_low_period()).count();
+    format!("{low} of {} motors on a low-period cycle", points.len())
+}
+
+/// The values below which a tenth of the readings lies, and above which a tenth does: isolated motors on a short cycle lie outside.
+pub(super) fn tenths(values: &[f64]) -> Option<(f64, f64)> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let last = sorted.len().checked_sub(1)?;
+    let at = |share: f64| sorted[(share * last as f64).round() as usize];
+    Some((at(0.1), at(0.9)))
 }
 
 /// Elasticity: the exponent of a power law through all positive points.

@@ -2,14 +2,18 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
-use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::core::elementary::pow;
+use bouncing_disk::core::elementary::{ln, pow};
 use bouncing_disk::{ExponentialFit, TransientSettings};
 
-use super::data::{Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sweep, SweepPoint};
+use super::data::{
+    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sweep, SweepPoint,
+};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::alike::{AlikeMotor, alike};
 use crate::figures::impulse::Impulses;
 use crate::figures::motor_case::{MotorCase, perturbation_table};
+use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::regression::StraightLine;
 use crate::paper;
 use crate::progress::Progress;
 
@@ -18,22 +22,21 @@ const RISES: f64 = 6.0;
 /// The perturbation (g/ω) with which each sweep is repeated.
 const BREAKING_PERTURBATION: f64 = 0.1;
 /// Sizes (g/ω) that are compared.
-const PERTURBATIONS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-9];
+const PERTURBATIONS: [f64; 7] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-9, 0.0];
 /// Another ε for which the sizes are compared: one where low-period cycles govern.
 const LOW_PERIOD_RESTITUTION: f64 = 0.3;
 /// ε of the distributions of impulse.
 const RESTITUTIONS: [f64; 3] = [0.2, 0.5, 0.8];
 /// Parts of the cycle in these distributions.
 const PARTS: usize = 48;
-/// Largest ε of the prevalence; beyond, cycles are longer than what is examined.
-const LARGEST_PREVALENCE: f64 = 0.65;
+/// Largest ε of a sweep.
+const LARGEST_RESTITUTION: f64 = 0.9;
+/// Seed of the inputs that print alike.
+const SEED: u64 = 13;
 /// Numbers of flights for which the share of cycles is counted.
 const FLIGHT_COUNTS: [usize; 5] = [2, 4, 8, 16, 32];
 /// A cycle is short if it takes this share of the rise time.
 const SHORT_CYCLE: f64 = 0.01;
-/// The amplitudes of the prevalence round to the default one: relative half width.
-const AMPLITUDE_HALF_WIDTH: f64 = 0.05;
-
 pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
     let section = paper::section_five()?;
     let motor = MotorCase::default_of(&paper::table_three()?, &section);
@@ -85,11 +88,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
     progress.advance(1);
-    let prevalence = (0..)
-        .map(|index| 0.05 * f64::from(index))
-        .take_while(|restitution| *restitution < LARGEST_PREVALENCE + 0.01)
-        .map(|restitution| prevalence(&MotorCase { restitution, ..motor }, quality.choose(24, 400)))
-        .collect::<Result<Vec<_>, _>>()?;
+    let alike = alike_motors(quality)?;
     progress.advance(1);
     let perturbations = [motor.restitution, LOW_PERIOD_RESTITUTION]
         .into_iter()
@@ -103,14 +102,13 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
     Ok(Fig13Data {
         default: motor.statistics(RISES, 2 * members, relaunch_perturbation)?,
         motor,
-        prevalent_below_restitution: paper::value("section5.low_period_restitution")?,
         members,
         rises: RISES,
         relaunch_perturbation,
         breaking_perturbation: BREAKING_PERTURBATION,
         sweeps,
         impulses,
-        prevalence,
+        alike,
         perturbations,
     })
 }
@@ -122,7 +120,7 @@ fn values(parameter: Parameter, amplitudes: &[f64; 3], quality: Quality) -> Vec<
     };
     match parameter {
         Parameter::Friction => even(0.02, 0.4, quality.choose(5, 20)),
-        Parameter::Restitution => even(0.0, 0.9, quality.choose(7, 19)),
+        Parameter::Restitution => even(0.0, LARGEST_RESTITUTION, quality.choose(7, 19)),
         Parameter::PhaseLag => even(-PI, PI, quality.choose(9, 25)),
         Parameter::Amplitude => {
             let ratio = amplitudes[2] / amplitudes[0];
@@ -146,25 +144,113 @@ fn predict(case: &MotorCase, impulses: &Impulses) -> (f64, Option<f64>) {
     (levels.steady_speed(), stall)
 }
 
-fn prevalence(case: &MotorCase, amplitudes: u32) -> Result<Prevalence, ExperimentError> {
-    let mut flights = Vec::new();
-    let mut short = 0;
-    for index in 0..amplitudes {
-        let share = (f64::from(index) + 0.5) / f64::from(amplitudes);
-        let amplitude_m = case.amplitude_m * (1.0 + AMPLITUDE_HALF_WIDTH * (2.0 * share - 1.0));
-        let cycle = MotorCase { amplitude_m, ..*case }.cycle(ChatterPolicy::Complete)?;
-        let seconds = cycle.platform_periods().map(|periods| periods as f64 / case.frequency_hz);
-        short += usize::from(seconds.is_some_and(|seconds| seconds <= SHORT_CYCLE * case.rise_time_s()));
-        flights.push(cycle.flights().unwrap_or(usize::MAX));
+/// The motors of Table III, every input but ε anywhere between what still rounds to the printed one.
+fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
+    let inputs = PrintedInputs::table_three()?;
+    let count = quality.choose(DRAWN / 5, DRAWN);
+    let steps = quality.choose(4, 10);
+    let mut restitutions = Vec::new();
+    let mut motors: Vec<Vec<AlikeMotor>> = Vec::new();
+    for step in 0..steps {
+        let restitution = LARGEST_RESTITUTION * f64::from(step) / f64::from(steps - 1);
+        restitutions.push(restitution);
+        motors.push(alike(&inputs.restitution(restitution).drawn(count, SEED), RISES)?);
     }
-    flights.sort_unstable();
-    let share =
-        |count: usize| flights.partition_point(|flights| *flights <= count) as f64 / flights.len() as f64;
-    Ok(Prevalence {
-        restitution: case.restitution,
-        amplitudes: flights.len(),
-        share_up_to: FLIGHT_COUNTS.iter().map(|&count| (count, share(count))).collect(),
-        share_of_short: short as f64 / flights.len() as f64,
-        median_flights: flights.get(flights.len() / 2).copied().filter(|flights| *flights < usize::MAX),
+    let amplitudes = [
+        "section5.smallest_amplitude_of_fig10",
+        "section5.middle_amplitude_of_fig10",
+        "section5.largest_amplitude_of_fig10",
+    ];
+    let by_amplitude = amplitudes
+        .iter()
+        .map(|key| alike(&inputs.amplitude(key)?.drawn(count, SEED), RISES))
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let rise = |motor: &MotorCase| motor.rise_time_s();
+    let rises: Vec<f64> = inputs.drawn(count, SEED).iter().map(rise).collect();
+    Ok(AlikeMotors {
+        inputs: inputs.words(),
+        drawn: count,
+        prevalence: restitutions
+            .iter()
+            .zip(&motors)
+            .map(|(&restitution, motors)| prevalence(restitution, motors, &rises))
+            .collect(),
+        draws: (0..count)
+            .map(|index| {
+                draw(
+                    &restitutions,
+                    motors.iter().map(|motors| &motors[index]),
+                    by_amplitude.iter().map(|motors| &motors[index]),
+                )
+            })
+            .collect(),
     })
+}
+
+/// Steady speed over ωΦ. Each of these motors has the ωΦ that was drawn for it.
+fn speed_ratio(motor: &AlikeMotor) -> f64 {
+    motor.steady_speed_rad_per_s / motor.peak_angular_speed_rad_per_s
+}
+
+fn draw<'a>(
+    restitutions: &[f64],
+    motors: impl Iterator<Item = &'a AlikeMotor> + Clone,
+    by_amplitude: impl Iterator<Item = &'a AlikeMotor> + Clone,
+) -> Draw {
+    let slope = |of: fn(&AlikeMotor) -> Option<f64>| {
+        let points = restitutions.iter().zip(motors.clone());
+        let points: Vec<_> = points.filter_map(|(x, motor)| of(motor).map(|y| (*x, y))).collect();
+        StraightLine::through(&points).map(|line| line.slope)
+    };
+    let exponent = |of: fn(&AlikeMotor) -> Option<f64>| {
+        let points = by_amplitude.clone().filter_map(|motor| {
+            of(motor).filter(|value| *value > 0.0).map(|value| (ln(motor.amplitude_m), ln(value)))
+        });
+        StraightLine::through(&points.collect::<Vec<_>>()).map(|line| line.slope)
+    };
+    let largest =
+        |of: fn(&AlikeMotor) -> Option<f64>| motors.clone().filter_map(of).fold(f64::NEG_INFINITY, f64::max);
+    let speed = |motor: &AlikeMotor| Some(speed_ratio(motor));
+    let stall = |motor: &AlikeMotor| motor.stall_over_limit;
+    Draw {
+        speed_ratio_slope: slope(speed),
+        stall_over_limit_slope: slope(stall),
+        largest_stall_over_limit: largest(stall),
+        largest_speed_ratio: largest(speed),
+        share_of_exponential: motors.clone().filter(|motor| motor.is_exponential()).count() as f64
+            / restitutions.len() as f64,
+        speed_amplitude_exponent: exponent(speed),
+        stall_amplitude_exponent: exponent(stall),
+    }
+}
+
+fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevalence {
+    let count = motors.len() as f64;
+    let share_where = |holds: &dyn Fn(usize, &AlikeMotor) -> bool| {
+        motors.iter().enumerate().filter(|(index, motor)| holds(*index, motor)).count() as f64 / count
+    };
+    let mut flights: Vec<usize> =
+        motors.iter().map(|motor| motor.cycle.chattering_flights().unwrap_or(usize::MAX)).collect();
+    flights.sort_unstable();
+    let share = |most: usize| flights.partition_point(|flights| *flights <= most) as f64 / count;
+    let median = |of: fn(&AlikeMotor) -> Option<f64>| {
+        let mut values: Vec<f64> = motors.iter().filter_map(of).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    Prevalence {
+        restitution,
+        share_of_low_period: share_where(&|_, motor| motor.cycle.is_low_period()),
+        share_up_to: FLIGHT_COUNTS.iter().map(|&count| (count, share(count))).collect(),
+        share_of_short: share_where(&|index, motor| {
+            motor
+                .cycle
+                .platform_periods()
+                .is_some_and(|periods| periods as f64 / motor.frequency_hz <= SHORT_CYCLE * rises[index])
+        }),
+        median_flights: flights.get(flights.len() / 2).copied().filter(|flights| *flights < usize::MAX),
+        share_above_limit: share_where(&|_, motor| motor.stall_over_limit.is_some_and(|stall| stall > 1.0)),
+        median_speed_ratio: median(|motor| Some(speed_ratio(motor))).unwrap_or_default(),
+        median_stall_over_limit: median(|motor| motor.stall_over_limit),
+    }
 }

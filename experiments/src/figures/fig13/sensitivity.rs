@@ -3,9 +3,10 @@
 use bouncing_disk::core::elementary::cos;
 
 use super::data::{Fig13Data, Parameter, SweepPoint};
-use super::reading::{Reading, elasticity, extent, read, speed, stall, sweep, sweep_points, words};
-use super::statements::{ID, SECTION};
-use crate::claim::Claim;
+use super::reading::{
+    Reading, elasticity, extent, low_period_words, read, speed, stall, sweep_points, tenths, words,
+};
+use crate::claim::{Agreement, Claim, all};
 use crate::figures::motor_case::relative_range;
 use crate::figures::regression::StraightLine;
 
@@ -74,19 +75,22 @@ pub(super) fn amplitude(data: &Fig13Data) -> Claim {
         let values: Vec<f64> = read(data, Parameter::Amplitude, of).iter().map(|point| point.1).collect();
         100.0 * relative_range(&values)
     };
-    let low = sweep(data, Parameter::Amplitude)
-        .map_or(0, |sweep| sweep.points.iter().filter(|point| point.statistics.is_low_period()).count());
-    Claim::printed_statement(
+    let draws = &data.alike.draws;
+    let small = |exponent: Option<f64>| exponent.is_some_and(|exponent| exponent.abs() < INSIGNIFICANT);
+    let holds =
+        draws.iter().map(|draw| small(draw.speed_amplitude_exponent) && small(draw.stall_amplitude_exponent));
+    Claim::printed_share(
         "section5.amplitude_insensitivity",
-        lines
-            .iter()
-            .all(|line| line.is_some_and(|line| line.slope.abs() + 2.0 * line.slope_error < INSIGNIFICANT)),
+        Agreement::of(holds),
         format!(
-            "exponents {} (range {:.0} %) and {} (range {:.0} %); {low} low-period motors left out",
+            "whether the exponents of A in both are below {INSIGNIFICANT} over the three printed amplitudes, for {} motors that print alike. Of the motors drawn in \
+             the figure the exponents are {} (range {:.0} %) and {} (range {:.0} %), {}",
+            draws.len(),
             words(lines[0]),
             range(speed),
             words(lines[1]),
             range(stall),
+            low_period_words(data, Parameter::Amplitude),
         ),
     )
 }
@@ -121,14 +125,15 @@ pub(super) fn friction(data: &Fig13Data) -> Claim {
     )
 }
 
-/// The change of a reading over the range of each parameter, relative to the default value; largest first.
+/// The change of a reading over the range of each parameter, relative to the default value; largest first. From the lowest to the highest tenth, with
+/// all motors in: a few of a short cycle, which lie at isolated values, do not make a parameter one that matters.
 fn changes(data: &Fig13Data, of: Reading) -> Vec<(Parameter, f64)> {
     let default = of(&default_point(data)).unwrap_or(f64::NAN);
     let mut changes: Vec<(Parameter, f64)> = Parameter::ALL
         .into_iter()
-        .map(|parameter| {
-            let (low, high) = extent(read(data, parameter, of).iter().map(|point| point.1));
-            (parameter, (high - low) / default)
+        .filter_map(|parameter| {
+            let values: Vec<f64> = read(data, parameter, of).iter().map(|point| point.1).collect();
+            tenths(&values).map(|(low, high)| (parameter, (high - low) / default))
         })
         .collect();
     changes.sort_by(|one, other| other.1.total_cmp(&one.1));
@@ -149,10 +154,10 @@ pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Reading, named: [P
     let ranked = ranked.collect::<Vec<_>>().join("; ");
     Claim::printed_statement(
         key,
-        changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter)),
+        all(changes.iter().take(named.len()), |(parameter, _)| named.contains(parameter)),
         format!(
-            "change over the range drawn, relative to the default value: {ranked} (low-period motors left out). The ranges are \
-             ours"
+            "change over the range drawn, from the lowest to the highest tenth of all motors, relative to the default value: {ranked}. \
+             The ranges are ours"
         ),
     )
 }
@@ -169,9 +174,10 @@ pub(super) fn both(data: &Fig13Data) -> Claim {
         .collect();
     Claim::printed_statement(
         "section5.both_sensitivity",
-        both == [Parameter::Restitution, Parameter::PhaseLag],
+        (!speeds.is_empty() && !stalls.is_empty())
+            .then(|| both == [Parameter::Restitution, Parameter::PhaseLag]),
         format!(
-            "changes of more than {SIGNIFICANT} of the default value in both: {}",
+            "changes of more than {SIGNIFICANT} of the default value in both, from the lowest to the highest tenth of all motors: {}",
             both.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
         ),
     )
@@ -194,10 +200,15 @@ fn default_point(data: &Fig13Data) -> SweepPoint {
 
 pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
     let ratio = sweep_points(data).map(|point| point.speed_ratio().abs()).fold(0.0, f64::max);
-    Claim::printed_statement(
+    let draws = &data.alike.draws;
+    let largest = extent(draws.iter().map(|draw| draw.largest_speed_ratio)).1;
+    Claim::printed_share(
         "section5.speed_limit",
-        ratio <= 1.0,
-        format!("largest steady speed over {} motors: {ratio:.3} ωΦ", sweep_points(data).count()),
+        Agreement::of(draws.iter().map(|draw| draw.largest_speed_ratio <= 1.0 && ratio <= 1.0)),
+        format!(
+            "largest steady speed of the {} motors drawn in the figure: {ratio:.3} ωΦ; of the motors that print alike, at all ε: {largest:.3} ωΦ",
+            sweep_points(data).count()
+        ),
     )
 }
 
@@ -215,15 +226,23 @@ pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
         }
     }
     let (share, place) = largest;
-    Claim::statement(
-        ID,
-        SECTION,
-        "the quotient α̇_ss/t_c stays below the limit μ a_e g/a_g² of the stall torque",
-        share <= 1.0,
+    let alike = &data.alike;
+    let above = alike
+        .prevalence
+        .iter()
+        .map(|entry| format!("ε = {:.2}: {:.0} %", entry.restitution, 100.0 * entry.share_above_limit));
+    Claim::printed_share(
+        "section5.torque_limit",
+        Agreement::of(alike.draws.iter().map(|draw| draw.largest_stall_over_limit <= 1.0)),
         format!(
-            "two standard errors below the mean it is {share:.3} of the limit at {place}. The normal impulse per time is the weight, \
-             whatever the orbit, so no motor accelerates faster than the limit; but where the speed rises in lines rather than \
-             exponentially, at small ε, the fit makes more of α̇_ss/t_c than any acceleration"
+            "whether α̇_ss/t_c stays below μ a_e g/a_g² at every ε from 0 to {:.1}, for {} motors that print alike ({}; ε set). Of the motors above it: {}. In the \
+             figure the largest quotient is, two standard errors below the mean, {share:.3} of the limit at {place}. The normal impulse per time is the \
+             weight, whatever the orbit, so no motor accelerates faster than the limit; but where the speed rises in lines rather than exponentially, at \
+             small ε, the fit makes more of α̇_ss/t_c than any acceleration",
+            alike.prevalence.last().map_or(f64::NAN, |entry| entry.restitution),
+            alike.drawn,
+            alike.inputs,
+            above.collect::<Vec<_>>().join(", "),
         ),
     )
 }

@@ -1,0 +1,167 @@
+//! The transients of motors that all print alike, and which of the two forms each of them has.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{
+    ExponentialFit, RampFit, SpeedCurve, Spread, TransientMember, TransientSettings, transients,
+};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase, core_error};
+use crate::experiment::ExperimentError;
+
+/// One motor of those that print alike. Nothing perturbs it, as nothing did in the paper's program: which of them it is, is chance
+/// enough.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct AlikeMotor {
+    pub(crate) restitution: f64,
+    pub(crate) amplitude_m: f64,
+    pub(crate) preload_acceleration_m_per_s2: f64,
+    pub(crate) frequency_hz: f64,
+    pub(crate) peak_angular_speed_rad_per_s: f64,
+    pub(crate) axial_forcing: f64,
+    /// What it repeats.
+    pub(crate) cycle: Cycle,
+    /// Mean over the last third.
+    pub(crate) steady_speed_rad_per_s: f64,
+    /// The initial slope of the form that fits better, α̇_ss/t_c or α̇_ss/t_r, over the limit μ a_e g/a_g². `None` where the speed does not settle or is
+    /// not told apart from zero.
+    pub(crate) stall_over_limit: Option<f64>,
+    /// Root mean square of curve minus exponential, as a share of ωΦ.
+    pub(crate) exponential_residual: f64,
+    /// The same for a linear rise to a constant.
+    pub(crate) ramp_residual: f64,
+    /// Standard deviation of the speed over the second half of the transient, as a share of ωΦ: the oscillation of the steady speed.
+    pub(crate) oscillation: f64,
+    pub(crate) impacts_per_s: f64,
+    /// The time from nine tenths of the last speed to all but a fiftieth of it, over that to one half: 0.16 for a linear rise to a constant, 2.3 for an
+    /// exponential. `None` where the speed does not get so far.
+    pub(crate) turn: Option<f64>,
+}
+
+/// Times from nine tenths to all but a fiftieth of the last speed, over that to one half, of a linear rise to a constant: (0.98 - 0.90)/0.5.
+const TURN_OF_RAMP: f64 = 0.16;
+/// The same of an exponential: ln 5/ln 2.
+const TURN_OF_EXPONENTIAL: f64 = 2.322;
+
+impl AlikeMotor {
+    /// Whether the speed stops rising abruptly, more like a linear rise to a constant than like an exponential (by ratios).
+    pub(crate) fn stops_abruptly(&self) -> bool {
+        self.turn.is_some_and(|turn| turn * turn < TURN_OF_RAMP * TURN_OF_EXPONENTIAL)
+    }
+
+    /// Whether the exponential fits the transient better than the linear rise. One that hardly rises has neither form.
+    pub(crate) fn is_exponential(&self) -> bool {
+        self.exponential_residual < self.ramp_residual
+    }
+
+    fn of(motor: &MotorCase, curve: &SpeedCurve, duration: f64) -> Result<Self, ExperimentError> {
+        let exponential = ExponentialFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+        let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+        let top = motor.peak_angular_speed_rad_per_s;
+        let (steady, constant, residual) = if exponential.residual < ramp.residual {
+            (exponential.steady_speed, exponential.time_constant, exponential.residual)
+        } else {
+            (ramp.steady_speed, ramp.rise_time, ramp.residual)
+        };
+        Ok(Self {
+            restitution: motor.restitution,
+            amplitude_m: motor.amplitude_m,
+            preload_acceleration_m_per_s2: motor.preload_acceleration_m_per_s2,
+            frequency_hz: motor.frequency_hz,
+            peak_angular_speed_rad_per_s: top,
+            axial_forcing: motor.system()?.axial_forcing(),
+            cycle: motor.cycle(ChatterPolicy::Complete)?,
+            steady_speed_rad_per_s: curve.mean_over_last(1.0 / 3.0).map_err(ExperimentError::model)?,
+            stall_over_limit: (constant < LARGEST_CONSTANT * duration
+                && residual < LARGEST_RESIDUAL * steady.abs())
+            .then(|| steady / constant / motor.largest_acceleration()),
+            exponential_residual: exponential.residual / top,
+            ramp_residual: ramp.residual / top,
+            oscillation: Spread::of(&curve.speeds[curve.speeds.len() / 2..])
+                .map_err(ExperimentError::model)?
+                .deviation
+                / top,
+            impacts_per_s: curve.impacts as f64 / duration,
+            turn: turn(curve),
+        })
+    }
+}
+
+/// How sharply the curve turns to its last speed, the mean over its last fifth.
+fn turn(curve: &SpeedCurve) -> Option<f64> {
+    let last = curve.mean_over_last(0.2).ok()?;
+    let reaches = |share: f64| {
+        let points = || curve.times.iter().zip(curve.speeds.iter().map(|speed| speed / last));
+        let (before, after) = points().zip(points().skip(1)).find(|(_, (_, speed))| *speed >= share)?;
+        // Between the two points: a rise may take few of them.
+        let part = ((share - before.1) / (after.1 - before.1)).clamp(0.0, 1.0);
+        Some(before.0 + part * (after.0 - before.0))
+    };
+    Some((reaches(0.98)? - reaches(0.90)?) / reaches(0.50)?)
+}
+
+/// The motors from rest, over `rises` rise times each; their starting phases are spread evenly over the cycle of the platform.
+pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>, ExperimentError> {
+    let duration = |motor: &MotorCase| rises * motor.rise_time_s();
+    let members = motors
+        .iter()
+        .enumerate()
+        .map(|(index, motor)| {
+            let share = (index as f64 + 0.5) / motors.len() as f64;
+            Ok(TransientMember {
+                system: motor.system()?,
+                phase: Phase::new(TAU * share).map_err(core_error)?,
+                settings: TransientSettings {
+                    duration: duration(motor),
+                    intervals: 240,
+                    relaunch_perturbation: 0.0,
+                    ..TransientSettings::default()
+                },
+            })
+        })
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let curves = transients(&members);
+    motors
+        .par_iter()
+        .zip(curves)
+        .map(|(motor, curve)| AlikeMotor::of(motor, &curve.map_err(ExperimentError::model)?, duration(motor)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::printed_inputs::PrintedInputs;
+
+    #[test]
+    fn the_turn_of_both_forms_is_the_one_derived() {
+        let curve = |speed: fn(f64) -> f64| {
+            let times: Vec<f64> = (0..2_000).map(|i| 0.005 * (f64::from(i) + 0.5)).collect();
+            let speeds = times.iter().map(|time| speed(*time)).collect();
+            turn(&SpeedCurve { times, speeds, impacts: 0, separations: 0 }).expect("rises")
+        };
+        assert!((curve(|time| -7.0 * (0.5 * time).min(1.0)) - TURN_OF_RAMP).abs() < 1e-9);
+        let exponential = curve(|time| 3.0 * (1.0 - bouncing_disk::core::elementary::exp(-time)));
+        assert!((exponential - TURN_OF_EXPONENTIAL).abs() < 0.01, "{exponential}");
+    }
+
+    #[test]
+    fn motors_that_print_alike_may_have_either_form() {
+        let drawn = PrintedInputs::table_three().expect("reads").restitution(0.1).drawn(40, 1);
+        let motors = alike(&drawn, 6.0).expect("run");
+        assert_eq!(motors.len(), 40);
+        // At so small a restitution most are of low period, and most of these rise linearly.
+        let low = motors.iter().filter(|motor| motor.cycle.is_low_period()).count();
+        assert!((16..40).contains(&low), "{low}");
+        let linear = |low_period: bool| {
+            let chosen = motors.iter().filter(|motor| motor.cycle.is_low_period() == low_period);
+            let count = chosen.clone().count() as f64;
+            chosen.filter(|motor| !motor.is_exponential()).count() as f64 / count
+        };
+        assert!(linear(true) > linear(false), "{} {}", linear(true), linear(false));
+        assert_eq!(motors, alike(&drawn, 6.0).expect("run"));
+    }
+}

@@ -1,0 +1,216 @@
+//! What the paper says about Fig. 10.
+
+use std::f64::consts::PI;
+
+use super::data::Fig10Data;
+use super::run::MEMBER_INTERVALS;
+use crate::claim::{Agreement, Claim, all};
+use crate::figures::alike::AlikeMotor;
+use crate::figures::motor_case::{LOW_PERIOD_FLIGHTS, perturbation_claim};
+use crate::ledger;
+
+const ID: &str = "fig10";
+
+pub(super) fn caption(data: &Fig10Data) -> String {
+    let exception = &data.exception;
+    let [gravity, printed] =
+        [0, 1].map(|row| data.readings.get(row).map_or(f64::NAN, |row| row.preload_acceleration_m_per_s2));
+    format!(
+        "Transient speed curves of the motor of Table III from rest, each fitted with α̇_ss(1 − e^(−t/t_c)), for \
+         A = 10⁻⁹, 10⁻⁸ and 10⁻⁷ m. (a)–(c) preload acceleration {gravity} m/s² (standard gravity; the 70 of Table III read as \
+         ω/2π in kHz); (a′)–(c′) the same with g = {printed} m/s² as printed. Grey line: one member (speeds averaged over \
+         1/{MEMBER_INTERVALS} of the time shown); black dashed line: its fit, whose numbers stand in the panel; blue band: mean ± one \
+         standard deviation of {} members, which differ in the starting phase and in the seed of a relaunch perturbation below {} g/ω: {}. \
+         Dotted in (a): the same motor at exactly g = {} m/s², where Aω²/g is 2π² and a low-period cycle exists in a range of g \
+         of {:.1e} m/s² only. The paper's panels (d)–(f) are measured curves, which are not in its text.{}",
+        data.members,
+        data.relaunch_perturbation,
+        ensembles(data),
+        exception.preload_acceleration_m_per_s2,
+        exception.highest_preload_acceleration_m_per_s2 - exception.lowest_preload_acceleration_m_per_s2,
+        super::measured::caption(&data.measured),
+    )
+}
+
+/// The statistics of the panels, in words.
+fn ensembles(data: &Fig10Data) -> String {
+    let panels = data.readings.iter().flat_map(|reading| &reading.panels);
+    let words = panels.map(|panel| {
+        let (speed, constant) = (panel.steady_speed_rad_per_s, panel.time_constant_s);
+        format!(
+            "{:.2} ± {:.2} rad/s, {:.4} ± {:.4} s",
+            speed.mean, speed.deviation, constant.mean, constant.deviation
+        )
+    });
+    words.collect::<Vec<_>>().join("; ")
+}
+
+pub(super) fn parameters(data: &Fig10Data) -> Vec<(String, String)> {
+    let table = &data.table_iii;
+    let value =
+        |name: &str, value: f64, unit: &str| (name.to_owned(), format!("{value} {unit}").trim().to_owned());
+    vec![
+        value("μ", table.friction, ""),
+        value("ε", table.restitution, ""),
+        value("θ", table.phase_lag_rad, "rad"),
+        value("ωΦ", table.peak_angular_speed_rad_per_s, "rad/s"),
+        value("a_e", table.contact_radius_mm, "mm"),
+        value("a_g", table.gyration_radius_mm, "mm"),
+        value("ω/2π", data.section.default_frequency_hz, "Hz"),
+        value("members", data.members as f64, ""),
+        value("relaunch perturbation", data.relaunch_perturbation, "g/ω"),
+        ("inputs that print alike".to_owned(), data.alike.inputs.clone()),
+    ]
+}
+
+pub(super) fn claims(data: &Fig10Data) -> Vec<Claim> {
+    let mut claims = axial_forcings(data);
+    claims.extend(transients(data));
+    claims.push(perturbation_claim(
+        ID,
+        "Table III's motor: the steady speed does not depend on the size of the relaunch perturbation",
+        &data.perturbations,
+    ));
+    claims
+}
+
+fn axial_forcings(data: &Fig10Data) -> Vec<Claim> {
+    let merging = ledger::number("section4.merging", 0).map_or(f64::NAN, |printed| printed.value);
+    let motors = data.alike.motors.iter().flatten();
+    let lowest = motors.clone().map(|motor| motor.axial_forcing).fold(f64::INFINITY, f64::min);
+    vec![
+        Claim::printed("section1.own_motor_axial_forcing", data.own_motor_axial_forcing)
+            .note("ω read as 2π · 70 kHz, which this number confirms"),
+        Claim::printed("section1.tsujino_axial_forcing", data.tsujino_axial_forcing).note(format!(
+            "A ω²/g without the factor π is {:.1}, which rounds to the printed value: the π of the definition was left out",
+            data.tsujino_peak_acceleration
+        )),
+        Claim::statement(
+            ID,
+            "Sec. I",
+            "both motors that Sec. I names operate with Γ > 1/π",
+            data.own_motor_axial_forcing.min(data.tsujino_axial_forcing) * PI > 1.0,
+            format!("Γ = {:.2} and {:.2}", data.own_motor_axial_forcing, data.tsujino_axial_forcing),
+        ),
+        Claim::printed_share(
+            "section4.motor_regime",
+            Agreement::of(motors.map(|motor| motor.axial_forcing > merging)),
+            format!("of all motors that print like Table III's at the three A the lowest Γ is {lowest:.2}"),
+        ),
+    ]
+}
+
+fn percent(value: f64) -> String {
+    format!("{:.1} %", 100.0 * value)
+}
+
+/// The middle of some numbers.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn transients(data: &Fig10Data) -> Vec<Claim> {
+    let alike = &data.alike;
+    let shares = |holds: fn(&AlikeMotor) -> bool| {
+        let each = alike.motors.iter().map(|motors| {
+            let agreement = Agreement::of(motors.iter().map(holds));
+            agreement.share().map_or_else(|| "none".to_owned(), percent)
+        });
+        each.collect::<Vec<_>>().join(", ")
+    };
+    let medians = |of: fn(&AlikeMotor) -> f64| {
+        alike.motors.iter().map(|motors| median(motors.iter().map(of))).collect::<Vec<f64>>()
+    };
+    let over =
+        format!("motors that print alike ({}; nothing perturbs them), at 10⁻⁹, 10⁻⁸, 10⁻⁷ m", alike.inputs);
+    let oscillations = medians(|motor| motor.oscillation).into_iter();
+    let oscillations =
+        oscillations.map(|value| format!("{:.2} %", 100.0 * value)).collect::<Vec<_>>().join(", ");
+    let rates = medians(|motor| motor.impacts_per_s);
+    let rises = |of: fn(&AlikeMotor) -> f64| {
+        Agreement::of(alike.draws().map(|draw| draw.windows(2).all(|pair| of(pair[0]) < of(pair[1]))))
+    };
+    vec![
+        Claim::printed_share(
+            "section5.exponential_transients",
+            Agreement::of(alike.draws().map(|draw| draw.into_iter().all(AlikeMotor::is_exponential))),
+            format!(
+                "whether at all three A the exponential fits better than a linear rise to a constant; {over} it does for {} of the motors one \
+                 by one. {}",
+                shares(AlikeMotor::is_exponential),
+                exception(data),
+            ),
+        ),
+        Claim::printed_share(
+            "section5.oscillation_grows",
+            rises(|motor| motor.oscillation),
+            format!(
+                "standard deviation of the speed (averaged over 1/240 of the time) in the second half of the transient; median over {over}, as a share of ωΦ: \
+                 {oscillations}"
+            ),
+        ),
+        long_period_oscillates(data),
+        Claim::printed_share(
+            "section5.frequent_collisions",
+            rises(|motor| -motor.impacts_per_s),
+            format!(
+                "median number of impacts a second of {over}: {}",
+                rates.iter().map(|rate| format!("{rate:.0}")).collect::<Vec<_>>().join(", ")
+            ),
+        ),
+        Claim::printed_share(
+            "section5.long_period_chattering",
+            Agreement::of(
+                alike.draws().map(|draw| draw.into_iter().all(|motor| !motor.cycle.is_low_period())),
+            ),
+            format!(
+                "{} of {over}, are of low period (at most {LOW_PERIOD_FLIGHTS} flights of more than half a period from rest to rest)",
+                shares(|motor| motor.cycle.is_low_period()),
+            ),
+        ),
+    ]
+}
+
+/// At each amplitude the motors of long period must oscillate more than those of low period, on the median.
+fn long_period_oscillates(data: &Fig10Data) -> Claim {
+    let middle = |motors: &[AlikeMotor], low_period: bool| {
+        let chosen = motors.iter().filter(|motor| motor.cycle.is_low_period() == low_period);
+        median(chosen.map(|motor| motor.oscillation))
+    };
+    let pairs = data.alike.motors.each_ref().map(|motors| (middle(motors, false), middle(motors, true)));
+    let words = pairs.iter().map(|(long, low)| format!("{:.3} % and {:.3} %", 100.0 * long, 100.0 * low));
+    Claim::printed_statement(
+        "section5.oscillation_from_long_period",
+        all(&pairs, |(long, low)| long > low),
+        format!(
+            "median standard deviation of the speed in the second half of the transient, as a share of ωΦ, of motors of long and of low period that print \
+             alike, at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}",
+            words.collect::<Vec<_>>().join("; "),
+        ),
+    )
+}
+
+/// The cycle at exactly 9.8 m/s².
+fn exception(data: &Fig10Data) -> String {
+    let exception = &data.exception;
+    let others = exception
+        .others
+        .iter()
+        .map(|other| format!("g = {}: {}", other.preload_acceleration_m_per_s2, other.cycle.words()));
+    format!(
+        "At A = {:e} m and exactly g = {} m/s², A ω²/g is {:.6} times 2π² and the motor repeats a cycle of {}, its speed rising linearly \
+         (deviation {:.3} rad/s, from the exponential {:.3} rad/s): an exception that ends at g = {:.7} and {:.7} m/s², {:.1e} of g wide. {}",
+        exception.amplitude_m,
+        exception.preload_acceleration_m_per_s2,
+        exception.peak_acceleration_over_two_pi_squared,
+        exception.cycle.words(),
+        exception.ramp_residual_rad_per_s,
+        exception.exponential_residual_rad_per_s,
+        exception.lowest_preload_acceleration_m_per_s2,
+        exception.highest_preload_acceleration_m_per_s2,
+        exception.relative_width,
+        others.collect::<Vec<_>>().join("; "),
+    )
+}
