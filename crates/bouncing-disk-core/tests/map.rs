@@ -41,6 +41,13 @@ fn dual_jacobian(map: &ImpactMap, from: ImpactState, duration: f64) -> DMat2 {
     DMat2::from_cols(column(1.0, 0.0), column(0.0, 1.0))
 }
 
+#[test]
+fn the_normalised_speed_is_that_of_the_paper() {
+    let state = ImpactState::from_normalised(1.0, 1.25).expect("legal");
+    assert!((state.velocity() + 1.25 * PI).abs() < 1e-15, "{state:?}");
+    assert!((state.normalised_speed() - 1.25).abs() < 1e-15, "{state:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
