@@ -62,8 +62,14 @@ impl TossCase {
         (1.0 - 1e-12) * self.largest_angle()
     }
 
-    /// The dough and the hand. What happens after the separation does not matter, so neither does the restitution.
+    /// The dough and the hand. What happens after the separation does not matter, so neither does the restitution (`table1`
+    /// checks it).
     pub(crate) fn system(&self) -> Result<System, ExperimentError> {
+        self.system_with(0.0)
+    }
+
+    /// The same with a coefficient of restitution.
+    pub(crate) fn system_with(&self, restitution: f64) -> Result<System, ExperimentError> {
         let stroke = Stroke {
             stroke: self.stroke_m,
             amplitude_angle: self.amplitude_angle_rad,
@@ -75,7 +81,7 @@ impl TossCase {
             contact_radius: self.contact_radius_m,
             gyration_radius: self.gyration_radius_m,
             friction: self.friction,
-            restitution: 0.0,
+            restitution,
             preload_acceleration: self.preload_acceleration_m_per_s2,
             load_acceleration: 0.0,
         };
