@@ -48,7 +48,8 @@ pub struct Fig14Data {
     pub toss_start_s: Vec<(u32, f64)>,
     /// Synthetic diameters, not measured: times (s) and d/d_0.
     pub synthetic: Vec<(f64, f64)>,
-    /// Slope (1/s) of the least-squares line through them over its value at the start, and its standard error.
+    /// Slope (1/s) of the least-squares line through them over its value at the start, and its standard
+    /// error.
     pub synthetic_slope_per_s: f64,
     /// Standard error of that slope (1/s).
     pub synthetic_slope_error_per_s: f64,
@@ -56,12 +57,14 @@ pub struct Fig14Data {
     pub records: u32,
     /// See `records`.
     pub recovered_share: f64,
-    /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth of one toss (rad/s).
+    /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth
+    /// of one toss (rad/s).
     pub airborne_speed_change_rad_per_s: f64,
     /// The printed uncertainty of the measured launch speed (rad/s).
     pub measured_uncertainty_rad_per_s: f64,
-    /// Factor on the rotation of a dough that grows so much while it flies: its angular momentum does not change.
-    pub flight_spin_factor: f64,
+    /// Share of its rotation, in per cent, that a dough loses which grows so much while it flies: its angular
+    /// momentum does not change.
+    pub flight_spin_loss_percent: f64,
     /// A user's own diameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Growth>,
@@ -82,7 +85,8 @@ impl Fig14Data {
     }
 }
 
-/// A synthetic record, and the slope of the line through it over its value at the start, with its standard error.
+/// A synthetic record, and the slope of the line through it over its value at the start, with its standard
+/// error.
 type Record = (Vec<(f64, f64)>, f64, f64);
 
 /// A record on the line `1 + slope (t − start)` for `duration`.
@@ -172,7 +176,7 @@ impl Experiment for Fig14 {
             measured_uncertainty_rad_per_s: paper::section_three()?
                 .launch_angular_speed_rad_per_s
                 .uncertainty,
-            flight_spin_factor: 1.0 / (larger * larger),
+            flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
             measured: None,
         })
     }
@@ -238,7 +242,7 @@ impl Experiment for Fig14 {
                      while it flies keeps its angular momentum and loses {:.1} % of its speed",
                     data.airborne_speed_change_rad_per_s,
                     data.measured_uncertainty_rad_per_s,
-                    100.0 * (1.0 - data.flight_spin_factor)
+                    data.flight_spin_loss_percent
                 ),
             ),
             Claim::statement(

@@ -136,7 +136,8 @@ fn rim(radius: f64, turned: f64) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// The parts of the sketched hand, from end to end with a half width, in radii of the dough: along the fingers and across.
+/// The parts of the sketched hand, from end to end with a half width, in radii of the dough: along the
+/// fingers and across.
 const HAND: [[f64; 5]; 7] = [
     [-1.75, 0.00, -0.45, 0.00, 0.24],
     [-0.42, 0.00, 0.05, 0.00, 0.46],

@@ -11,7 +11,8 @@ use crate::experiment::{ExperimentError, Quality};
 /// A chattering orbit of the single-toss kind (Sec. IV A).
 const AXIAL_FORCING: f64 = 0.45;
 
-/// From one separation to the next; time in periods from the first collision between them, heights in amplitudes of the platform.
+/// From one separation to the next; time in periods from the first collision between them, heights in
+/// amplitudes of the platform.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Cycle {
     pub(super) axial_forcing: f64,

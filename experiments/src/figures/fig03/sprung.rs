@@ -1,8 +1,10 @@
 //! A rotor on a spring instead of under a constant preload (Sec. I).
 //!
-//! The engine keeps its constant preload. A spring that is compressed by δl_0 at the middle of the rotor's travel presses with g (1 + (x − x_middle)/δl_0): the
-//! preload changes by the travel over δl_0 from end to end. What that does to a flight is computed in closed form, for it is a piece of an oscillation
-//! with the frequency sqrt(g/δl_0), and bounded by the two parabolas under the largest and the smallest preload, between which it lies.
+//! The engine keeps its constant preload. A spring that is compressed by δl_0 at the middle of the rotor's
+//! travel presses with g (1 + (x − x_middle)/δl_0): the preload changes by the travel over δl_0 from end to
+//! end. What that does to a flight is computed in closed form, for it is a piece of an oscillation with the
+//! frequency sqrt(g/δl_0), and bounded by the two parabolas under the largest and the smallest preload,
+//! between which it lies.
 
 use bouncing_disk::core::elementary::{asin, hypot, sin, sin_cos};
 use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -57,7 +59,8 @@ pub(super) struct SprungFlight {
     pub(super) fall_speed_change: f64,
     /// How much later in the stator's motion the impact comes, in periods.
     pub(super) impact_shift_cycles: f64,
-    /// Bounds of `duration_change`: the earliest and the latest impact under any preload that the spring gives.
+    /// Bounds of `duration_change`: the earliest and the latest impact under any preload that the spring
+    /// gives.
     pub(super) duration_bounds: (f64, f64),
 }
 
@@ -113,8 +116,8 @@ impl Launch {
         relaxed + hypot(self.height - relaxed, self.velocity * spring.deflection.sqrt())
     }
 
-    /// The first impact after the launch, by steps of a small share of a period and bisection; `None` if there is none in half a
-    /// swing, in which every flight ends.
+    /// The first impact after the launch, by steps of a small share of a period and bisection; `None` if
+    /// there is none in half a swing, in which every flight ends.
     fn impact(&self, spring: &Spring) -> Option<End> {
         let step = std::f64::consts::TAU / STEPS;
         let longest = std::f64::consts::PI * spring.deflection.sqrt();
@@ -251,7 +254,8 @@ pub(super) fn sprung(quality: Quality) -> Result<Sprung, ExperimentError> {
 mod tests {
     use super::*;
 
-    /// A separate integrator: Runge-Kutta of the fourth order on ẍ = −preload(x), with the impact by halving the last step.
+    /// A separate integrator: Runge-Kutta of the fourth order on ẍ = −preload(x), with the impact by halving
+    /// the last step.
     fn integrated(launch: &Launch, spring: &Spring) -> End {
         let acceleration = |height: f64| -spring.preload(height);
         let advanced = |(x, v): (f64, f64), h: f64| {

@@ -5,11 +5,11 @@ use bouncing_disk::{EventKind, Transition};
 use super::Fig03Data;
 use crate::claim::{self, Claim};
 
-/// The equations of motion are obeyed to this share of the terms that balance: thousands of roundings, since the
-/// equations add several terms, and an instant is found where their sum vanishes.
+/// The equations of motion are obeyed to this share of the terms that balance: thousands of roundings, since
+/// the equations add several terms, and an instant is found where their sum vanishes.
 const LAW_BOUND: f64 = 1e-12;
-/// The highest point on a spring may lie above that under constant preload, since the preload is lower down there; with the
-/// shortest spring tried by a few per cent.
+/// The highest point on a spring may lie above that under constant preload, since the preload is lower down
+/// there; with the shortest spring tried by a few per cent.
 const WIDER: f64 = 0.05;
 
 fn name(transition: &Transition) -> String {
@@ -125,7 +125,8 @@ fn attachment(data: &Fig03Data) -> Claim {
 fn sprung_rotor(data: &Fig03Data) -> Claim {
     let sprung = &data.sprung;
     let flights = sprung.motors.iter().flat_map(|motor| &motor.springs);
-    // The preload changes by at most the travel over the deflection, which is Hooke's law, and the flight by no more than that allows.
+    // The preload changes by at most the travel over the deflection, which is Hooke's law, and the flight by
+    // no more than that allows.
     let bounded = claim::all(flights, |flight| {
         let (early, late) = flight.duration_bounds;
         flight.preload_change * flight.deflection_over_travel <= 1.0 + WIDER

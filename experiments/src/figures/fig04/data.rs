@@ -29,14 +29,16 @@ pub struct Fig04Data {
     pub(super) best: Vec<Best>,
     /// The largest speed ratio of all phase lags and amplitude angles, for both initial states.
     pub(super) largest_ratio: Vec<RatioSearch>,
-    /// Up to this amplitude angle friction holds the dough to the end if θ = −τ_sep: tan φ_L = (μ a_e²/a_g²) cos τ_sep.
+    /// Up to this amplitude angle friction holds the dough to the end if θ = −τ_sep: tan φ_L = (μ a_e²/a_g²)
+    /// cos τ_sep.
     pub(super) held_to_separation_angle_rad: f64,
     /// Panel (g).
     pub(super) profile: Option<LagProfile>,
     pub(super) compromise: Compromise,
     pub(super) no_launch: NoLaunch,
     pub(super) symmetry: Symmetry,
-    /// Energy efficiency of the fastest toss at θ = 0 if the energy lost in friction is not counted as put in.
+    /// Energy efficiency of the fastest toss at θ = 0 if the energy lost in friction is not counted as put
+    /// in.
     pub(super) lossless_efficiency_of_fastest: f64,
     pub(super) consistency: Consistency,
 }
@@ -196,10 +198,10 @@ pub(super) struct Consistency {
     pub(super) coarse_grid_curve: SpeedCurve,
 }
 
-/// Why the two printed angles cannot both be places of true maxima. They and the largest speed ratio depend on two
-/// numbers only, c ω²/g and μ a_e²/a_g². The angle of the fastest toss grows as the first falls and as the second
-/// rises; the first is bounded by the printed largest ratio, the second by the printed angle of that ratio. Here both
-/// are at their bounds.
+/// Why the two printed angles cannot both be places of true maxima. They and the largest speed ratio depend
+/// on two numbers only, c ω²/g and μ a_e²/a_g². The angle of the fastest toss grows as the first falls and as
+/// the second rises; the first is bounded by the printed largest ratio, the second by the printed angle of
+/// that ratio. Here both are at their bounds.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Conflict {
     pub(super) stroke_acceleration: f64,
@@ -210,7 +212,8 @@ pub(super) struct Conflict {
     pub(super) optimal_amplitude_angle_rad: f64,
 }
 
-/// The hand's largest speed ωΦ at the printed optimum, from Table I's c, ω and a_e and from the printed speed and ratio.
+/// The hand's largest speed ωΦ at the printed optimum, from Table I's c, ω and a_e and from the printed speed
+/// and ratio.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct HandSpeed {
     /// The least that Table I gives for an angle that rounds to the printed one.

@@ -189,7 +189,7 @@ fn separation_panel(panel: Panel, data: &Fig04Data) -> Panel {
         // The curves of n = 0 and 1 are farthest apart at their tops, and almost coincide to the right of them.
         let (at, raised) = match curve.n {
             0 => (0.40, 2.4),
-            1 => (0.31, 0.0),
+            1 => (0.31, -1.0),
             8 => (0.48, -2.2),
             _ => (0.48, 0.0),
         };
@@ -311,7 +311,7 @@ fn profile_panel(panel: Panel, data: &Fig04Data) -> Panel {
 }
 
 fn over_lags_panel(panel: Panel, data: &Fig04Data) -> Panel {
-    let mut panel = panel.x(angle_axis()).y(ratio_axis(r"$|\nu|$")).letter("h");
+    let mut panel = panel.x(angle_axis()).y(ratio_axis(r"$|\nu|$")).letter_in("h", Corner::TopRight);
     let names = [r"largest of all $\theta$, start at rest", r"the same, start with the hand"];
     let styles = [(Colour::BLACK, Dash::Solid), (Colour::GREEN, Dash::Dashed)];
     for (search, (name, (colour, dash))) in data.largest_ratio.iter().zip(names.into_iter().zip(styles)) {

@@ -16,7 +16,8 @@ const ID: &str = "fig04";
 const SYMMETRY_BOUND: f64 = 1e-12;
 /// How well the place of a smooth maximum is known (rad): the root of the rounding of its value is 1e-8.
 const PLACE_BOUND: f64 = 1e-6;
-/// A speed ratio this close to its largest is as large: the lag of a maximum is known to 1e-8, and the ratio falls with its square.
+/// A speed ratio this close to its largest is as large: the lag of a maximum is known to 1e-8, and the ratio
+/// falls with its square.
 const RATIO_BOUND: f64 = 1e-9;
 
 /// An angle as a multiple of π.
@@ -228,7 +229,8 @@ fn optimal_phase_lag(data: &Fig04Data) -> Option<Claim> {
     ))
 }
 
-/// The paper gives one φ_L for the largest speed and the largest efficiency; its digits say how close they must be.
+/// The paper gives one φ_L for the largest speed and the largest efficiency; its digits say how close they
+/// must be.
 fn one_optimum(data: &Fig04Data, curve: &LagCurve) -> Claim {
     let (fastest, efficient) = (&curve.fastest, &curve.most_efficient);
     let apart = (fastest.amplitude_angle_rad - efficient.amplitude_angle_rad).abs();

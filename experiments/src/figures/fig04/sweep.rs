@@ -21,8 +21,8 @@ pub(super) const INITIAL_STATES: [InitialState; 2] =
     [InitialState::AbsoluteRest, InitialState::RestRelativeToHand];
 /// Samples among which a maximum is bracketed; the curves have fewer bends.
 pub(super) const BRACKETS: u32 = 60;
-/// Samples of the phase lag for the best toss of all: an odd number, so that θ = 0, where the paper has its optimum, is not one
-/// of them and must be found.
+/// Samples of the phase lag for the best toss of all: an odd number, so that θ = 0, where the paper has its
+/// optimum, is not one of them and must be found.
 const LAG_BRACKETS: u32 = 33;
 /// Samples of the phase lag for the largest speed ratio at one amplitude angle, odd for the same reason.
 const RATIO_BRACKETS: u32 = 65;
@@ -225,8 +225,8 @@ fn best_lag(case: &TossCase, initial: InitialState) -> Result<LagOptimum, Experi
     })
 }
 
-/// The largest |ν| of all phase lags and amplitude angles: at each of `count` angles the best of all lags, and between the
-/// neighbours of the best angle the golden section.
+/// The largest |ν| of all phase lags and amplitude angles: at each of `count` angles the best of all lags,
+/// and between the neighbours of the best angle the golden section.
 pub(super) fn ratio_search(
     table: &TossCase,
     initial_state: InitialState,
@@ -247,9 +247,9 @@ pub(super) fn ratio_search(
     Ok(RatioSearch { initial_state, largest, over_lags })
 }
 
-/// The largest amplitude angle at which a dough whose hand is fastest at the separation, θ = −τ_sep, is held up to then. Just before it
-/// the hand's angular acceleration and the contact force both fall in proportion to the time that is left, so that friction holds where
-/// ω² Φ ≤ (μ a_e/a_g²) A ω² cos τ_sep.
+/// The largest amplitude angle at which a dough whose hand is fastest at the separation, θ = −τ_sep, is held
+/// up to then. Just before it the hand's angular acceleration and the contact force both fall in proportion
+/// to the time that is left, so that friction holds where ω² Φ ≤ (μ a_e/a_g²) A ω² cos τ_sep.
 pub(super) fn held_to_separation(table: &TossCase) -> f64 {
     let reach = table.contact_radius_m / table.gyration_radius_m;
     let grip = table.friction * reach * reach;

@@ -128,7 +128,8 @@ pub(super) struct Column {
     pub(super) amplitude_m: f64,
     /// ωΦ.
     pub(super) largest_hand_speed_rad_per_s: f64,
-    /// A ω²/g: the contact force lies between 1 + this, at the lowest point, and 0, at the separation (in m g).
+    /// A ω²/g: the contact force lies between 1 + this, at the lowest point, and 0, at the separation (in m
+    /// g).
     pub(super) peak_acceleration: f64,
     /// One per phase lag of the caption.
     pub(super) tosses: Vec<Toss>,
@@ -154,8 +155,8 @@ impl Column {
     }
 }
 
-/// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from the
-/// hand's mean height.
+/// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from
+/// the hand's mean height.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Toss {
     pub(super) phase_lag_rad: f64,

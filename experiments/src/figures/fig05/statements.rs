@@ -187,10 +187,13 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
     ]
 }
 
+/// A thing that φ_L acts on: its name with the unit, and its value.
+type Thing = (&'static str, fn(&Influence) -> f64);
+
 /// What φ_L and θ act on.
 fn effects(data: &Fig05Data) -> [Claim; 2] {
     let series = |of: &[Influence], value: fn(&Influence) -> f64| of.iter().map(value).collect::<Vec<_>>();
-    let things: [(&str, fn(&Influence) -> f64); 3] = [
+    let things: [Thing; 3] = [
         ("τ_sep (rad)", |at| at.separation_phase_rad),
         ("ωΦ (rad/s)", |at| at.largest_hand_speed_rad_per_s),
         ("largest N (m g)", |at| at.largest_force),

@@ -21,7 +21,8 @@ pub struct Table1Data {
     pub(super) restitution: Restitution,
 }
 
-/// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled cylinder.
+/// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled
+/// cylinder.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Arc {
     /// Its length from one end to the other, along a polygon of points of the path.

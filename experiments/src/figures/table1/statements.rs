@@ -6,7 +6,8 @@ use crate::claim::Claim;
 use crate::experiment::Experiment;
 use crate::figures::uncertainty::Propagated;
 
-/// The relations of Eqs. (13) and (15) must hold to this share: they are identities, and the rest is rounding.
+/// The relations of Eqs. (13) and (15) must hold to this share: they are identities, and the rest is
+/// rounding.
 const ROUNDING: f64 = 1e-14;
 /// A length along a polygon of hundreds of points of a straight line adds as many roundings.
 const LENGTH: f64 = 1e-12;
