@@ -3,6 +3,7 @@
 //! A new module is declared here and listed once in [`crate::registry::all`].
 
 mod alike;
+mod angle_grid;
 pub mod braking_record;
 mod cylinder;
 pub mod dough_record;

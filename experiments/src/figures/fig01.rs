@@ -72,11 +72,12 @@ impl Experiment for Fig01 {
 
     fn caption(data: &Fig01Data) -> String {
         format!(
-            "The displacement variables of the bouncing-disk system and of pizza tossing, drawn in perspective and to \
+            "The displacement variables of the bouncing-disk system and of pizza tossing, (a) and (c) drawn in perspective and to \
              scale from a computed toss. (a) The disk (x, α) above the oscillating platform (s, β) at the phase τ = {:.3} \
              rad, {:.0} % of its flight after the separation: x = {:.3} m, s = {:.3} m, α = {:.2} rad, β = {:.2} rad. \
              Heights are measured from the platform's mean height, angles from the line on which the \
-             platform's mark lies when β = 0; the disk's mark lay over it at the start. (b) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
+             platform's mark lies when β = 0; the disk's mark lay over it at the start. (b) A sketch, not to scale: a dough above \
+             the hand that tosses it, with the same four variables. (c) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
              closed curve on the surface of a cylinder, with the amplitudes A and a_e Φ; the dot is the point at the \
              instant of (a), the arrows show the sense of the motion, what lies behind the cylinder is dotted. \
              Parameters of Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses no area; the \
@@ -135,7 +136,7 @@ impl Experiment for Fig01 {
         let stroke = data.table_i.stroke_m.value;
         let motion = Claim::printed_statement(
             "section1.platform_motion",
-            data.equation_fault <= ROUNDING,
+            (!data.path.phase_rad.is_empty()).then_some(data.equation_fault <= ROUNDING),
             format!(
                 "largest difference of the platform's height and angle from Eq. (1) at {} phases, over the amplitudes: {:.1e}",
                 data.path.phase_rad.len(),
@@ -144,10 +145,11 @@ impl Experiment for Fig01 {
         );
         let curve = Claim::printed_statement(
             "section1.closed_curves",
-            gap <= ROUNDING * stroke && area.abs() > ROUNDING * stroke * stroke,
+            gap.map(|gap| gap <= ROUNDING * stroke && area.abs() > ROUNDING * stroke * stroke),
             format!(
-                "after one period the point is {gap:.1e} m from where it was; on the unrolled cylinder of radius a_e \
+                "after one period the point is {:.1e} m from where it was; on the unrolled cylinder of radius a_e \
                  its path encloses {:.4} m²",
+                gap.unwrap_or(f64::NAN),
                 area.abs()
             ),
         );

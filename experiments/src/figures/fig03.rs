@@ -4,6 +4,7 @@ mod census;
 mod chart;
 mod cycle;
 mod laws;
+mod sprung;
 mod statements;
 
 use bouncing_disk::Transition;
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use self::census::Census;
 use self::cycle::Cycle;
+use self::sprung::Sprung;
 use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
@@ -26,6 +28,7 @@ pub struct Fig03;
 pub struct Fig03Data {
     census: Census,
     cycle: Cycle,
+    sprung: Sprung,
 }
 
 impl Experiment for Fig03 {
@@ -42,10 +45,10 @@ impl Experiment for Fig03 {
             "Model simulation flow chart: the modes flight, sticking and sliding (boxes), the impact, which is an instant \
              (rounded), and the events between them. Every arrow is a transition that the engine was seen to make: {} \
              events of {} systems and starts were counted, and only the {} transitions drawn occurred \
-             (rebound and attachments share the collision). The inset shows a \
-             computed trajectory of the disk (dashed line) and of the platform (solid line) for one cycle of the \
-             simulation, starting with collision (c), attachment (a) after infinitely many impacts, and ending with \
-             separation (s), for Γ = {}, ε = {}.",
+             (rebound and attachments share the collision). At the arrows: their conditions; β̈_env = μ a_e N/(m a_g²) is what static friction can give. A cycle \
+             starts with the collision. The inset shows a computed trajectory of the disk (dashed line) and of the platform (solid line), time from the collision, \
+             for one cycle of the simulation, starting with collision (c), attachment (a) after infinitely many impacts, and ending with \
+             separation (s), for Γ = {}, ε = {}; the flight before the collision is lighter.",
             census.events,
             census.motions,
             census.transitions.len(),
@@ -57,7 +60,8 @@ impl Experiment for Fig03 {
     fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
         let census = census::census(quality, progress)?;
         let cycle = cycle::cycle(quality)?;
-        Ok(Fig03Data { census, cycle })
+        let sprung = sprung::sprung(quality)?;
+        Ok(Fig03Data { census, cycle, sprung })
     }
 
     fn draw(data: &Fig03Data) -> Result<Figure, ExperimentError> {

@@ -14,6 +14,7 @@ use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
+use crate::printed::PrintedNumber;
 use crate::progress::Progress;
 
 /// Fig. 4.
@@ -43,7 +44,8 @@ impl Experiment for Fig04 {
 
     fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
         let count = quality.choose(61, 481);
-        progress.start(7, "parts");
+        progress.start(8, "parts");
+        let ratio_angles = quality.choose(30, 90);
         let done = || progress.advance(1);
         let table_i = paper::table_one()?;
         let printed = paper::section_three()?;
@@ -69,6 +71,13 @@ impl Experiment for Fig04 {
             .map(|initial| sweep::best(&table, initial))
             .collect::<Result<Vec<_>, _>>()?;
         done();
+        let largest_ratio = sweep::INITIAL_STATES
+            .into_iter()
+            .map(|initial| sweep::ratio_search(&table, initial, ratio_angles))
+            .collect::<Result<Vec<_>, _>>()?;
+        let shown = PrintedNumber::read(&printed.amplitude_angle_of_largest_speed_ratio_rad);
+        let profile = shown.map(|angle| sweep::profile(&table.at_angle(angle.value), count)).transpose()?;
+        done();
         let symmetry = sweep::symmetry(&table, &angles)?;
         done();
         let fastest = sweep::best_angle(&table, rest, sweep::speed)?;
@@ -87,6 +96,11 @@ impl Experiment for Fig04 {
             friction_curves,
             low_friction,
             best,
+            largest_ratio,
+            held_to_separation_angle_rad: sweep::held_to_separation(&table),
+            profile,
+            compromise: sweep::compromise(&table)?,
+            no_launch: sweep::no_launch(&table)?,
             symmetry,
             consistency,
             table_i,

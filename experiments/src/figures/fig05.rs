@@ -64,6 +64,8 @@ impl Experiment for Fig05 {
             .into_iter()
             .map(|factor| data::Grip::new(&table, factor, &columns))
             .collect::<Result<Vec<_>, _>>()?;
+        let grid_point = data::GridPoint::new(&table_i, &printed)?;
+        let effects = data::Effects::new(&table, &optimum)?;
         progress.advance(1);
         Ok(Fig05Data {
             table_i,
@@ -72,6 +74,8 @@ impl Experiment for Fig05 {
             columns,
             lags,
             firm_grip,
+            grid_point,
+            effects,
         })
     }
 

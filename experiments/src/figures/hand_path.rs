@@ -48,11 +48,19 @@ impl HandPath {
         0.5 * radius * pairs.map(|(one, next)| one.0 * next.1 - next.0 * one.1).sum::<f64>()
     }
 
-    /// How far apart the two ends are, in the cylinder's surface.
-    pub(crate) fn closing_gap(&self, radius: f64) -> f64 {
-        let (Some(first), Some(last)) = (self.points().next(), self.points().last()) else { return 0.0 };
-        let across = radius * (last.0 - first.0);
-        let up = last.1 - first.1;
-        (across * across + up * up).sqrt()
+    /// How far apart the two ends are, in the cylinder's surface; `None` without points.
+    pub(crate) fn closing_gap(&self, radius: f64) -> Option<f64> {
+        Some(distance(radius, self.points().next()?, self.points().last()?))
     }
+
+    /// The length of the path in the cylinder's surface, along the polygon of its points.
+    pub(crate) fn length(&self, radius: f64) -> f64 {
+        self.points().zip(self.points().skip(1)).map(|(one, next)| distance(radius, one, next)).sum()
+    }
+}
+
+/// The distance of two points in the surface of a cylinder.
+fn distance(radius: f64, one: (f64, f64), other: (f64, f64)) -> f64 {
+    let (across, up) = (radius * (other.0 - one.0), other.1 - one.1);
+    (across * across + up * up).sqrt()
 }

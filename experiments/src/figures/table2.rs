@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::toss_case::TossCase;
 use super::uncertainty::Propagated;
-use crate::claim::{Claim, Verdict};
+use crate::claim::{self, Claim, Verdict};
 use crate::draw::{Figure, Label, ruled_table};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
@@ -290,7 +290,7 @@ impl Experiment for Table2 {
     }
 
     fn claims(data: &Table2Data) -> Vec<Claim> {
-        let mut claims = vec![Claim::printed("table2.airborne_speed", data.airborne_speed_rad_per_s)];
+        let mut claims = Vec::new();
         for effect in &data.effects {
             claims.push(Claim::printed(&effect.key, effect.central_rad_per_s.abs()).note(format!(
                 "half the difference of the speeds at both ends; changes at the upper end {:+.4}, at the lower end \
@@ -299,7 +299,7 @@ impl Experiment for Table2 {
             )));
         }
         claims.push(readings(data));
-        claims.push(together(data));
+        claims.extend(together(data));
         claims
     }
 
@@ -348,49 +348,50 @@ fn signed(value: f64, decimals: usize) -> String {
 
 /// Which readings of the table give all its entries.
 fn readings(data: &Table2Data) -> Claim {
-    let mut complete = 0;
-    let mut parts = Vec::new();
-    for (name, read) in READINGS {
+    let agrees = |effect: &Effect, name: &str, read: Read| {
+        Claim::reading(Table2::ID, &effect.key, name, read(effect).abs()).verdict() == Verdict::Reproduced
+    };
+    let parts = READINGS.map(|(name, read)| {
         let missed: Vec<_> = data
             .effects
             .iter()
-            .filter(|effect| {
-                Claim::reading(Table2::ID, &effect.key, name, read(effect).abs()).verdict()
-                    != Verdict::Reproduced
-            })
+            .filter(|effect| !agrees(effect, name, read))
             .map(|effect| format!("{} ({:.3})", effect.input, read(effect).abs()))
             .collect();
-        complete += usize::from(missed.is_empty());
-        parts.push(match missed.is_empty() {
+        match missed.is_empty() {
             true => format!("{name}: all"),
             false => format!("{name}: not {}", missed.join(", ")),
-        });
-    }
+        }
+    });
+    let complete =
+        READINGS.map(|(name, read)| claim::all(&data.effects, |effect| agrees(effect, name, read)));
     Claim::statement(
         Table2::ID,
         "Table II",
         "all six entries come out of Table I to the printed digits in one reading",
-        complete > 0,
+        (!data.effects.is_empty()).then_some(complete.contains(&Some(true))),
         parts.join("; "),
     )
 }
 
-/// The uncertainty of all inputs together.
-fn together(data: &Table2Data) -> Claim {
+/// The uncertainty of all inputs together, by the usual rule and by the one that Table I follows.
+fn together(data: &Table2Data) -> [Claim; 2] {
+    const KEY: &str = "section3.predicted_airborne_speed_uncertainty";
     let combined = &data.combined;
-    Claim::printed_uncertainty(
-        Table2::ID,
-        "section3.predicted_airborne_speed",
-        "uncertainty of the airborne speed due to all inputs",
-        combined.root_sum_of_squares_rad_per_s,
-    )
-    .note(format!(
-        "root sum of squares; the sum is {:.1}; the printed number is the largest single effect ({:.1}) and also the \
-         root sum of squares of the others ({:.1}); ω and φ_L are not independent of c and a_e: with both launch \
-         speeds, c, a_e, a_g and μ as independent inputs it is {:.1}",
-        combined.sum_rad_per_s,
-        combined.largest_rad_per_s,
-        combined.without_largest_rad_per_s,
-        data.uncertainty_from_launch_speeds_rad_per_s
-    ))
+    [
+        Claim::printed(KEY, combined.root_sum_of_squares_rad_per_s).note(format!(
+            "root of the sum of squares; the largest single effect is {:.1} and the root sum of squares of the others {:.1}, both of which print as the \
+             paper's number; ω and φ_L are not independent of c and a_e: with both launch speeds, c, a_e, a_g and μ as independent inputs it is {:.1}",
+            combined.largest_rad_per_s,
+            combined.without_largest_rad_per_s,
+            data.uncertainty_from_launch_speeds_rad_per_s
+        )),
+        Claim::reading(
+            Table2::ID,
+            KEY,
+            "the same as the plain sum of the effects, by which Table I's own uncertainties come out",
+            combined.sum_rad_per_s,
+        )
+        .note("no rule of both gives the printed number"),
+    ]
 }

@@ -62,8 +62,14 @@ impl TossCase {
         (1.0 - 1e-12) * self.largest_angle()
     }
 
-    /// The dough and the hand. What happens after the separation does not matter, so neither does the restitution.
+    /// The dough and the hand. What happens after the separation does not matter, so neither does the
+    /// restitution (`table1` checks it).
     pub(crate) fn system(&self) -> Result<System, ExperimentError> {
+        self.system_with(0.0)
+    }
+
+    /// The same with a coefficient of restitution.
+    pub(crate) fn system_with(&self, restitution: f64) -> Result<System, ExperimentError> {
         let stroke = Stroke {
             stroke: self.stroke_m,
             amplitude_angle: self.amplitude_angle_rad,
@@ -75,7 +81,7 @@ impl TossCase {
             contact_radius: self.contact_radius_m,
             gyration_radius: self.gyration_radius_m,
             friction: self.friction,
-            restitution: 0.0,
+            restitution,
             preload_acceleration: self.preload_acceleration_m_per_s2,
             load_acceleration: 0.0,
         };
@@ -105,9 +111,9 @@ pub(crate) struct Maximum {
 /// Steps of the golden section: they narrow the bracket by a factor of 3e12.
 const GOLDEN_STEPS: u32 = 60;
 
-/// The largest value of a function that has one maximum between neighbours of its best sample; `intervals` + 1
-/// samples are taken. The golden section then finds the value to rounding. The place of a smooth maximum is known
-/// to the square root of that, about 1e-8: more is not in the values of a function.
+/// The largest value of a function that has one maximum between neighbours of its best sample; `intervals` +
+/// 1 samples are taken. The golden section then finds the value to rounding. The place of a smooth maximum is
+/// known to the square root of that, about 1e-8: more is not in the values of a function.
 pub(crate) fn maximum<E>(
     (low, high): (f64, f64),
     intervals: u32,

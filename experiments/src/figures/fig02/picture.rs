@@ -20,7 +20,20 @@ const HALF_LENGTH: f64 = 1.6;
 const HEAD: f64 = 8.0;
 const HEADS: [f64; 2] = [0.15, 0.65];
 
-fn panel(data: &Trajectory, letter: &str, area: Rect) -> Drawing {
+/// Where the name of the dot stands, from the dot, so that it meets no curve.
+type Name = ((f64, f64), Anchor);
+
+/// See [`Name`]; in the order of the panels.
+const NAMES: [Name; 6] = [
+    ((0.14, 0.14), Anchor::LeftCentre),
+    ((0.10, -0.24), Anchor::LeftCentre),
+    ((0.08, -0.18), Anchor::LeftCentre),
+    ((-0.10, -0.16), Anchor::RightCentre),
+    ((0.10, -0.24), Anchor::LeftCentre),
+    ((0.04, 0.20), Anchor::LeftCentre),
+];
+
+fn panel(data: &Trajectory, letter: &str, name: Name, area: Rect) -> Drawing {
     let camera = Camera::around(DVec3::ZERO, AZIMUTH, ELEVATION, DISTANCE);
     let cylinder = Cylinder { radius: 1.0, bottom: -HALF_LENGTH, top: HALF_LENGTH };
     let look = Look {
@@ -48,7 +61,15 @@ fn panel(data: &Trajectory, letter: &str, area: Rect) -> Drawing {
     if let Some((angle, height)) = data.path.points().next() {
         let at = camera.project(polar(1.0, angle, height));
         let colour = if cylinder.shows(&camera, angle) { Colour::BLACK } else { Colour::GREY };
-        drawing = drawing.ellipse(at, (0.06, 0.06), None, Some((colour, 1.0)));
+        let (place, anchor) = name;
+        drawing = drawing.ellipse(at, (0.06, 0.06), None, Some((colour, 1.0))).text_styled(
+            (at.0 + place.0, at.1 + place.1),
+            anchor,
+            r"$\tau = 0$",
+            Some(8.0),
+            Colour::BLACK,
+            0.0,
+        );
     }
     let number = |angle: f64| match format!("{:.2}", angle / PI).trim_end_matches('0').trim_end_matches('.') {
         "0" => "0".to_owned(),
@@ -68,8 +89,8 @@ pub(super) fn figure(data: &Fig02Data) -> Figure {
     let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
     let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
     let letters = ["a", "b", "c", "d", "e", "f"];
-    let panels = data.panels.iter().zip(letters).enumerate();
-    panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, letter))| {
-        figure.drawing(panel(trajectory, letter, grid.cell(index / 3, index % 3)))
+    let panels = data.panels.iter().zip(letters.into_iter().zip(NAMES)).enumerate();
+    panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, (letter, name)))| {
+        figure.drawing(panel(trajectory, letter, name, grid.cell(index / 3, index % 3)))
     })
 }

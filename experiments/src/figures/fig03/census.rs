@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{Dimensionless, DimensionlessParameters, Engine, Error, Start, Transition};
+use bouncing_disk::{
+    Dimensionless, DimensionlessParameters, Engine, Error, EventKind, EventRecord, Start, Transition,
+};
 use serde::{Deserialize, Serialize};
 
 use super::laws::Laws;
@@ -35,7 +37,34 @@ pub(super) struct Census {
     pub(super) failures: u64,
     /// In the order of the modes and events.
     pub(super) transitions: Vec<Counted>,
+    pub(super) attachments: Attachments,
     pub(super) laws: Laws,
+}
+
+/// What follows the impacts without rebound, ε = 0, by the contact force at the instant of the impact.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Attachments {
+    /// N > 0 and the disk attached at once.
+    pub(super) pressed_attached: u64,
+    /// N > 0 and it flew.
+    pub(super) pressed_launched: u64,
+    /// N <= 0 and it attached at once.
+    pub(super) unpressed_attached: u64,
+    /// N <= 0 and it flew.
+    pub(super) unpressed_launched: u64,
+}
+
+impl Attachments {
+    fn count(&mut self, impact: &EventRecord, next: &EventRecord, system: &Dimensionless) {
+        let pressed = 1.0 - system.peak_acceleration() * impact.time.phase.sin() > 0.0;
+        let attached = next.event.kind() == EventKind::Attachment && next.span.radians() <= 0.0;
+        *match (pressed, attached) {
+            (true, true) => &mut self.pressed_attached,
+            (true, false) => &mut self.pressed_launched,
+            (false, true) => &mut self.unpressed_attached,
+            (false, false) => &mut self.unpressed_launched,
+        } += 1;
+    }
 }
 
 /// A transition and how often it occurred.
@@ -87,11 +116,14 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
     let mut counts: BTreeMap<Transition, u64> = BTreeMap::new();
     let (mut motions, mut events, mut failures) = (0, 0, 0);
     let mut laws = Laws::default();
+    let mut attachments = Attachments::default();
     for system in &systems {
         for start in starts(system)? {
             motions += 1;
             let engine =
                 Engine::new(*system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+            // The impact before, if it gave no rebound.
+            let mut landed: Option<EventRecord> = None;
             for record in engine.take(longest_motion) {
                 let Ok(record) = record else {
                     failures += 1;
@@ -100,6 +132,11 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
                 events += 1;
                 *counts.entry(record.transition()).or_default() += 1;
                 laws.check(system, &record);
+                if let Some(impact) = landed {
+                    attachments.count(&impact, &record, system);
+                }
+                let without_rebound = record.event.kind() == EventKind::Impact && system.restitution() <= 0.0;
+                landed = without_rebound.then_some(record);
             }
         }
         progress.advance(1);
@@ -117,6 +154,7 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
         events,
         failures,
         transitions,
+        attachments,
         laws,
     })
 }

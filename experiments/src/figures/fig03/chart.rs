@@ -10,15 +10,17 @@ use crate::draw::{
     Stroke, Text, Ticks,
 };
 
-const CHART_HEIGHT: f64 = 206.0;
+const CHART_HEIGHT: f64 = 232.0;
 const INSET_HEIGHT: f64 = 150.0;
-const CHART_WIDTH: f64 = 318.0;
+const CHART_WIDTH: f64 = 366.0;
 /// Half the size of a box.
-const HALF: (f64, f64) = (43.0, 20.0);
-const FLIGHT: (f64, f64) = (74.0, 172.0);
-const IMPACT: (f64, f64) = (240.0, 172.0);
-const STICKING: (f64, f64) = (74.0, 56.0);
-const SLIDING: (f64, f64) = (240.0, 56.0);
+const HALF: (f64, f64) = (44.0, 20.0);
+const FLIGHT: (f64, f64) = (82.0, 196.0);
+const IMPACT: (f64, f64) = (268.0, 196.0);
+const STICKING: (f64, f64) = (82.0, 66.0);
+const SLIDING: (f64, f64) = (268.0, 66.0);
+/// Half way between the columns.
+const BETWEEN: f64 = 175.0;
 
 /// An arrow of the chart, in points from the lower left corner.
 pub(super) struct ChartArrow {
@@ -51,48 +53,64 @@ fn arrow(transition: Transition) -> ChartArrow {
         (Flight, Impact, Flight) => (
             vec![(IMPACT.0 - across, IMPACT.1 - 8.0), (FLIGHT.0 + across, FLIGHT.1 - 8.0)],
             vec![
-                ("rebound", (157.0, 152.0), Anchor::Middle),
-                (r"$\dot{x} > \dot{s}$", (157.0, 142.0), Anchor::Middle),
+                ("rebound", (BETWEEN, IMPACT.1 - 19.0), Anchor::Middle),
+                (r"$\dot{x} > \dot{s}$ or $N \leq 0$", (BETWEEN, IMPACT.1 - 30.0), Anchor::Middle),
             ],
         ),
         (Flight, Attachment, Sliding) => (
             vec![(SLIDING.0, IMPACT.1 - up), (SLIDING.0, SLIDING.1 + up)],
             vec![
-                ("attachment", (245.0, 124.0), Anchor::Left),
-                (r"$\dot{x} = \dot{s}$", (245.0, 111.0), Anchor::Left),
-                (r"$\dot{\alpha} \neq \dot{\beta}$", (245.0, 98.0), Anchor::Left),
+                ("attachment", (SLIDING.0 + 5.0, 143.0), Anchor::Left),
+                (r"$\dot{x} = \dot{s},\; N > 0,$", (SLIDING.0 + 5.0, 131.0), Anchor::Left),
+                (r"$\dot{\alpha} \neq \dot{\beta}$ or", (SLIDING.0 + 5.0, 118.0), Anchor::Left),
+                (r"$|\ddot{\beta}| > \ddot{\beta}_{env}$", (SLIDING.0 + 5.0, 104.0), Anchor::Left),
             ],
         ),
         (Flight, Attachment, Sticking) => (
             vec![(IMPACT.0 - 30.0, IMPACT.1 - up), (STICKING.0 + 30.0, STICKING.1 + up)],
             vec![
-                ("attachment", (150.0, 122.0), Anchor::Right),
-                (r"$\dot{\alpha} = \dot{\beta}$", (150.0, 92.0), Anchor::Left),
+                ("attachment", (152.0, 138.0), Anchor::Right),
+                (r"$\dot{x} = \dot{s},\; N > 0$", (140.0, 126.0), Anchor::Right),
+                (
+                    r"$\dot{\alpha} = \dot{\beta},\; |\ddot{\beta}| \leq \ddot{\beta}_{env}$",
+                    (162.0, 110.0),
+                    Anchor::Left,
+                ),
             ],
         ),
         (Sticking, Separation, Flight) => (
-            vec![(STICKING.0 - 14.0, STICKING.1 + up), (FLIGHT.0 - 14.0, FLIGHT.1 - up)],
-            vec![("separation", (56.0, 117.0), Anchor::Right), ("$N = 0$", (56.0, 105.0), Anchor::Right)],
+            vec![(STICKING.0 - 22.0, STICKING.1 + up), (FLIGHT.0 - 22.0, FLIGHT.1 - up)],
+            vec![
+                ("separation", (STICKING.0 - 26.0, 135.0), Anchor::Right),
+                ("$N = 0$", (STICKING.0 - 26.0, 123.0), Anchor::Right),
+            ],
         ),
         (Sliding, Separation, Flight) => (
             vec![
                 (SLIDING.0, SLIDING.1 - up),
-                (SLIDING.0, 14.0),
-                (7.0, 14.0),
+                (SLIDING.0, 16.0),
+                (7.0, 16.0),
                 (7.0, FLIGHT.1),
                 (FLIGHT.0 - across, FLIGHT.1),
             ],
-            vec![("separation, $N = 0$", (157.0, 4.0), Anchor::Middle)],
+            vec![("separation, $N = 0$", (BETWEEN - 60.0, 6.0), Anchor::Middle)],
         ),
         (Sticking, StickToSlip, Sliding) => (
             vec![(STICKING.0 + across, STICKING.1 + 8.0), (SLIDING.0 - across, SLIDING.1 + 8.0)],
-            vec![("stick to slip", (157.0, 68.0), Anchor::Middle)],
+            vec![
+                ("stick to slip", (BETWEEN, STICKING.1 + 24.0), Anchor::Middle),
+                (r"$|\ddot{\beta}| > \ddot{\beta}_{env}$", (BETWEEN, STICKING.1 + 12.0), Anchor::Middle),
+            ],
         ),
         (Sliding, SlipToStick, Sticking) => (
             vec![(SLIDING.0 - across, SLIDING.1 - 8.0), (STICKING.0 + across, STICKING.1 - 8.0)],
             vec![
-                ("slip to stick", (157.0, 52.0), Anchor::Middle),
-                (r"$\dot{\alpha} = \dot{\beta}$", (157.0, 34.5), Anchor::Middle),
+                ("slip to stick", (BETWEEN, STICKING.1 - 18.0), Anchor::Middle),
+                (
+                    r"$\dot{\alpha} = \dot{\beta},\; |\ddot{\beta}| \leq \ddot{\beta}_{env}$",
+                    (BETWEEN, STICKING.1 - 31.0),
+                    Anchor::Middle,
+                ),
             ],
         ),
         (Sliding, SlipReversal, Sliding) => (
@@ -102,7 +120,14 @@ fn arrow(transition: Transition) -> ChartArrow {
                 (SLIDING.0 + across + 14.0, SLIDING.1 - 9.0),
                 (SLIDING.0 + across, SLIDING.1 - 9.0),
             ],
-            vec![("slip reversal", (SLIDING.0 + 18.0, SLIDING.1 - 32.0), Anchor::Left)],
+            vec![
+                ("slip reversal", (SLIDING.0 + 8.0, SLIDING.1 - 31.0), Anchor::Left),
+                (
+                    r"$\dot{\alpha} = \dot{\beta},\; |\ddot{\beta}| > \ddot{\beta}_{env}$",
+                    (SLIDING.0 + 8.0, SLIDING.1 - 44.0),
+                    Anchor::Left,
+                ),
+            ],
         ),
         _ => {
             let points = vec![place(from), place(to)];
@@ -120,8 +145,10 @@ fn chart(data: &Fig03Data) -> Drawing {
     // Every flight ends in the impact, from where rebound and attachment go on.
     drawing = drawing
         .arrow([(FLIGHT.0 + HALF.0, FLIGHT.1 + 8.0), (IMPACT.0 - HALF.0, IMPACT.1 + 8.0)], stroke)
-        .text((157.0, 194.0), Anchor::Middle, "collision")
-        .text((157.0, 184.0), Anchor::Middle, "$x = s$");
+        .text((BETWEEN, FLIGHT.1 + 22.0), Anchor::Middle, "collision")
+        .text((BETWEEN, FLIGHT.1 + 12.0), Anchor::Middle, "$x = s$")
+        .arrow([(CHART_WIDTH - 16.0, IMPACT.1), (IMPACT.0 + HALF.0, IMPACT.1)], stroke)
+        .text((CHART_WIDTH - 2.0, IMPACT.1 + 6.0), Anchor::Right, "start");
     for arrow in arrows(&data.census) {
         let colour = if arrow.planned { Colour::BLACK } else { Colour::VERMILION };
         if !arrow.planned {
@@ -157,20 +184,27 @@ fn chart(data: &Fig03Data) -> Drawing {
 
 fn inset(cycle: &Cycle) -> Panel {
     let area = Rect::new(40.0, CHART_HEIGHT + 10.0, CHART_WIDTH - 50.0, INSET_HEIGHT - 44.0);
-    let curve = |heights: &[f64]| {
-        Line::new(cycle.time_cycles.iter().copied().zip(heights.iter().copied()).collect::<Vec<_>>())
+    let points = |heights: &[f64], before: bool| {
+        let all = cycle.time_cycles.iter().copied().zip(heights.iter().copied());
+        Line::new(all.filter(|(time, _)| (*time < 0.0) == before).collect::<Vec<_>>())
+    };
+    let curve = |heights: &[f64]| points(heights, false).width(1.1);
+    let earlier = |heights: &[f64], colour: Colour| {
+        points(heights, true).width(0.8).colour(colour.mixed(Colour::WHITE, 0.5))
     };
     let events = [
-        (cycle.collision_cycles, cycle.collision_height, "(c)", (-0.02, -0.08), Anchor::RightCentre),
+        (0.0, cycle.collision_height, "(c)", (-0.02, -0.08), Anchor::RightCentre),
         (cycle.attachment_cycles, cycle.attachment_height, "(a)", (0.015, -0.16), Anchor::LeftCentre),
-        (cycle.separation_cycles, cycle.separation_height, "(s)", (-0.015, 0.10), Anchor::RightCentre),
+        (cycle.separation_cycles, cycle.separation_height, "(s)", (-0.02, 0.22), Anchor::RightCentre),
     ];
     let mut panel = Panel::new(area)
-        .x(Axis::linear(0.0, 1.05).label(r"$\omega t/2\pi$").ticks(Ticks::every(0.25)))
+        .x(Axis::linear(-0.56, 0.56).label(r"$\omega (t - t_c)/2\pi$").ticks(Ticks::every(0.25)))
         .y(Axis::linear(-1.4, 2.2).label("$x/A$, $s/A$").ticks(Ticks::every(1.0)))
         .letter("a")
-        .layer(curve(&cycle.platform_height).width(1.1).name("platform"))
-        .layer(curve(&cycle.disk_height).colour(Colour::VERMILION).dash(Dash::Dashed).width(1.1).name("disk"))
+        .layer(earlier(&cycle.platform_height, Colour::BLACK))
+        .layer(earlier(&cycle.disk_height, Colour::VERMILION).dash(Dash::Dashed))
+        .layer(curve(&cycle.platform_height).name("platform"))
+        .layer(curve(&cycle.disk_height).colour(Colour::VERMILION).dash(Dash::Dashed).name("disk"))
         .layer(
             Scatter::new(events.iter().map(|event| (event.0, event.1)))
                 .marker(Marker::Circle)

@@ -11,7 +11,8 @@ use crate::experiment::{ExperimentError, Quality};
 /// A chattering orbit of the single-toss kind (Sec. IV A).
 const AXIAL_FORCING: f64 = 0.45;
 
-/// From one separation to the next; time in periods from the first one, heights in amplitudes of the platform.
+/// From one separation to the next; time in periods from the first collision between them, heights in
+/// amplitudes of the platform.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Cycle {
     pub(super) axial_forcing: f64,
@@ -19,8 +20,7 @@ pub(super) struct Cycle {
     pub(super) time_cycles: Vec<f64>,
     pub(super) disk_height: Vec<f64>,
     pub(super) platform_height: Vec<f64>,
-    /// The first impact.
-    pub(super) collision_cycles: f64,
+    /// The height of the first impact, which is at time 0.
     pub(super) collision_height: f64,
     pub(super) attachment_cycles: f64,
     pub(super) attachment_height: f64,
@@ -47,14 +47,16 @@ pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
     let trajectory = Trajectory::record(&mut engine, separation).map_err(ExperimentError::model)?;
 
     let amplitude = system.peak_acceleration();
-    let since = |time: PhaseTime| time.since(&trajectory.start()).radians() / std::f64::consts::TAU;
+    let from_start = |time: PhaseTime| time.since(&trajectory.start()).radians() / std::f64::consts::TAU;
+    let first = trajectory.records().iter().find(|record| record.event.kind() == EventKind::Impact);
+    let collision = first.map_or(0.0, |record| from_start(record.time));
+    let since = |time: PhaseTime| from_start(time) - collision;
     let mut cycle = Cycle {
         axial_forcing: AXIAL_FORCING,
         restitution,
         time_cycles: Vec::new(),
         disk_height: Vec::new(),
         platform_height: Vec::new(),
-        collision_cycles: 0.0,
         collision_height: 0.0,
         attachment_cycles: 0.0,
         attachment_height: 0.0,
@@ -74,7 +76,7 @@ pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
         match record.event.kind() {
             EventKind::Impact => {
                 if cycle.impacts == 0 {
-                    (cycle.collision_cycles, cycle.collision_height) = (time, height);
+                    cycle.collision_height = height;
                 }
                 cycle.impacts += 1;
             }

@@ -39,6 +39,19 @@ pub(super) struct Laws {
     pub(super) slip_onset: f64,
     /// Sliding speed at slip to stick.
     pub(super) slip_end: f64,
+    pub(super) checked: Checked,
+}
+
+/// How often each kind of motion or event was checked.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Checked {
+    pub(super) flights: u64,
+    pub(super) sticking: u64,
+    pub(super) sliding: u64,
+    pub(super) impacts: u64,
+    pub(super) separations: u64,
+    pub(super) slip_onsets: u64,
+    pub(super) slip_ends: u64,
 }
 
 /// A fault as a share of the sum of sizes; 0 where everything vanishes.
@@ -68,10 +81,12 @@ impl Laws {
             Mode::Flight if record.spell.chatter_speed.is_none() => self.flight(record, &shots),
             Mode::Flight => {}
             Mode::Sticking => {
+                self.checked.sticking += 1;
                 self.contact(system, &shots);
                 self.sticking(system, &shots);
             }
             Mode::Sliding(direction) => {
+                self.checked.sliding += 1;
                 self.contact(system, &shots);
                 self.sliding(system, direction, record, &shots);
             }
@@ -123,6 +138,7 @@ impl Laws {
     }
 
     fn flight(&mut self, record: &EventRecord, shots: &[Snapshot]) {
+        self.checked.flights += 1;
         let start = record.spell.state;
         let parabola = |time: f64| {
             let (rise, fall) = (start.axial_velocity * time, 0.5 * time * time);
@@ -141,6 +157,7 @@ impl Laws {
     }
 
     fn impact(&mut self, system: &Dimensionless, record: &EventRecord, velocity: f64) {
+        self.checked.impacts += 1;
         let platform = PlatformState::at(system, record.time.phase);
         let (before, after) = (&record.before, &record.after);
         let relative = |speed: f64| speed - platform.axial_velocity;
@@ -169,15 +186,18 @@ impl Laws {
         let (friction, load, peak) = (system.friction(), system.load(), system.peak_acceleration());
         match record.event {
             Event::Separation => {
+                self.checked.separations += 1;
                 raise(&mut self.force_at_separation, share(force(&platform).abs(), &[1.0, peak]));
             }
             Event::StickToSlip(_) => {
+                self.checked.slip_onsets += 1;
                 let needed = (load - platform.angle).abs();
                 let terms = [load, system.twist_speed(), friction * (1.0 + peak)];
                 let missing = friction * force(&platform) - needed;
                 raise(&mut self.slip_onset, share(missing, &terms));
             }
             Event::SlipToStick | Event::SlipReversal(_) => {
+                self.checked.slip_ends += 1;
                 // The spell's own end, before the speed is set to the platform's.
                 let end = record.evaluate(system, 1.0);
                 let slip = (end.disk.angular_speed - end.platform.angular_speed).abs();

@@ -5,12 +5,15 @@
 //! angles?
 
 use bouncing_disk::InitialState;
-use bouncing_disk::core::elementary::{atan, cos};
+use bouncing_disk::core::elementary::sin;
 
-use super::data::{CoarseGrid, Comparison, Conflict, Consistency, Reading, TossPoint};
+use super::data::{CoarseGrid, Comparison, Conflict, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, ratio, speed, speed_curve, speeds};
 use super::{TossCase, maximum_index};
 use crate::experiment::ExperimentError;
+use crate::figures::angle_grid::{
+    AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
+};
 use crate::paper::{Measured, SectionThree, TableOne};
 use crate::printed::PrintedNumber;
 
@@ -48,8 +51,11 @@ impl Printed {
             ("airborne speed of the fastest toss (rad/s)", &section.largest_airborne_speed_rad_per_s),
             ("efficiency of the fastest toss", &section.largest_efficiency),
             ("speed ratio of the fastest toss", &section.speed_ratio_at_optimum),
-            ("largest speed ratio", &section.largest_speed_ratio),
-            ("φ_L of the largest speed ratio (rad)", &section.amplitude_angle_of_largest_speed_ratio_rad),
+            ("largest speed ratio at θ = 0", &section.largest_speed_ratio),
+            (
+                "φ_L of the largest speed ratio at θ = 0 (rad)",
+                &section.amplitude_angle_of_largest_speed_ratio_rad,
+            ),
         ]
         .map(|(name, text)| (name, text.clone()));
         let mut centres = [0.0; NUMBERS];
@@ -288,6 +294,16 @@ fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentE
     })
 }
 
+/// See [`HandSpeed`]. Speed and ratio together fix the hand's speed, whatever the friction.
+fn hand_speed(printed: &Printed, table: &TossCase) -> HandSpeed {
+    let (centre, half) = (&printed.centres, &printed.half_units);
+    let rim = table.stroke_m * table.angular_frequency_rad_per_s / table.contact_radius_m;
+    HandSpeed {
+        least_rad_per_s: rim * sin(centre[1] - half[1]),
+        most_rad_per_s: (centre[2] + half[2]) / (centre[4] - half[4]),
+    }
+}
+
 /// See [`Consistency::radius_alone`].
 fn radius_alone(search: &Search<'_>, printed: &Printed) -> Result<Reading, ExperimentError> {
     let table = TossCase::from(search.table);
@@ -299,26 +315,6 @@ fn radius_alone(search: &Search<'_>, printed: &Printed) -> Result<Reading, Exper
         Ok(printed.centres[1] - fastest.amplitude_angle_rad)
     })?;
     Ok(printed.reading(search, at(radius), &smooth_numbers(&at(radius))?))
-}
-
-/// The angle of a point of an even grid.
-fn grid_angle(largest: f64, index: u32, intervals: u32) -> f64 {
-    largest * f64::from(index) / f64::from(intervals)
-}
-
-/// The smallest number of intervals of [0, largest] whose points have all printed angles, and their indices.
-fn grid_with(largest: f64, angles: &[PrintedNumber], most: u32) -> Option<(u32, Vec<u32>)> {
-    (angles.len() as u32..=most).find_map(|intervals| {
-        let indices: Option<Vec<u32>> = angles
-            .iter()
-            .map(|angle| {
-                let index = (angle.value / largest * f64::from(intervals)).round() as u32;
-                let miss = (grid_angle(largest, index, intervals) - angle.value).abs();
-                (index <= intervals && miss <= angle.half_unit).then_some(index)
-            })
-            .collect();
-        indices.map(|indices| (intervals, indices))
-    })
 }
 
 /// The printed numbers with maxima picked from a grid.
@@ -339,46 +335,16 @@ fn coarse_grid(
     search: &Search<'_>,
     printed: &Printed,
     section: &SectionThree,
-) -> Result<Option<CoarseGrid>, ExperimentError> {
-    /// Intervals beyond which a grid holds any three angles of three digits.
-    const MOST_INTERVALS: u32 = 50;
-    /// Samples of the largest angle for the share by chance.
-    const SAMPLES: u32 = 20_000;
+) -> Result<CoarseGrid, ExperimentError> {
     /// Radii of gyration are tried in steps of 0.1 mm over the uncertainty of Table I.
     const RADIUS_STEPS: i32 = 100;
     let table = TossCase::from(search.table);
-    let (axial, rotary) = (section.launch_speed_m_per_s.value, section.launch_angular_speed_rad_per_s.value);
-    let rim = table.contact_radius_m * rotary;
-    // Eq. (14).
-    let case = TossCase {
-        angular_frequency_rad_per_s: (axial * axial + rim * rim).sqrt() / table.stroke_m,
-        amplitude_angle_rad: atan(rim / axial),
-        ..table
-    };
-    let angles = [
-        &section.amplitude_angle_of_largest_speed_ratio_rad,
-        &section.optimal_amplitude_angle_rad,
-        &section.amplitude_angle_of_fig5c_rad,
-    ];
-    let angles: Option<Vec<_>> = angles.iter().map(|text| PrintedNumber::read(text)).collect();
-    let Some(angles) = angles else { return Ok(None) };
+    let case = launch_case(search.table, section);
+    let angles = printed_angles(section)?;
     let largest = case.largest_angle();
-    let Some((intervals, indices)) = grid_with(largest, &angles, MOST_INTERVALS) else { return Ok(None) };
-    let by_chance = (0..SAMPLES)
-        .filter(|sample| {
-            let share = (f64::from(*sample) + 0.5) / f64::from(SAMPLES);
-            grid_with(std::f64::consts::PI * (0.40 + 0.08 * share), &angles, intervals).is_some()
-        })
-        .count();
-    // The largest angle may lie where all printed angles are the points of the grid.
-    let mut range = (0.0_f64, f64::INFINITY);
-    for (angle, index) in angles.iter().zip(&indices) {
-        let stretch = f64::from(intervals) / f64::from(*index);
-        range.0 = range.0.max((angle.value - angle.half_unit) * stretch);
-        range.1 = range.1.min((angle.value + angle.half_unit) * stretch);
-    }
-    let frequency =
-        |largest: f64| (table.preload_acceleration_m_per_s2 / (table.stroke_m * cos(largest))).sqrt();
+    let grid = AngleGrid::with(largest, &angles).ok_or_else(unreadable)?;
+    let intervals = grid.intervals;
+    let range = grid.range(&angles);
     let radius = &search.table.gyration_radius_m;
     let mut fitting = Vec::new();
     for step in -RADIUS_STEPS..=RADIUS_STEPS {
@@ -397,17 +363,17 @@ fn coarse_grid(
     };
     let grid_angle_rad: Vec<_> =
         (0..intervals).map(|index| grid_angle(chosen.largest_angle(), index, intervals)).collect();
-    Ok(Some(CoarseGrid {
+    Ok(CoarseGrid {
         angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
         amplitude_angle_rad: case.amplitude_angle_rad,
         largest_amplitude_angle_rad: largest,
+        share_by_chance: grid.share_by_chance(&angles),
         intervals,
-        indices,
-        intervals_with_printed_frequency: grid_with(table.largest_angle(), &angles, MOST_INTERVALS)
-            .map(|(intervals, _)| intervals),
+        indices: grid.indices,
+        intervals_with_printed_frequency: AngleGrid::with(table.largest_angle(), &angles)
+            .map(|grid| grid.intervals),
         most_intervals: MOST_INTERVALS,
-        share_by_chance: by_chance as f64 / f64::from(SAMPLES),
-        frequency_range_rad_per_s: (frequency(range.0), frequency(range.1)),
+        frequency_range_rad_per_s: (frequency_of(&table, range.0), frequency_of(&table, range.1)),
         gyration_radius_range_m: fitting
             .first()
             .zip(fitting.last())
@@ -415,7 +381,7 @@ fn coarse_grid(
         reading: printed.reading(search, chosen, &numbers),
         grid_speed_rad_per_s: speeds(&chosen, &grid_angle_rad)?,
         grid_angle_rad,
-    }))
+    })
 }
 
 /// Answers both questions; `count` is the number of points of the curves.
@@ -424,21 +390,18 @@ pub(super) fn consistency(
     section: &SectionThree,
     count: u32,
 ) -> Result<Consistency, ExperimentError> {
-    let unreadable = || ExperimentError::Input {
-        path: "data/paper/section3.json".into(),
-        source: "a printed number cannot be read, or the printed angles lie on no grid".into(),
-    };
     let printed = Printed::new(section).ok_or_else(unreadable)?;
     let search = Search { table };
     let case = TossCase::from(table);
     let nearest = search.nearest(&printed, NUMBERS - 1)?;
-    let coarse_grid = coarse_grid(&search, &printed, section)?.ok_or_else(unreadable)?;
+    let coarse_grid = coarse_grid(&search, &printed, section)?;
     Ok(Consistency {
         as_printed: printed.reading(&search, case, &smooth_numbers(&case)?),
         nearest_curve: speed_curve(&nearest.parameters, count)?,
         coarse_grid_curve: speed_curve(&coarse_grid.reading.parameters, count)?,
         nearest,
         conflict: conflict(&printed, &case)?,
+        hand_speed: hand_speed(&printed, &case),
         radius_alone: radius_alone(&search, &printed)?,
         coarse_grid,
     })
@@ -458,13 +421,5 @@ mod tests {
         let vector = shortest(&bounds);
         let expected = [1.5, 0.5, 0.0, 0.0, 0.0];
         assert!(vector.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-9), "{vector:?}");
-    }
-
-    #[test]
-    fn a_grid_is_found_by_its_angles() {
-        let angles: Vec<_> =
-            ["0.25", "0.50", "0.75"].iter().filter_map(|text| PrintedNumber::read(text)).collect();
-        assert_eq!(grid_with(1.0, &angles, 9), Some((4, vec![1, 2, 3])));
-        assert_eq!(grid_with(1.1, &angles, 9), None);
     }
 }

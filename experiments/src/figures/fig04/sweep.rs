@@ -2,15 +2,17 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use bouncing_disk::core::elementary::{acos, asin, sin};
-use bouncing_disk::{InitialState, TossPerformance};
+use bouncing_disk::core::Phase;
+use bouncing_disk::core::elementary::{acos, asin, cos, sin, tan};
+use bouncing_disk::{InitialState, TossPerformance, single_toss};
 
 use super::data::{
-    Best, Family, FrictionCurve, FrictionOptimum, LagCurve, Separation, SeparationCurve, SpeedCurve,
-    Symmetry, TossPoint,
+    Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, LagOptimum, LagProfile, NoLaunch,
+    RatioSearch, Separation, SeparationCurve, SpeedCurve, Symmetry, TossPoint,
 };
-use super::{TossCase, maximum};
+use super::{TossCase, maximum, maximum_index};
 use crate::experiment::ExperimentError;
+use crate::figures::motor_case::core_error;
 
 /// The paper's phase lags are n π/8 with n up to this.
 const LAGS: u32 = 8;
@@ -19,8 +21,15 @@ pub(super) const INITIAL_STATES: [InitialState; 2] =
     [InitialState::AbsoluteRest, InitialState::RestRelativeToHand];
 /// Samples among which a maximum is bracketed; the curves have fewer bends.
 pub(super) const BRACKETS: u32 = 60;
-/// Samples of the phase lag for the best toss of all.
-const LAG_BRACKETS: u32 = 32;
+/// Samples of the phase lag for the best toss of all: an odd number, so that θ = 0, where the paper has its
+/// optimum, is not one of them and must be found.
+const LAG_BRACKETS: u32 = 33;
+/// Samples of the phase lag for the largest speed ratio at one amplitude angle, odd for the same reason.
+const RATIO_BRACKETS: u32 = 65;
+/// Amplitude angles beyond arccos(g/cω²) at which a launch is tried.
+const TRIED_BEYOND: u32 = 100;
+/// The lags of the profile of the speed ratio run from minus this to plus this.
+const PROFILE_REACH: f64 = 0.25 * PI;
 
 pub(super) fn phase_lag(n: u32) -> f64 {
     PI * f64::from(n) / f64::from(LAGS)
@@ -202,6 +211,114 @@ pub(super) fn best(table: &TossCase, initial_state: InitialState) -> Result<Best
     Ok(Best { initial_state, fastest_phase_lag_rad, fastest, most_efficient_phase_lag_rad, most_efficient })
 }
 
+/// The largest |ν| at an amplitude angle, of all phase lags; beyond ±π/2 they repeat with the other sign.
+fn best_lag(case: &TossCase, initial: InitialState) -> Result<LagOptimum, ExperimentError> {
+    let found = maximum((-FRAC_PI_2, FRAC_PI_2), RATIO_BRACKETS, |lag| {
+        case.at_lag(lag).toss(initial).map(|toss| ratio(&toss))
+    })?;
+    let toss = case.at_lag(found.place).toss(initial)?;
+    Ok(LagOptimum {
+        amplitude_angle_rad: case.amplitude_angle_rad,
+        phase_lag_rad: found.place,
+        separation_phase_rad: toss.separation_phase,
+        speed_ratio: ratio(&toss),
+    })
+}
+
+/// The largest |ν| of all phase lags and amplitude angles: at each of `count` angles the best of all lags,
+/// and between the neighbours of the best angle the golden section.
+pub(super) fn ratio_search(
+    table: &TossCase,
+    initial_state: InitialState,
+    count: u32,
+) -> Result<RatioSearch, ExperimentError> {
+    let last = table.last_angle();
+    // Without twist there is no ratio: the first angle is that of the first interval's end.
+    let angle = |index: u32| last * f64::from(index) / f64::from(count);
+    let over_lags = (1..=count)
+        .map(|index| best_lag(&table.at_angle(angle(index)), initial_state))
+        .collect::<Result<Vec<_>, _>>()?;
+    let best = maximum_index(over_lags.iter().map(|optimum| optimum.speed_ratio)) as u32;
+    let range = (angle(best).max(1e-6 * last), angle((best + 2).min(count)));
+    let found = maximum(range, 2, |angle| {
+        best_lag(&table.at_angle(angle), initial_state).map(|optimum| optimum.speed_ratio)
+    })?;
+    let largest = best_lag(&table.at_angle(found.place), initial_state)?;
+    Ok(RatioSearch { initial_state, largest, over_lags })
+}
+
+/// The largest amplitude angle at which a dough whose hand is fastest at the separation, θ = −τ_sep, is held
+/// up to then. Just before it the hand's angular acceleration and the contact force both fall in proportion
+/// to the time that is left, so that friction holds where ω² Φ ≤ (μ a_e/a_g²) A ω² cos τ_sep.
+pub(super) fn held_to_separation(table: &TossCase) -> f64 {
+    let reach = table.contact_radius_m / table.gyration_radius_m;
+    let grip = table.friction * reach * reach;
+    let (mut low, mut high) = (0.0, table.last_angle());
+    // Down to the last place.
+    for _ in 0..60 {
+        let angle = 0.5 * (low + high);
+        let separation = asin((1.0 / (table.stroke_acceleration() * cos(angle))).min(1.0));
+        if tan(angle) <= grip * cos(separation) {
+            low = angle;
+        } else {
+            high = angle;
+        }
+    }
+    low
+}
+
+/// |ν| against the phase lag at an amplitude angle; the dough starts at rest.
+pub(super) fn profile(case: &TossCase, count: u32) -> Result<LagProfile, ExperimentError> {
+    let phase_lag_rad: Vec<_> = (0..count)
+        .map(|index| PROFILE_REACH * (2.0 * f64::from(index) / f64::from(count - 1) - 1.0))
+        .collect();
+    let ratios = phase_lag_rad
+        .iter()
+        .map(|lag| case.at_lag(*lag).toss(InitialState::AbsoluteRest).map(|toss| ratio(&toss)));
+    Ok(LagProfile {
+        amplitude_angle_rad: case.amplitude_angle_rad,
+        speed_ratio: ratios.collect::<Result<_, _>>()?,
+        best: best_lag(case, InitialState::AbsoluteRest)?,
+        phase_lag_rad,
+    })
+}
+
+/// Between which angles the fastest toss at θ = 0 lies.
+pub(super) fn compromise(table: &TossCase) -> Result<Compromise, ExperimentError> {
+    let initial = InitialState::AbsoluteRest;
+    let hand_at_separation = |angle: f64| {
+        let system = table.at_angle(angle).system()?;
+        let phase = Phase::new(table.at_angle(angle).toss(initial)?.separation_phase).map_err(core_error)?;
+        Ok::<_, ExperimentError>(system.platform().angular_speed(phase).abs())
+    };
+    let fastest_hand = maximum((0.0, table.last_angle()), BRACKETS, hand_at_separation)?;
+    Ok(Compromise {
+        least_slip_angle_rad: best_angle(table, initial, ratio)?.amplitude_angle_rad,
+        fastest_toss_angle_rad: best_angle(table, initial, speed)?.amplitude_angle_rad,
+        fastest_hand_at_separation_angle_rad: fastest_hand.place,
+        hand_speed_at_separation_rad_per_s: fastest_hand.value,
+    })
+}
+
+/// Whether the dough leaves at amplitude angles just below and everywhere beyond arccos(g/cω²).
+pub(super) fn no_launch(table: &TossCase) -> Result<NoLaunch, ExperimentError> {
+    let limit = table.largest_angle();
+    let leaves = |angle: f64| -> Result<bool, ExperimentError> {
+        let system = table.at_angle(angle).system()?;
+        Ok(single_toss(&system, InitialState::AbsoluteRest).is_ok())
+    };
+    let mut launched_beyond = 0;
+    for index in 1..=TRIED_BEYOND {
+        let angle = limit + (FRAC_PI_2 - limit) * f64::from(index) / f64::from(TRIED_BEYOND);
+        launched_beyond += u32::from(leaves(angle)?);
+    }
+    Ok(NoLaunch {
+        launched_just_below: leaves(table.last_angle())?,
+        tried_beyond: TRIED_BEYOND,
+        launched_beyond,
+    })
+}
+
 pub(super) fn symmetry(table: &TossCase, angles: &[f64]) -> Result<Symmetry, ExperimentError> {
     let mut symmetry =
         Symmetry { tosses: 0, airborne_speed_rad_per_s: 0.0, speed_ratio: 0.0, efficiency: 0.0 };
@@ -223,4 +340,35 @@ pub(super) fn symmetry(table: &TossCase, angles: &[f64]) -> Result<Symmetry, Exp
         }
     }
     Ok(symmetry)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_ratio_is_one_as_long_as_friction_holds_the_dough_to_the_hands_fastest_moment() {
+        let table = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let held = held_to_separation(&table);
+        for initial in INITIAL_STATES {
+            for share in [0.1, 0.5, 0.98] {
+                let best = best_lag(&table.at_angle(share * held), initial).expect("leaves");
+                assert!((best.speed_ratio - 1.0).abs() < 1e-12, "{share} {best:?}");
+                assert!((best.phase_lag_rad + best.separation_phase_rad).abs() < 1e-6, "{share} {best:?}");
+            }
+            let beyond = best_lag(&table.at_angle(1.2 * held), initial).expect("leaves");
+            assert!(beyond.speed_ratio < 1.0 - 1e-6, "{beyond:?}");
+        }
+    }
+
+    /// The search meets both the plateau and, on the curve of θ = 0, the flat maximum that the paper prints.
+    #[test]
+    fn the_search_over_all_lags_finds_more_than_the_linear_motion_has() {
+        let table = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let initial = InitialState::AbsoluteRest;
+        let search = ratio_search(&table, initial, 12).expect("runs");
+        let linear = best_angle(&table, initial, ratio).expect("runs");
+        assert!((search.largest.speed_ratio - 1.0).abs() < 1e-12, "{:?}", search.largest);
+        assert!(linear.speed_ratio.is_some_and(|ratio| (0.985..0.995).contains(&ratio)), "{linear:?}");
+    }
 }

@@ -1,13 +1,15 @@
 //! The data of Fig. 5.
 
-use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_8};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::{EventKind, InitialState, Mode, System, toss_trajectory};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
-use crate::figures::toss_case::TossCase;
+use crate::figures::angle_grid::{AngleGrid, launch_case, printed_angles, unreadable};
+use crate::figures::motor_case::core_error;
+use crate::figures::toss_case::{TossCase, maximum};
 use crate::paper::{SectionThree, TableOne};
 
 /// θ_1 of the caption.
@@ -29,6 +31,92 @@ pub struct Fig05Data {
     /// The toss at the printed optimal φ_L with phase lags about 0.
     pub(super) lags: Vec<Dependence>,
     pub(super) firm_grip: Vec<Grip>,
+    pub(super) grid_point: GridPoint,
+    pub(super) effects: Effects,
+}
+
+/// The φ_L of panel (c) as a point of the even grid on which the three printed angles lie.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct GridPoint {
+    /// ω of Eq. (14), not rounded.
+    pub(super) angular_frequency_rad_per_s: f64,
+    pub(super) largest_amplitude_angle_rad: f64,
+    pub(super) intervals: u32,
+    pub(super) index: u32,
+    pub(super) amplitude_angle_rad: f64,
+}
+
+impl GridPoint {
+    pub(super) fn new(table: &TableOne, section: &SectionThree) -> Result<Self, ExperimentError> {
+        let case = launch_case(table, section);
+        let grid = AngleGrid::with(case.largest_angle(), &printed_angles(section)?).ok_or_else(unreadable)?;
+        let index = grid.indices.last().copied().ok_or_else(unreadable)?;
+        Ok(Self {
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            largest_amplitude_angle_rad: grid.largest,
+            intervals: grid.intervals,
+            index,
+            amplitude_angle_rad: grid.angle(index),
+        })
+    }
+}
+
+/// What φ_L and θ act on.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Effects {
+    /// Over the amplitude angle, θ = 0.
+    pub(super) of_angle: Vec<Influence>,
+    /// Over the phase lag, at the printed optimal φ_L.
+    pub(super) of_lag: Vec<Influence>,
+}
+
+/// The three things of Sec. III B that the amplitude ratio affects, and what the phase lag sets.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Influence {
+    pub(super) amplitude_angle_rad: f64,
+    pub(super) phase_lag_rad: f64,
+    pub(super) separation_phase_rad: f64,
+    /// ωΦ.
+    pub(super) largest_hand_speed_rad_per_s: f64,
+    /// N at the lowest point, in m g.
+    pub(super) largest_force: f64,
+    /// Where within a quarter of a period of τ = 0 the hand turns fastest.
+    pub(super) fastest_hand_phase_rad: f64,
+}
+
+impl Influence {
+    pub(super) fn new(case: &TossCase) -> Result<Self, ExperimentError> {
+        /// Samples of the phase among which the fastest one is bracketed.
+        const BRACKETS: u32 = 33;
+        let system = case.system()?;
+        let platform = system.platform();
+        let fastest = maximum((-FRAC_PI_2, FRAC_PI_2), BRACKETS, |phase| {
+            Ok::<_, ExperimentError>(platform.angular_speed(Phase::new(phase).map_err(core_error)?).abs())
+        })?;
+        Ok(Self {
+            amplitude_angle_rad: case.amplitude_angle_rad,
+            phase_lag_rad: case.phase_lag_rad,
+            separation_phase_rad: case.toss(InitialState::AbsoluteRest)?.separation_phase,
+            largest_hand_speed_rad_per_s: platform.peak_angular_speed(),
+            largest_force: 1.0 + system.peak_acceleration(),
+            fastest_hand_phase_rad: fastest.place,
+        })
+    }
+}
+
+impl Effects {
+    pub(super) fn new(table: &TossCase, optimum: &TossCase) -> Result<Self, ExperimentError> {
+        /// Amplitude angles from the first to the largest.
+        const ANGLES: u32 = 20;
+        let angles = (1..=ANGLES).map(|index| table.last_angle() * f64::from(index) / f64::from(ANGLES));
+        Ok(Self {
+            of_angle: angles.map(|angle| Influence::new(&table.at_angle(angle))).collect::<Result<_, _>>()?,
+            of_lag: PHASE_LAGS_NEAR_ZERO
+                .into_iter()
+                .map(|lag| Influence::new(&optimum.at_lag(lag)))
+                .collect::<Result<_, _>>()?,
+        })
+    }
 }
 
 /// One amplitude ratio.
@@ -40,7 +128,8 @@ pub(super) struct Column {
     pub(super) amplitude_m: f64,
     /// ωΦ.
     pub(super) largest_hand_speed_rad_per_s: f64,
-    /// A ω²/g: the contact force lies between 1 + this, at the lowest point, and 0, at the separation (in m g).
+    /// A ω²/g: the contact force lies between 1 + this, at the lowest point, and 0, at the separation (in m
+    /// g).
     pub(super) peak_acceleration: f64,
     /// One per phase lag of the caption.
     pub(super) tosses: Vec<Toss>,
@@ -66,8 +155,8 @@ impl Column {
     }
 }
 
-/// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from the
-/// hand's mean height.
+/// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from
+/// the hand's mean height.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Toss {
     pub(super) phase_lag_rad: f64,

@@ -90,7 +90,7 @@ fn panel(mut panel: Panel, column: &Column, row: &Row, index: usize, letter: usi
         let sep = Text::at_data(
             first.separation_time_s + 0.012 * last,
             row.low + 0.12 * (row.high - row.low),
-            r"$\tau_{sep}$",
+            r"$t_{sep}$",
         );
         panel = panel
             .title(format!("({}) {name}", ["a", "b", "c"][letter]))

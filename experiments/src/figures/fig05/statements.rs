@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::Fig05Data;
-use super::data::{Column, Dependence, Toss};
-use crate::claim::Claim;
+use super::data::{Column, Dependence, Influence, Toss};
+use crate::claim::{self, Claim};
 use crate::table::{Cell, Table};
 
 const ID: &str = "fig05";
@@ -12,6 +12,8 @@ const ID: &str = "fig05";
 const NEARLY_NOTHING: f64 = 0.01;
 /// The hand's speed at the lowest point, cos(3π/2 + θ), is known to this share of the largest one.
 const ROUNDING: f64 = 100.0 * f64::EPSILON;
+/// How well the place of a smooth maximum is known (rad): the root of the rounding of its value is 1e-8.
+const PLACE_BOUND: f64 = 1e-6;
 
 fn pi(angle: f64) -> String {
     format!("{:.3}π", angle / PI)
@@ -34,12 +36,17 @@ fn values(data: &Fig05Data, value: impl Fn(&Column, &Toss) -> f64) -> Vec<f64> {
     data.columns.iter().filter_map(|column| first(column).map(|toss| value(column, toss))).collect()
 }
 
-fn rises(values: &[f64]) -> bool {
-    values.windows(2).all(|pair| pair[0] < pair[1])
+fn rises(values: &[f64]) -> Option<bool> {
+    claim::all(values.windows(2), |pair| pair[0] < pair[1])
 }
 
-fn falls(values: &[f64]) -> bool {
-    values.windows(2).all(|pair| pair[0] > pair[1])
+fn falls(values: &[f64]) -> Option<bool> {
+    claim::all(values.windows(2), |pair| pair[0] > pair[1])
+}
+
+/// Whether all of several statements hold; `None` where one of them has no data.
+fn both<const N: usize>(statements: [Option<bool>; N]) -> Option<bool> {
+    statements.into_iter().try_fold(true, |so_far, holds| Some(so_far && holds?))
 }
 
 pub(super) fn caption(data: &Fig05Data) -> String {
@@ -47,7 +54,7 @@ pub(super) fn caption(data: &Fig05Data) -> String {
         "Details of various hand motions (dashed curves) and the resulting dough trajectories (solid curves): height, \
          angle and angular speed in single tosses with Table I's parameters, for the amplitude ratios φ_L = {}. Two phase \
          lags, θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs from the hand's lowest point, \
-         where the dough is at rest; shaded: dough and hand in contact, up to the phase of separation τ_sep. Heights are \
+         where the dough is at rest; shaded: dough and hand in contact, up to the separation at t_sep, at the phase τ_sep = ωt_sep − π/2. Heights are \
          shown up to the landing, angles and speeds in and after the contact. The effects of a suboptimal φ_L are seen \
          in the speeds at θ_1: slip at the separation at high φ_L, a low hand speed ωΦ at low φ_L.",
         data.columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ")
@@ -109,6 +116,7 @@ pub(super) fn table(data: &Fig05Data) -> Table {
 
 pub(super) fn claims(data: &Fig05Data) -> Vec<Claim> {
     let mut claims = amplitude_ratio(data);
+    claims.extend(effects(data));
     claims.extend(limits(data));
     claims.extend(phase_lag(data));
     claims
@@ -120,13 +128,16 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
         |_: &Column, toss: &Toss| toss.slip_at_separation_rad_per_s / toss.hand_speed_at_separation_rad_per_s;
     let slips = values(data, slip_share);
     let hand = values(data, |column, _| column.largest_hand_speed_rad_per_s);
-    let force = values(data, |column, _| column.peak_acceleration);
+    let point = &data.grid_point;
     let height = values(data, |_, toss| toss.apex_height_m);
     let speed = values(data, |_, toss| toss.airborne_speed_rad_per_s);
     vec![
         Claim::printed_statement(
             "section3.slip_at_high_angle",
-            data.columns.last().and_then(first).is_some_and(|toss| toss.sliding_at_separation) && rises(&slips),
+            both([
+                data.columns.last().and_then(first).map(|toss| toss.sliding_at_separation),
+                rises(&slips),
+            ]),
             listed(data, |column, toss| {
                 format!(
                     "{} at the separation, {:.2} rad/s or {:.1} % behind the hand, sliding for {:.0} % of the contact",
@@ -137,7 +148,8 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
                 )
             }),
         )
-        .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand"),
+        .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand; φ_L = π/2 itself \
+               is out of reach, since the dough does not leave beyond arccos(g/cω²)"),
         Claim::printed_statement(
             "section3.slow_hand_at_low_angle",
             rises(&hand),
@@ -150,7 +162,10 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
         ),
         Claim::printed_statement(
             "section3.middle_column_is_fastest",
-            matches!(speed[..], [low, middle, high] if middle > low && middle > high),
+            match speed[..] {
+                [low, middle, high] => Some(middle > low && middle > high),
+                _ => None,
+            },
             listed(data, |_, toss| format!("airborne speed {:.2} rad/s", toss.airborne_speed_rad_per_s)),
         )
         .note("θ = 0; the fastest toss with Table I's parameters has another φ_L, see fig04"),
@@ -159,12 +174,65 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
             falls(&height),
             listed(data, |_, toss| format!("apex {:.3} m above the hand's mean height", toss.apex_height_m)),
         ),
-        Claim::statement(
-            ID,
-            "this work",
-            "the contact force falls as φ_L rises",
-            falls(&force),
-            listed(data, |column, _| format!("largest contact force {:.2} m g", 1.0 + column.peak_acceleration)),
+        Claim::printed("section3.amplitude_angle_of_fig5c", point.amplitude_angle_rad)
+            .fitted("the number of equal intervals of φ_L, the smallest with which all three printed angles are points of the grid")
+            .note(format!(
+                "computed {:.4}π: point {} of {} equal intervals from 0 to arccos(g/cω²) = {:.4}π with ω = {:.3} rad/s of Eq. (14), see fig04",
+                point.amplitude_angle_rad / PI,
+                point.index,
+                point.intervals,
+                point.largest_amplitude_angle_rad / PI,
+                point.angular_frequency_rad_per_s
+            )),
+    ]
+}
+
+/// A thing that φ_L acts on: its name with the unit, and its value.
+type Thing = (&'static str, fn(&Influence) -> f64);
+
+/// What φ_L and θ act on.
+fn effects(data: &Fig05Data) -> [Claim; 2] {
+    let series = |of: &[Influence], value: fn(&Influence) -> f64| of.iter().map(value).collect::<Vec<_>>();
+    let things: [Thing; 3] = [
+        ("τ_sep (rad)", |at| at.separation_phase_rad),
+        ("ωΦ (rad/s)", |at| at.largest_hand_speed_rad_per_s),
+        ("largest N (m g)", |at| at.largest_force),
+    ];
+    let (angle, lag) = (&data.effects.of_angle, &data.effects.of_lag);
+    let ranges = things.map(|(name, value)| {
+        let values = series(angle, value);
+        let end = |value: Option<&f64>| value.map_or(f64::NAN, |value| *value);
+        format!("{name} from {:.3} to {:.3}", end(values.first()), end(values.last()))
+    });
+    let [separation, hand, force] = things.map(|(_, value)| series(angle, value));
+    let ends = |at: Option<&Influence>| at.map_or(f64::NAN, |at| at.amplitude_angle_rad);
+    let unmoved = things.map(|(_, value)| {
+        let values = series(lag, value);
+        claim::all(values.windows(2), |pair| (pair[1] - pair[0]).abs() <= ROUNDING * pair[0].abs())
+    });
+    let set = claim::all(lag, |at| (at.fastest_hand_phase_rad + at.phase_lag_rad).abs() <= PLACE_BOUND);
+    let places: Vec<_> = lag
+        .iter()
+        .map(|at| format!("θ = {}: {}", pi(at.phase_lag_rad), pi(at.fastest_hand_phase_rad)))
+        .collect();
+    [
+        Claim::printed_statement(
+            "section3.three_effects",
+            both([rises(&separation), rises(&hand), falls(&force)]),
+            format!(
+                "as φ_L goes from {} to {}, θ = 0, they change all the way: {}",
+                pi(ends(angle.first())),
+                pi(ends(angle.last())),
+                ranges.join(", ")
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.phase_lag_effect",
+            both([unmoved[0], unmoved[1], unmoved[2], set]),
+            format!(
+                "the hand turns fastest at τ = −θ ({}), while τ_sep, ωΦ and the largest N do not change with θ",
+                places.join("; ")
+            ),
         ),
     ]
 }
@@ -178,7 +246,7 @@ fn limits(data: &Fig05Data) -> Vec<Claim> {
         .iter()
         .map(|grip| format!("μ = {}: {}", grip.friction, shares(&grip.missing_share)))
         .collect();
-    let converges = (0..data.columns.len()).all(|column| {
+    let converges = claim::all(0..data.columns.len(), |column| {
         let missing: Vec<f64> = data
             .firm_grip
             .iter()
@@ -186,7 +254,7 @@ fn limits(data: &Fig05Data) -> Vec<Claim> {
             .map(|share| share.abs())
             .collect();
         // At Table I's friction a dough that is behind the hand may cross its speed as the friction grows.
-        falls(missing.get(1..).unwrap_or_default())
+        falls(missing.get(1..).unwrap_or_default()) == Some(true)
             && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
     });
     vec![Claim::printed_statement(
@@ -211,17 +279,17 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
         })
         .collect();
     let slower =
-        pairs.iter().all(|(_, one, two)| two.airborne_speed_rad_per_s < one.airborne_speed_rad_per_s);
+        claim::all(&pairs, |(_, one, two)| two.airborne_speed_rad_per_s < one.airborne_speed_rad_per_s);
     let lags = &data.lags;
     let late = |wanted: fn(f64) -> bool| {
         lags.iter().filter(move |lag| wanted(lag.phase_lag_rad)).map(|lag| lag.late_gain_rad_per_s)
     };
     let at_zero = late(|lag| lag == super::data::FIRST_PHASE_LAG).next();
-    let reduced = at_zero.is_some_and(|zero| late(|lag| lag > 0.0).all(|gain| gain < zero));
+    let reduced = at_zero.and_then(|zero| claim::all(late(|lag| lag > 0.0), |gain| gain < zero));
     let at_rest =
         ROUNDING * pairs.iter().map(|(_, one, _)| one.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
     let reversed =
-        lags.iter().all(|lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
+        claim::all(lags, |lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
     let described = |value: fn(&Dependence) -> f64| {
         // No minus sign before a zero.
         let shown = |number: f64| if number.abs() < at_rest { 0.0 } else { number };

@@ -17,6 +17,32 @@ pub struct Table1Data {
     pub(super) start: AtStart,
     pub(super) components: Components,
     pub(super) fastest: Fastest,
+    pub(super) arc: Arc,
+    pub(super) restitution: Restitution,
+}
+
+/// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled
+/// cylinder.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Arc {
+    /// Its length from one end to the other, along a polygon of points of the path.
+    pub(super) length_m: f64,
+    /// From the middle to an end: sqrt(A² + (a_e Φ)²), which the paper calls the arc length.
+    pub(super) half_m: f64,
+    /// How far the hand moves in a period.
+    pub(super) per_period_m: f64,
+}
+
+/// Tosses that differ in the restitution only.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Restitution {
+    pub(super) tried: Vec<f64>,
+    /// Phase lags of the tosses; each with both initial states.
+    pub(super) phase_lags_rad: Vec<f64>,
+    /// Largest difference of the airborne speed from that at the first restitution (rad/s).
+    pub(super) speed_deviation_rad_per_s: f64,
+    /// The same for the efficiency.
+    pub(super) efficiency_deviation: f64,
 }
 
 /// One line of the table.
@@ -55,6 +81,8 @@ pub(super) struct AtSeparation {
     pub(super) largest_angular_speed_rad_per_s: f64,
     /// The ω that gives the measured speeds at τ_sep.
     pub(super) corrected_angular_frequency_rad_per_s: Propagated,
+    /// It over that of Eq. (14), minus 1.
+    pub(super) angular_frequency_change: f64,
 }
 
 /// The hand at τ_0 = 3π/2.

@@ -4,10 +4,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::elementary::{acos, asin, atan2, hypot, tan};
-use bouncing_disk::{LaunchSpeeds, Platform, Stroke, System};
+use bouncing_disk::{InitialState, LaunchSpeeds, Platform, Stroke, System, single_toss};
 
-use super::data::{AtSeparation, AtStart, Components, ComputedEntries, Fastest, Row, Table1Data};
+use super::data::{
+    Arc, AtSeparation, AtStart, Components, ComputedEntries, Fastest, Restitution, Row, Table1Data,
+};
 use crate::experiment::ExperimentError;
+use crate::figures::hand_path::HandPath;
 use crate::figures::motor_case::core_error;
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
@@ -20,13 +23,19 @@ const CHECKED: u32 = 64;
 const PHASES: u32 = 400;
 /// Phases this close (rad) to the fastest ones count as the same.
 const NEIGHBOURHOOD: f64 = TAU / 100.0;
+/// Pieces of a period of the hand's path; its ends are among their ends.
+const PIECES: u32 = 400;
+/// Coefficients of restitution and phase lags of the tosses that are compared.
+const RESTITUTIONS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 0.99];
+const COMPARED_LAGS: [f64; 4] = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
 
 pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
     let table_i = paper::table_one()?;
     let section = paper::section_three()?;
     let slip_slope_deg = slip_slope()?;
     let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
-    let separation = at_separation(&table_i, &section)?;
+    let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
+    let separation = at_separation(&table_i, &section, uncorrected)?;
     let rows = rows(&table_i, &computed_entries, &separation)?;
     let case = TossCase::from(&table_i);
     let system = case.system()?;
@@ -40,6 +49,8 @@ pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
         },
         components: components(&case)?,
         fastest: fastest(&case)?,
+        arc: arc(&case, platform)?,
+        restitution: restitution(&case)?,
         table_i,
         section,
         slip_slope_deg,
@@ -90,7 +101,11 @@ fn stroke(
     Stroke::from_launch_speeds(LaunchSpeeds { axial_speed, angular_speed, stroke, contact_radius })
 }
 
-fn at_separation(table: &TableOne, section: &SectionThree) -> Result<AtSeparation, ExperimentError> {
+fn at_separation(
+    table: &TableOne,
+    section: &SectionThree,
+    uncorrected: f64,
+) -> Result<AtSeparation, ExperimentError> {
     let system = TossCase::from(table).system()?;
     let platform = system.platform();
     let phase = separation(&system)?;
@@ -110,6 +125,7 @@ fn at_separation(table: &TableOne, section: &SectionThree) -> Result<AtSeparatio
         angular_speed_rad_per_s: platform.angular_speed(phase),
         largest_axial_speed_m_per_s: platform.amplitude() * platform.angular_frequency(),
         largest_angular_speed_rad_per_s: platform.peak_angular_speed(),
+        angular_frequency_change: corrected.value / uncorrected - 1.0,
         corrected_angular_frequency_rad_per_s: corrected,
     })
 }
@@ -157,6 +173,42 @@ fn fastest(case: &TossCase) -> Result<Fastest, ExperimentError> {
         }
     }
     Ok(Fastest { lags: CHECKED as usize + 1, smallest_there, largest_elsewhere })
+}
+
+fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
+    let path = HandPath::new(platform, PIECES)?;
+    let per_period_m = path.length(case.contact_radius_m);
+    Ok(Arc {
+        // There and back.
+        length_m: 0.5 * per_period_m,
+        half_m: hypot(platform.amplitude(), case.contact_radius_m * platform.twist_amplitude()),
+        per_period_m,
+    })
+}
+
+fn restitution(case: &TossCase) -> Result<Restitution, ExperimentError> {
+    let (mut speed, mut efficiency) = (0.0_f64, 0.0_f64);
+    for lag in COMPARED_LAGS {
+        for initial in [InitialState::AbsoluteRest, InitialState::RestRelativeToHand] {
+            let tosses = RESTITUTIONS
+                .into_iter()
+                .map(|restitution| {
+                    single_toss(&case.at_lag(lag).system_with(restitution)?, initial)
+                        .map_err(ExperimentError::model)
+                })
+                .collect::<Result<Vec<_>, _>>()?;
+            for toss in &tosses {
+                speed = speed.max((toss.airborne_speed - tosses[0].airborne_speed).abs());
+                efficiency = efficiency.max((toss.efficiency - tosses[0].efficiency).abs());
+            }
+        }
+    }
+    Ok(Restitution {
+        tried: RESTITUTIONS.to_vec(),
+        phase_lags_rad: COMPARED_LAGS.to_vec(),
+        speed_deviation_rad_per_s: speed,
+        efficiency_deviation: efficiency,
+    })
 }
 
 /// What a row computes from the hand and the dough of Table I.

@@ -4,28 +4,28 @@ use super::Table1;
 use super::data::Table1Data;
 use crate::claim::Claim;
 use crate::experiment::Experiment;
+use crate::figures::uncertainty::Propagated;
 
-/// The relations of Eqs. (13) and (15) must hold to this share: they are identities, and the rest is rounding.
+/// The relations of Eqs. (13) and (15) must hold to this share: they are identities, and the rest is
+/// rounding.
 const ROUNDING: f64 = 1e-14;
+/// A length along a polygon of hundreds of points of a straight line adds as many roundings.
+const LENGTH: f64 = 1e-12;
 
 pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
     let entries = &data.computed_entries;
     let (start, components, fastest) = (&data.start, &data.components, &data.fastest);
+    let (arc, restitution) = (&data.arc, &data.restitution);
     let (frequency, angle, friction) =
         ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
     let corrected = data.separation.corrected_angular_frequency_rad_per_s;
-    let uncertainty = |key: &str, symbol: &str, inputs: &str, value: f64| {
-        let quantity = format!("uncertainty of {symbol}: sum of the effects of {inputs}");
-        Claim::printed_uncertainty(Table1::ID, key, quantity, value)
-    };
-    let squares = |value: f64| format!("the root sum of squares is {value:.3}");
     vec![
         Claim::printed(angle, entries.amplitude_angle_rad.value),
-        uncertainty(angle, "φ_L", "a_e and the launch speeds", entries.amplitude_angle_rad.sum)
-            .note(squares(entries.amplitude_angle_rad.root_sum_of_squares)),
+        combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
+            .note("the effects of a_e and the launch speeds"),
         Claim::printed(frequency, entries.angular_frequency_rad_per_s.value),
-        uncertainty(frequency, "ω", "c, a_e and the launch speeds", entries.angular_frequency_rad_per_s.sum)
-            .note(squares(entries.angular_frequency_rad_per_s.root_sum_of_squares)),
+        combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
+            .note("the effects of c, a_e and the launch speeds"),
         Claim::reading(
             Table1::ID,
             frequency,
@@ -33,7 +33,8 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
             corrected.value,
         ),
         Claim::printed(friction, entries.friction.value).note(format!("tan({}°)", data.slip_slope_deg.value)),
-        uncertainty(friction, "μ", "the slope", entries.friction.sum),
+        Claim::printed("table1.friction_uncertainty", entries.friction.sum)
+            .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
         Claim::printed_statement(
             "section3.start_is_lowest",
             (start.height_over_amplitude + 1.0).abs() <= ROUNDING
@@ -47,9 +48,36 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
             "section3.stroke_components",
             components.stroke_deviation <= ROUNDING && components.angle_deviation_rad <= ROUNDING,
             format!(
-                "at {} angles from 0 to π/2: A² + (a_e Φ)² = c² to {:.1e} and arctan L = φ_L to {:.1e} rad; c is half \
-                 the length of the path, from the middle to an end",
+                "at {} angles from 0 to π/2: A² + (a_e Φ)² = c² to {:.1e} and arctan L = φ_L to {:.1e} rad",
                 components.angles, components.stroke_deviation, components.angle_deviation_rad
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.arc_length",
+            (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
+            format!(
+                "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
+                 sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
+                 c is half of the arc",
+                arc.length_m,
+                arc.length_m / arc.half_m,
+                arc.half_m,
+                arc.per_period_m
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.restitution_is_no_input",
+            (!restitution.tried.is_empty()).then_some(
+                restitution.speed_deviation_rad_per_s <= 0.0 && restitution.efficiency_deviation <= 0.0,
+            ),
+            format!(
+                "at ε = {:?}, for {} phase lags and both initial states the airborne speed differs by {} rad/s and the efficiency by {}: \
+                 there is no impact before the separation. The initial state does matter for θ ≠ 0; the text says \"at rest\" (Sec. III A) and \
+                 \"at rest relative to the hand\" (Sec. I), see fig04",
+                restitution.tried,
+                restitution.phase_lags_rad.len(),
+                restitution.speed_deviation_rad_per_s,
+                restitution.efficiency_deviation
             ),
         ),
         launch_without_slip(data),
@@ -63,6 +91,20 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
             ),
         ),
     ]
+}
+
+/// A printed uncertainty that several inputs share in: the paper does not say how their effects add up.
+fn combined(key: &str, computed: &Propagated) -> Claim {
+    let claim = Claim::printed(key, computed.sum);
+    let squares = Claim::printed(key, computed.root_sum_of_squares).verdict();
+    let note = format!(
+        "plain sum of the effects; the root of the sum of their squares is {:.3}",
+        computed.root_sum_of_squares
+    );
+    if squares == claim.verdict() {
+        return claim.note(note);
+    }
+    claim.fitted("how the effects of the inputs add up, as a plain sum").note(note)
 }
 
 /// Eq. (14) takes the largest speeds of the hand for the speeds at separation.
