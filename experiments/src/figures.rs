@@ -3,6 +3,7 @@
 //! A new module is declared here and listed once in [`crate::registry::all`].
 
 pub mod braking_record;
+mod circular;
 mod cylinder;
 pub mod dough_record;
 pub mod fig01;
