@@ -1,8 +1,12 @@
 //! Fig. 6: bifurcation diagrams of the bouncing disk.
 
 mod chattering;
+mod contact;
 mod data;
+mod dimension;
+mod explored;
 mod merging;
+mod period_one;
 mod picture;
 mod regimes;
 mod rotation;
@@ -10,6 +14,7 @@ mod scan;
 mod statements;
 
 pub use self::data::Fig06Data;
+pub(super) use self::scan::FORCING_RANGE;
 use crate::claim::Claim;
 use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};

@@ -4,6 +4,7 @@ mod data;
 mod labels;
 mod panels;
 mod picture;
+mod scan;
 mod statements;
 mod windows;
 
@@ -56,6 +57,14 @@ impl Experiment for Fig07 {
         // The first error in the order of the panels, whichever comes first in time.
         let panels = panels.into_iter().collect::<Result<_, _>>()?;
         let (windows, decay) = (windows?, decay?);
+        let panels: Vec<data::Panel> = panels;
+        let [_, b, ..] = &panels[..] else {
+            return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
+        };
+        let traced = match b.others.first() {
+            Some(other) => scan::traced(b.axial_forcing, other, printed.restitution)?,
+            None => None,
+        };
         Ok(Fig07Data {
             restitution: printed.restitution,
             window_top: WINDOW_TOP,
@@ -63,6 +72,10 @@ impl Experiment for Fig07 {
             panels,
             windows,
             decay,
+            along_window: scan::along_window(&printed, quality)?,
+            beyond: scan::beyond(&printed, WINDOW_TOP, quality)?,
+            rest: scan::rest(&forcings, printed.restitution)?,
+            traced,
         })
     }
 
