@@ -50,3 +50,36 @@ impl Experiment for Fig06 {
         statements::parameters(data)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claim::{Class, Computed};
+    use crate::progress::Silent;
+
+    /// What is judged over a list of data is not judged where the list is empty.
+    #[test]
+    fn no_statement_of_the_paper_holds_without_data() {
+        let mut data = Fig06::run(Quality::Draft, &Silent).expect("runs");
+        assert!(Fig06::claims(&data).iter().all(|claim| !claim.lacks_data()));
+        data.followed.clear();
+        data.chattering.clear();
+        data.doublings.clear();
+        data.contact.clear();
+        data.motions.clear();
+        data.torque_ratios.clear();
+        data.transfers.clear();
+        data.lyapunov_exponents.clear();
+        data.best_lags.clear();
+        data.explored.shadows.clear();
+        data.period_one.lags.clear();
+        data.period_one.orbits = 0;
+        // The multiplier of one orbit is one number, not a list.
+        let single = ["the period-1 orbit exists and attracts at Γ = 0.335, where following starts"];
+        for claim in Fig06::claims(&data) {
+            let holds = matches!(claim.computed(), Computed::Boolean(true));
+            let judged = matches!(claim.class(), Class::Paper | Class::Identity);
+            assert!(!(holds && judged) || single.contains(&claim.quantity()), "{}", claim.quantity());
+        }
+    }
+}

@@ -91,3 +91,29 @@ impl Experiment for Fig07 {
         statements::parameters(data)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claim::{Class, Computed};
+    use crate::progress::Silent;
+
+    #[test]
+    fn no_statement_of_the_paper_holds_without_data() {
+        let mut data = Fig07::run(Quality::Draft, &Silent).expect("runs");
+        assert!(Fig07::claims(&data).iter().all(|claim| !claim.lacks_data()));
+        data.windows.curve.clear();
+        data.along_window.clear();
+        data.beyond.clear();
+        data.panels[3].boundary_exponents.clear();
+        // What is judged by the panels themselves.
+        let panels = ["section4.chattering_is_easier", "section4.rest_chatters", "section4.two_attractors"];
+        for claim in Fig07::claims(&data) {
+            let holds = matches!(claim.computed(), Computed::Boolean(true));
+            let own = panels
+                .iter()
+                .any(|key| matches!(claim.source(), crate::claim::Source::Entry(of) if of == key));
+            assert!(!(holds && claim.class() == Class::Paper) || own, "{}", claim.quantity());
+        }
+    }
+}

@@ -11,6 +11,8 @@ use rayon::prelude::*;
 use super::data::{Contact, Motion, Transfer};
 use super::scan::{Inputs, Systems, map};
 use crate::experiment::ExperimentError;
+use crate::figures::motor_case::MotorCase;
+use crate::paper;
 
 /// The Γ next to 1/π: so many neighbours in doubles on both sides, and powers of ten of the relative distance beyond them.
 const NEIGHBOURS: i32 = 8;
@@ -96,7 +98,7 @@ fn speed_bound(peak: f64, restitution: f64) -> f64 {
     speed
 }
 
-fn motion(system: &Dimensionless) -> Result<Motion, ExperimentError> {
+fn motion(axial_forcing: f64, system: &Dimensionless) -> Result<Motion, ExperimentError> {
     let peak = system.peak_acceleration();
     let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
     let start = Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
@@ -121,13 +123,13 @@ fn motion(system: &Dimensionless) -> Result<Motion, ExperimentError> {
         last = Some(collision);
     }
     let (Some(first), Some(last)) = (first, last) else {
-        return Err(super::scan::no_orbit(system.axial_forcing()));
+        return Err(super::scan::no_orbit(axial_forcing));
     };
     let height = |phase: Phase| peak * phase.sin();
     let span = last.time.since(&first.time).radians();
     let launched = system.restitution() * speed_bound(peak, system.restitution()) + peak;
     Ok(Motion {
-        axial_forcing: system.axial_forcing(),
+        axial_forcing,
         restitution: system.restitution(),
         impacts,
         platform_periods: span / TAU,
@@ -153,7 +155,7 @@ pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, E
                 phase_lag: inputs.semielliptical.phase_lag_rad,
                 restitution,
             };
-            motion(&system.build().map_err(ExperimentError::model)?)
+            motion(axial_forcing, &system.build().map_err(ExperimentError::model)?)
         })
         .collect()
 }
@@ -185,6 +187,13 @@ fn turned_in_contact(record: &EventRecord, system: &Dimensionless) -> f64 {
         return 0.0;
     }
     (0..PARTS).map(|part| (speed(part + 1) - speed(part)).abs()).sum()
+}
+
+/// The share of the motor of Table III, from rest.
+pub(super) fn motor_transfer() -> Result<Option<f64>, ExperimentError> {
+    let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
+    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    share_in_impacts(motor.dimensionless(), Start::Contact { phase, angular_speed: 0.0 })
 }
 
 /// The transfers of both rotary motions, for the followed attractor from its states and for a disk from rest.

@@ -65,6 +65,8 @@ pub struct Fig06Data {
     pub torque_ratios: Vec<TorqueRatio>,
     /// Where the angular momentum is transferred.
     pub transfers: Vec<Transfer>,
+    /// The share that impacts transfer in the motor of Table III, from rest.
+    pub motor_share_in_impacts: Option<f64>,
     /// The attractor just before the crisis and the orbits beyond it.
     pub explored: Explored,
     /// The best phase lag at some Γ.

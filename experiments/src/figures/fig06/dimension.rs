@@ -18,9 +18,10 @@ const CHANGE: f64 = 1.0e-5;
 /// A pivot below this share of the largest one counts as zero. Those that are not zero are four powers of ten above it, the others
 /// that much below.
 const DEPENDENT: f64 = 1.0e-6;
-/// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast, forward and backward.
+/// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast, forward and backward, in
+/// which the slip ends (the first and the last) or goes on (the others).
 const IMPACTS: [(f64, f64, f64); 4] =
-    [(0.3, -0.9, 0.4), (1.2, -1.7, -0.6), (5.9, -0.6, 1.3), (0.7, -2.3, -2.1)];
+    [(0.3, -0.9, 0.4), (1.2, -0.5, -6.0), (5.9, -0.6, 5.0), (0.7, -2.3, -2.1)];
 
 /// The names of the nine inputs of Sec. V A.
 const NAMES: [&str; 9] = ["a_g", "a_e", "ω", "g", "μ", "ε", "A", "ωΦ", "θ"];

@@ -23,7 +23,7 @@ const VISITING: usize = 20_000;
 /// each other.
 const CELLS: f64 = 100.0;
 /// Impacts of an orbit beyond the crisis that are compared with the attractor.
-const SHADOWING: usize = 4_000;
+const SHADOWING: usize = 2_000;
 
 /// A set of cells.
 struct Cells(BTreeSet<(i32, i32)>);
@@ -150,10 +150,10 @@ pub(super) fn zoom(
         .collect())
 }
 
-/// The lags tried, in degrees: wherever an orbit spends its impacts between phase 0 and a quarter of a period, the best lag is there.
-const LAGS_DEG: std::ops::RangeInclusive<i32> = -18..=4;
+/// The lags tried, in steps: wherever an orbit spends its impacts between phase 0 and a quarter of a period, the best lag is there.
+const LAGS_DEG: std::ops::RangeInclusive<i32> = -9..=2;
 /// Distance of two lags (degrees).
-const LAG_STEP_DEG: i32 = 5;
+pub(super) const LAG_STEP_DEG: i32 = 10;
 
 /// The best phase lag of the followed attractor at some states of it, and of a disk from rest at some Γ, for both Γ_T of Fig. 6.
 pub(super) fn best_lags(

@@ -45,7 +45,7 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
         panel =
             panel.layer(Rule::vertical(crisis).stroke(Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed)));
         if (row, column) == (0, 0) {
-            panel = panel.layer(Text::at_data(crisis + 0.002, 0.5, "crisis").size(8.0).colour(Colour::BLUE));
+            panel = panel.layer(Text::at_data(crisis + 0.004, 0.5, "crisis").size(8.0).colour(Colour::BLUE));
         }
         panel
             .layer(

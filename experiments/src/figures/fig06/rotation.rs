@@ -91,9 +91,10 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
             claim::all(&data.transfers, |of| mostly_in_impacts(of.share_in_impacts)),
             format!(
                 "of the sizes of all angular impulses, impacts transfer {weakest:.3} to {strongest:.3}, by orbit ({} orbits: the followed \
-                 attractor, which never touches the platform for longer, and the disk from rest, in the motions (c) and (d)). Orbits \
-                 with less than half: {counterexamples}",
+                 attractor, which never rests on the platform, and the disk from rest, in the motions (c) and (d)). Orbits \
+                 with less than half: {counterexamples}. In the motor of Table III impacts transfer {:.3}",
                 data.transfers.len(),
+                data.motor_share_in_impacts.unwrap_or(f64::NAN),
             ),
         ),
     ]
@@ -365,11 +366,7 @@ fn period_two(data: &Fig06Data) -> Vec<Claim> {
         Claim::printed_statement(
             "section4.eq16_fails_in_period_two",
             claim::all(&misses, |miss| *miss > STORED),
-            format!(
-                "w_T stays: {} at {} values of Γ. The mean speed is no speed of the platform in an impact either",
-                words.join(", "),
-                twos.len()
-            ),
+            format!("w_T stays: {} at {} values of Γ", words.join(", "), twos.len()),
         ),
         Claim::printed_statement(
             "section4.large_branch_dominates",

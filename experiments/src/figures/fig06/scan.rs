@@ -196,10 +196,11 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
     let resting: Vec<f64> = resting.iter().copied().step_by((resting.len() / SAMPLED).max(1)).collect();
     let transfers = contact::transfers(&spread(SAMPLED, &states), &resting, inputs)?;
     let beyond: Vec<f64> = resting.iter().copied().filter(|forcing| *forcing > crisis).collect();
+    let beyond: Vec<f64> = beyond.iter().copied().step_by((beyond.len() / (SAMPLED / 4)).max(1)).collect();
     let lag_settings = MultiTossSettings { transient_impacts: LAG_TRANSIENT, ..settings };
     let chaotic: Vec<(f64, ImpactState)> = chaotic.iter().map(|at| (at.axial_forcing, at.state)).collect();
     let lagged: Vec<_> =
-        spread(SAMPLED / 2, &states).into_iter().chain(spread(SAMPLED / 2, &chaotic)).collect();
+        spread(SAMPLED / 4, &states).into_iter().chain(spread(SAMPLED / 4, &chaotic)).collect();
     let best_lags = explored::best_lags(&lagged, &beyond, inputs, lag_settings)?;
     let (period_one_threshold, phase_at_threshold_rad) = period_one::threshold(inputs, first)?;
     let crossings = rotation::branch_crossings(&followed, &doublings);
@@ -237,6 +238,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         dimension: dimension::dimension()?,
         torque_ratios: dimension::torque_ratios()?,
         transfers,
+        motor_share_in_impacts: contact::motor_transfer()?,
         explored,
         best_lags,
     })

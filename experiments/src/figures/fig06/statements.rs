@@ -174,10 +174,10 @@ fn period_one(data: &Fig06Data) -> Vec<Claim> {
             ),
         ),
         Claim::printed("section4.semielliptical_phase_lag", -printed_phase)
-            .note("printed against printed: twice the 0.130 printed as τ_imp/2π"),
+            .note("printed against printed: −2π times the 0.130 printed as τ_imp/2π"),
         Claim::reading(ID, "section4.semielliptical_phase_lag", "−τ_imp of period 1 at the first doubling", -phase),
         Claim::printed("section4.speed_at_doubling", cos(printed_phase))
-            .note("printed against printed: the cosine of twice 0.130π; the tolerance is that of the two digits of 0.26"),
+            .note("printed against printed: the cosine of 2π times 0.130; the tolerance is that of the two digits of 0.26"),
         Claim::reading(
             ID,
             "section4.speed_at_doubling",
