@@ -227,8 +227,8 @@ pub struct Visited {
 pub struct Explored {
     /// The attractor just before the crisis.
     pub before: Visited,
-    /// The same with the cycle of a disk from rest there; `None` if it does not come to rest.
-    pub before_with_chattering: Option<Visited>,
+    /// The same with as many impacts of a disk from rest there.
+    pub before_with_chattering: Visited,
     /// The orbit that starts on that attractor, just after the crisis.
     pub after: Visited,
     /// Beyond the crisis: Γ, and the share of the impacts of the orbit from rest that are near the attractor just before the crisis.
@@ -237,6 +237,8 @@ pub struct Explored {
     pub low_period: Vec<Shadow>,
     /// Share of the plane, up to the largest speed just after, that is near the attractor.
     pub share_of_plane: f64,
+    /// The same for ten times the distance.
+    pub share_of_plane_at_ten_times_the_distance: f64,
 }
 
 /// How many impacts of an orbit lie near the attractor.
@@ -246,8 +248,10 @@ pub struct Shadow {
     pub axial_forcing: f64,
     /// Impacts.
     pub impacts: usize,
-    /// Share of them within one cell of the attractor.
+    /// Share of them within a hundredth or two of the attractor, in periods and in |w_A Γ/(ωA)|.
     pub share_near: f64,
+    /// Share of them within a tenth or two.
+    pub share_at_ten_times_the_distance: f64,
 }
 
 /// The phase lag with the highest mean speed at one Γ, of the followed attractor or, beyond it, of a disk from rest.

@@ -19,34 +19,46 @@ use crate::figures::circular::occupied_arc;
 const BESIDE: f64 = 1.0e-4;
 /// Impacts before and after the crisis.
 const VISITING: usize = 20_000;
-/// Cells of the plane of phase (periods) and speed |w_A Γ/(ωA)| a unit: the share of impacts that are near is one of cells next to
-/// each other.
+/// Cells of the plane of phase (periods) and speed |w_A Γ/(ωA)| a unit: near are cells next to each other.
 const CELLS: f64 = 100.0;
+/// The same with a ten times larger distance, to show what hangs on it.
+const COARSE_CELLS: f64 = 10.0;
 /// Impacts of an orbit beyond the crisis that are compared with the attractor.
 const SHADOWING: usize = 2_000;
 
-/// A set of cells.
-struct Cells(BTreeSet<(i32, i32)>);
-
-fn cell(state: &ImpactState) -> (i32, i32) {
-    ((CELLS * state.phase().cycles()) as i32, (CELLS * state.normalised_speed()) as i32)
+/// A set of cells, so many a unit.
+struct Cells {
+    unit: f64,
+    cells: BTreeSet<(i32, i32)>,
 }
 
 impl Cells {
-    fn of(states: &[ImpactState]) -> Self {
-        Self(states.iter().map(cell).collect())
+    fn of(states: &[ImpactState], unit: f64) -> Self {
+        Self { unit, cells: states.iter().map(|state| Self::cell(state, unit)).collect() }
+    }
+
+    fn cell(state: &ImpactState, unit: f64) -> (i32, i32) {
+        ((unit * state.phase().cycles()) as i32, (unit * state.normalised_speed()) as i32)
     }
 
     /// Whether a cell or one that touches it is among them; the last column of cells touches the first.
     fn near(&self, (column, row): (i32, i32)) -> bool {
-        let columns = CELLS as i32;
+        let columns = self.unit as i32;
         let mut around = (-1..=1).flat_map(|across| (-1..=1).map(move |up| (across, up)));
-        around.any(|(across, up)| self.0.contains(&((column + across).rem_euclid(columns), row + up)))
+        around.any(|(across, up)| self.cells.contains(&((column + across).rem_euclid(columns), row + up)))
     }
 
-    fn shadow(&self, axial_forcing: f64, states: &[ImpactState]) -> Shadow {
-        let near = states.iter().filter(|state| self.near(cell(state))).count();
-        Shadow { axial_forcing, impacts: states.len(), share_near: near as f64 / states.len().max(1) as f64 }
+    /// The share of some impacts that are near.
+    fn share(&self, states: &[ImpactState]) -> f64 {
+        let near = states.iter().filter(|state| self.near(Self::cell(state, self.unit))).count();
+        near as f64 / states.len().max(1) as f64
+    }
+
+    /// The share of the plane up to a speed that is near.
+    fn share_of_plane(&self, largest_speed: f64) -> f64 {
+        let (columns, rows) = (self.unit as i32, (self.unit * largest_speed) as i32 + 1);
+        let plane = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
+        plane.filter(|cell| self.near(*cell)).count() as f64 / f64::from(columns * rows)
     }
 }
 
@@ -56,7 +68,7 @@ fn visited(axial_forcing: f64, states: &[ImpactState]) -> Visited {
         impacts: states.len(),
         arc_cycles: occupied_arc(states.iter().map(|state| state.phase().cycles())).unwrap_or_default(),
         largest_speed: states.iter().map(ImpactState::normalised_speed).fold(0.0, f64::max),
-        cells: Cells::of(states).0.len(),
+        cells: Cells::of(states, CELLS).cells.len(),
     }
 }
 
@@ -89,7 +101,7 @@ pub(super) fn explored(
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
     let beside =
         columns(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING).map_err(ExperimentError::model)?;
-    let cells = Cells::of(&beside[0]);
+    let cells = [CELLS, COARSE_CELLS].map(|unit| Cells::of(&beside[0], unit));
     let chattering = recorded(&[orbit_from_rest(before, inputs)?], VISITING)?;
     let union: Vec<ImpactState> = beside[0].iter().chain(&chattering[0]).copied().collect();
     let beyond: Vec<f64> = cycles
@@ -104,16 +116,20 @@ pub(super) fn explored(
         low.iter().map(|forcing| orbit_from_rest(*forcing, inputs)).collect::<Result<Vec<_>, _>>()?;
     let low_period = low.iter().zip(recorded(&orbits, SHADOWING)?);
     let after = visited(after, &beside[1]);
-    let rows = (CELLS * after.largest_speed) as i32 + 1;
-    let columns = CELLS as i32;
-    let plane = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
+    let shadow = |(forcing, states): (&f64, Vec<ImpactState>)| Shadow {
+        axial_forcing: *forcing,
+        impacts: states.len(),
+        share_near: cells[0].share(&states),
+        share_at_ten_times_the_distance: cells[1].share(&states),
+    };
     Ok(Explored {
         before: visited(before, &beside[0]),
-        before_with_chattering: Some(visited(before, &union)),
+        before_with_chattering: visited(before, &union),
+        shadows: shadows.map(shadow).collect(),
+        low_period: low_period.map(shadow).collect(),
+        share_of_plane: cells[0].share_of_plane(after.largest_speed),
+        share_of_plane_at_ten_times_the_distance: cells[1].share_of_plane(after.largest_speed),
         after,
-        shadows: shadows.map(|(forcing, states)| cells.shadow(*forcing, &states)).collect(),
-        low_period: low_period.map(|(forcing, states)| cells.shadow(*forcing, &states)).collect(),
-        share_of_plane: plane.filter(|cell| cells.near(*cell)).count() as f64 / f64::from(columns * rows),
     })
 }
 

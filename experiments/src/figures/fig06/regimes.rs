@@ -88,19 +88,14 @@ fn widening(data: &Fig06Data) -> Claim {
         extent(chaotic.iter().map(|slice| slice.normalised_impact_speed.iter().copied().fold(0.0, f64::max)));
     let sudden = after.arc_cycles - before.arc_cycles > widest - narrowest
         && after.largest_speed - before.largest_speed > fastest - slowest;
-    let union = explored.before_with_chattering.as_ref().map_or_else(String::new, |union| {
-        format!(
-            "; with the orbit from rest, which is another one before the merging, {:.3} of a period, {:.3} and {} cells just before",
-            union.arc_cycles, union.largest_speed, union.cells
-        )
-    });
+    let union = &explored.before_with_chattering;
     Claim::printed_statement(
         "section4.sudden_widening",
         claim::all(Some(sudden).filter(|_| !chaotic.is_empty()), |sudden| sudden),
         format!(
             "the orbit on the attractor occupies {:.3} of a period, speeds up to {:.3} and {} cells of the plane at Γ = {:.5}, {:.3}, {:.3} and {} at Γ = {:.5} \
              ({} impacts each); from the doublings to the crisis its arc grew from {narrowest:.3} to {widest:.3} and its largest speed from {slowest:.3} to \
-             {fastest:.3} only{union}",
+             {fastest:.3} only. With the orbit from rest, which is another one before the merging, {:.3} of a period, {:.3} and {} cells just before",
             before.arc_cycles,
             before.largest_speed,
             before.cells,
@@ -110,6 +105,9 @@ fn widening(data: &Fig06Data) -> Claim {
             after.cells,
             after.axial_forcing,
             after.impacts,
+            union.arc_cycles,
+            union.largest_speed,
+            union.cells,
         ),
     )
 }
@@ -122,26 +120,37 @@ fn shadow(data: &Fig06Data) -> Claim {
         explored.shadows.iter().map(|of| of.share_near).sum::<f64>() / explored.shadows.len().max(1) as f64;
     let (_, control) = extent(explored.low_period.iter().map(|of| of.share_near));
     let follows = |of: &Shadow| of.share_near > control && of.share_near > explored.share_of_plane;
-    let others: Vec<&Shadow> = explored.shadows.iter().filter(|of| !follows(of)).collect();
-    let first = others.first().map_or(f64::NAN, |of| of.axial_forcing);
-    let before: Vec<f64> = explored
+    let (others, shadowing): (Vec<&Shadow>, Vec<&Shadow>) =
+        explored.shadows.iter().partition(|of| !follows(of));
+    let farther = explored
         .shadows
         .iter()
-        .filter(|of| of.axial_forcing < 0.5 * (data.merging.axial_forcing() + data.axial_forcing_range.1))
-        .map(|of| of.share_near)
-        .collect();
-    let below = before.iter().sum::<f64>() / before.len().max(1) as f64;
+        .filter(|of| of.share_at_ten_times_the_distance > explored.share_of_plane_at_ten_times_the_distance);
+    // The cycles at these Γ, which are those of the chattering slices.
+    let median = |shadows: &[&Shadow]| {
+        let mut periods: Vec<u64> = data
+            .chattering
+            .iter()
+            .filter(|slice| shadows.iter().any(|of| same(of.axial_forcing, slice.axial_forcing)))
+            .filter_map(|slice| slice.platform_periods)
+            .collect();
+        periods.sort_unstable();
+        periods.get(periods.len() / 2).copied().unwrap_or_default()
+    };
     Claim::printed_statement(
         "section4.orbits_shadow_attractor",
         claim::all(&explored.shadows, follows),
         format!(
-            "of the impacts of a disk from rest {least:.3} to {most:.3} lie within a hundredth or two of the attractor just before the crisis (mean {mean:.3} \
-             over {} values of Γ beyond it, {below:.3} over the lower half of them); of those of the low-period orbits of Fig. 7(a)-(c) at most {control:.3}, \
-             of the plane {:.3}. At {} of the values, the first Γ = {first:.4}, the share is not above that of the plane: cycles there are short and stay away \
-             from it",
+            "of the impacts of a disk from rest {least:.3} to {most:.3} lie within a hundredth or two of the attractor just before the crisis, on the mean {mean:.3} \
+             over {} values of Γ beyond it; of those of the low-period orbits of Fig. 7(a)-(c) at most {control:.3}, of the plane {:.3}. So on the mean the orbits do \
+             follow it, but at {} of the values the share is not above that of the plane: cycles there take {} periods of the platform at the median, {} at the \
+             others. Within a tenth or two the share is above that of the plane at {} of the values",
             explored.shadows.len(),
             explored.share_of_plane,
             others.len(),
+            median(&others),
+            median(&shadowing),
+            farther.count(),
         ),
     )
 }

@@ -47,7 +47,7 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
     let ratios: Vec<String> = data
         .torque_ratios
         .iter()
-        .map(|of| format!("{}: Γ_T = {:.4}, ratio {:.4}", of.system, of.angular_forcing, of.ratio))
+        .map(|of| format!("{}: Γ_T = {:.4e}, ratio {:.4e}", of.system, of.angular_forcing, of.ratio))
         .collect();
     let slices = || data.followed.iter().chain(&data.chattering);
     let apart = slices().filter(|slice| !slice.vertical_motions_agree).count();
@@ -278,7 +278,7 @@ fn tracking(data: &Fig06Data) -> Claim {
         "section4.small_angular_forcing_tracks",
         claim::all(&pairs, |(large, small)| small < large),
         format!(
-            "after an impact the disk is off the speed that the platform had in it by at most {most:.4} ωΦ on the mean in (d), by at least {least:.4} ωΦ \
+            "after an impact the disk is off the speed that the platform had in it by at most {most:.0e} ωΦ on the mean in (d), by at least {least:.4} ωΦ \
              in (c), at {} values of Γ beyond the second doubling",
             pairs.len()
         ),

@@ -254,7 +254,7 @@ fn introduction(data: &Fig06Data) -> Vec<Claim> {
             "section1.no_bouncing",
             claim::all(below(), |contact| !contact.leaves && contact.still_bouncing == 0),
             format!(
-                "at {} values of Γ below 1/π, down from {} units in the last place, {} disks at rest leave the platform, and {bouncing} of {thrown} disks thrown up \
+                "at {} values of Γ below 1/π, the nearest {} in units of the last place below it, {} disks at rest leave the platform, and {bouncing} of {thrown} disks thrown up \
                  still bounce after 10000 impacts",
                 below().count(),
                 nearest(-last_below),
@@ -267,7 +267,7 @@ fn introduction(data: &Fig06Data) -> Vec<Claim> {
             "a disk at rest leaves the platform when Γ > 1/π",
             claim::all(above(), |contact| contact.leaves),
             format!(
-                "{} of {} values of Γ, up from {} unit in the last place above 1/π",
+                "{} of {} values of Γ, the nearest {} in units of the last place above it",
                 above().filter(|contact| contact.leaves).count(),
                 above().count(),
                 nearest(first_above),

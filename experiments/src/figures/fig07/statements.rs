@@ -224,13 +224,15 @@ fn fills(data: &Fig07Data, e: &Panel) -> Claim {
     periods.dedup();
     let counterexamples = match (others.first(), others.last()) {
         (Some(first), Some(last)) => format!(
-            "at {} of them, Γ = {:.4} to {:.4}, {:.1} to {:.1} % of the starts never do: they end on periodic orbits of {} impacts",
+            "at {} of them, Γ = {:.4} to {:.4}, {:.1} to {:.1} % of the starts never do; the first of them end on periodic orbits of {} impacts, at {} of these Γ on \
+             none that is as short as 256",
             others.len(),
             first.axial_forcing,
             last.axial_forcing,
             share(f64::min, f64::INFINITY),
             share(f64::max, f64::NEG_INFINITY),
             periods.iter().map(usize::to_string).collect::<Vec<_>>().join(", "),
+            others.iter().filter(|at| at.period.is_none()).count(),
         ),
         _ => "at each of them all starts come to rest".to_owned(),
     };
