@@ -5,6 +5,7 @@
 mod alike;
 mod angle_grid;
 pub mod braking_record;
+mod circular;
 mod cylinder;
 pub mod dough_record;
 pub mod fig01;

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::claim::{Claim, Class, Computed, Verdict};
 use crate::count::Counts;
 use crate::experiment::Quality;
+use crate::printed::is_multiple_of_pi;
 use crate::visible::visible;
 
 const STYLE: &str = include_str!("page.css");
@@ -236,7 +237,7 @@ fn with_unit(number: &str, unit: &str) -> String {
 
 /// A number with so many significant digits, as a multiple of π where the printed one is.
 pub(crate) fn like(printed: &str, number: f64, digits: usize) -> String {
-    if printed.contains('π') {
+    if is_multiple_of_pi(printed) {
         format!("{}π", significant(number / std::f64::consts::PI, digits))
     } else {
         significant(number, digits)
@@ -320,6 +321,7 @@ mod tests {
         assert_eq!(significant(999_999.96, 6), "1000000");
         assert_eq!(significant(0.0, 6), "0");
         assert_eq!(like("0.323π", 0.3225 * std::f64::consts::PI, 6), "0.3225π");
+        assert_eq!(like("cos(0.26π)", 0.685_9, 6), "0.6859");
     }
 
     #[test]

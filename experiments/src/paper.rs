@@ -220,6 +220,8 @@ structs! {
         semielliptical_angular_forcing: f64 = "section4.angular_forcing_of_fig6d";
         /// Γ below which the chattering orbit is said to follow the pattern of single tosses.
         single_tosses_end: f64 = "section4.single_tosses_end";
+        /// Γ above which the attractors are said to merge.
+        merging: f64 = "section4.merging";
         /// Γ of the panels of Fig. 7.
         axial_forcings_of_fig7: [f64; 5] = "section4.axial_forcing_of_fig7a", "section4.axial_forcing_of_fig7b",
             "section4.axial_forcing_of_fig7c", "section4.axial_forcing_of_fig7d", "section4.axial_forcing_of_fig7e";

@@ -48,6 +48,12 @@ impl PrintedNumber {
     }
 }
 
+/// Whether a printed number is a multiple of π, so that one compares with ours in the same form. In `cos(0.26π)` the π belongs
+/// to the angle, and the number itself is none.
+pub(crate) fn is_multiple_of_pi(text: &str) -> bool {
+    text.contains('π') && !text.contains('(')
+}
+
 /// Value and half unit of a number without uncertainty.
 fn part(text: &str, power: i32) -> Option<(f64, f64)> {
     let text = text.trim().trim_end_matches(['%', ' ']);
@@ -185,6 +191,16 @@ mod tests {
         let (value, half_unit) = read("cos(0.26π)");
         assert_eq!(value.to_bits(), (cos(0.26 * PI)).to_bits());
         assert!((half_unit - 0.011_45).abs() < 1e-5, "{half_unit}");
+    }
+
+    #[test]
+    fn a_cosine_of_a_multiple_of_pi_is_none() {
+        for text in ["0.323π", "−0.26π", "0.175π ± 0.045π", "3π/2"] {
+            assert!(is_multiple_of_pi(text), "{text}");
+        }
+        for text in ["0.486", "cos(0.26π)", "nine"] {
+            assert!(!is_multiple_of_pi(text), "{text}");
+        }
     }
 
     #[test]

@@ -32,6 +32,7 @@ pub struct Panel {
     title: Option<Label>,
     legend: Option<Legend>,
     background: Option<Colour>,
+    markers_on_top: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -56,6 +57,7 @@ impl Panel {
             title: None,
             legend: None,
             background: None,
+            markers_on_top: false,
         }
     }
 
@@ -142,6 +144,14 @@ impl Panel {
         self
     }
 
+    /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of below, so that those at an
+    /// edge are seen whole; those of the axis on the right stay below.
+    #[must_use]
+    pub fn markers_on_top(mut self) -> Self {
+        self.markers_on_top = true;
+        self
+    }
+
     /// Draws the panel on a page of the given width and height.
     pub(crate) fn render(&self, svg: &mut Svg, page: (f64, f64), text_size: f64) -> Result<(), DrawError> {
         let area = self.area;
@@ -176,6 +186,14 @@ impl Panel {
         }
         svg.path(&marks, Some(&stroke), None);
         svg.rectangle(area, Some(&stroke), None);
+        if self.markers_on_top {
+            let frame = Frame { area, x: &self.x, y: &self.y, text_size };
+            for (layer, on_right) in &self.layers {
+                if let (Layer::Scatter(scatter), false) = (layer, on_right) {
+                    scatter.render_markers(&frame, svg);
+                }
+            }
+        }
         self.render_axis(svg, &self.x, &x_ticks, Edge::Bottom, page, text_size)?;
         self.render_axis(svg, &self.y, &y_ticks, Edge::Left, page, text_size)?;
         if let (Some(axis), Some(ticks)) = (&self.right, &right_ticks) {
@@ -228,7 +246,9 @@ impl Panel {
                     scatter.render_bars(&frame, svg)?;
                     svg.end_clip();
                     clipped = false;
-                    scatter.render_markers(&frame, svg);
+                    if *on_right || !self.markers_on_top {
+                        scatter.render_markers(&frame, svg);
+                    }
                 }
             }
         }

@@ -4,6 +4,7 @@ mod data;
 mod labels;
 mod panels;
 mod picture;
+mod scan;
 mod statements;
 mod windows;
 
@@ -56,6 +57,14 @@ impl Experiment for Fig07 {
         // The first error in the order of the panels, whichever comes first in time.
         let panels = panels.into_iter().collect::<Result<_, _>>()?;
         let (windows, decay) = (windows?, decay?);
+        let panels: Vec<data::Panel> = panels;
+        let [_, b, ..] = &panels[..] else {
+            return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
+        };
+        let traced = match b.others.first() {
+            Some(other) => scan::traced(b.axial_forcing, other, printed.restitution)?,
+            None => None,
+        };
         Ok(Fig07Data {
             restitution: printed.restitution,
             window_top: WINDOW_TOP,
@@ -63,6 +72,10 @@ impl Experiment for Fig07 {
             panels,
             windows,
             decay,
+            along_window: scan::along_window(&printed, quality)?,
+            beyond: scan::beyond(&printed, WINDOW_TOP, quality)?,
+            rest: scan::rest(&forcings, printed.restitution)?,
+            traced,
         })
     }
 
@@ -76,5 +89,31 @@ impl Experiment for Fig07 {
 
     fn parameters(data: &Fig07Data) -> Vec<(String, String)> {
         statements::parameters(data)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claim::{Class, Computed};
+    use crate::progress::Silent;
+
+    #[test]
+    fn no_statement_of_the_paper_holds_without_data() {
+        let mut data = Fig07::run(Quality::Draft, &Silent).expect("runs");
+        assert!(Fig07::claims(&data).iter().all(|claim| !claim.lacks_data()));
+        data.windows.curve.clear();
+        data.along_window.clear();
+        data.beyond.clear();
+        data.panels[3].boundary_exponents.clear();
+        // What is judged by the panels themselves.
+        let panels = ["section4.chattering_is_easier", "section4.rest_chatters", "section4.two_attractors"];
+        for claim in Fig07::claims(&data) {
+            let holds = matches!(claim.computed(), Computed::Boolean(true));
+            let own = panels
+                .iter()
+                .any(|key| matches!(claim.source(), crate::claim::Source::Entry(of) if of == key));
+            assert!(!(holds && claim.class() == Class::Paper) || own, "{}", claim.quantity());
+        }
     }
 }

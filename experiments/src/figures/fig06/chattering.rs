@@ -72,7 +72,7 @@ pub(super) fn cycles(
 }
 
 /// Rest on the platform at its lowest point, turning with it.
-fn from_rest(system: &Dimensionless) -> Result<Start, ExperimentError> {
+pub(super) fn from_rest(system: &Dimensionless) -> Result<Start, ExperimentError> {
     let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
     Ok(Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
 }
@@ -95,7 +95,7 @@ pub(super) fn chattering_slice(
     let linear = tosses(&systems.linear, settings)?;
     let semielliptical = tosses(&systems.semielliptical, settings)?;
     let slice = slice(axial_forcing, inputs, &linear, &semielliptical);
-    Ok(Some(Slice { period: Some(cycle.impacts), ..slice }))
+    Ok(Some(Slice { period: Some(cycle.impacts), platform_periods: Some(cycle.platform_periods), ..slice }))
 }
 
 /// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their cycles and bisected.

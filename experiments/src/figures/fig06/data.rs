@@ -28,11 +28,17 @@ pub struct Fig06Data {
     /// The chattering orbit from rest, by rising Γ; missing where the disk does not come to rest again.
     pub chattering: Vec<Slice>,
     /// The Γ above 1/π where a disk from rest does not come to rest again but ends on another attractor.
-    pub not_chattering: Vec<f64>,
+    pub not_chattering: Vec<Bouncing>,
+    /// The followed attractor about the third to the fifth doubling, at finer steps of Γ.
+    pub zoom: Vec<Column>,
     /// Γ of the first period doublings.
     pub doublings: Vec<f64>,
-    /// Γ of the period-1 threshold.
+    /// The lowest Γ at which the period-1 orbit was found, by bisection.
     pub period_one_threshold: f64,
+    /// The same, and the first doubling, in closed form.
+    pub closed_forms: ClosedForms,
+    /// Impact phase of the period-1 orbit at the threshold found (rad).
+    pub phase_at_threshold_rad: f64,
     /// Impact phase of the period-1 orbit at the first doubling (rad).
     pub phase_at_first_doubling_rad: f64,
     /// Spectral radius of the period-1 orbit where following starts.
@@ -43,6 +49,226 @@ pub struct Fig06Data {
     pub single_tosses: SingleTosses,
     /// The two chattering policies compared.
     pub policies: Policies,
+    /// Γ at which two branches of the period-4 orbit have the same speed in (d).
+    pub branch_crossings: Vec<f64>,
+    /// Lyapunov exponents of the followed attractor beyond the last doubling: Γ, and the growth rate per impact.
+    pub lyapunov_exponents: Vec<(f64, f64)>,
+    /// The rotation of period-1 orbits.
+    pub period_one: PeriodOne,
+    /// Disks on a platform with Γ next to 1/π.
+    pub contact: Vec<Contact>,
+    /// Long motions: how far they go.
+    pub motions: Vec<Motion>,
+    /// How many numbers the impact map depends on.
+    pub dimension: Dimension,
+    /// Γ_T and the ratio of torques, for two systems of the paper.
+    pub torque_ratios: Vec<TorqueRatio>,
+    /// Where the angular momentum is transferred.
+    pub transfers: Vec<Transfer>,
+    /// The share that impacts transfer in the motor of Table III, from rest.
+    pub motor_share_in_impacts: Option<f64>,
+    /// The attractor just before the crisis and the orbits beyond it.
+    pub explored: Explored,
+    /// The best phase lag at some Γ.
+    pub best_lags: Vec<BestLag>,
+}
+
+/// A disk from rest that bounces for ever.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bouncing {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Impacts in one round of the periodic orbit that it has settled on; `None` if it is on none.
+    pub period: Option<usize>,
+}
+
+/// The impact phases at one Γ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Column {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// τ_imp/2π, each once, to six decimals.
+    pub impact_phase_cycles: Vec<f64>,
+}
+
+/// What is known in closed form about period 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosedForms {
+    /// (1 − ε)/(1 + ε).
+    pub period_one_threshold: f64,
+    /// sqrt(((1 − ε)/(1 + ε))² + (2(1 + ε²)/(π(1 + ε)²))²).
+    pub first_doubling: f64,
+}
+
+/// The rotation of period-1 orbits, from many starts and for many motions of the platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PeriodOne {
+    /// Orbits: of one impact every one, two or three periods of the platform, by Γ, θ, Γ_T and the speed of the disk at first.
+    pub orbits: usize,
+    /// Impacts of each.
+    pub impacts_each: usize,
+    /// The largest |w_T|/(ωΦ) in the last impact of an orbit.
+    pub largest_tangential_speed: f64,
+    /// Impacts of all of them after which |w_T| was larger than before.
+    pub slips_increased: usize,
+    /// Speeds against the phase lag.
+    pub lags: Vec<LagScan>,
+}
+
+/// The steady speeds of one period-1 orbit against the phase lag.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LagScan {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// τ_imp (rad).
+    pub impact_phase_rad: f64,
+    /// Distance between the lags tried (rad).
+    pub lag_step_rad: f64,
+    /// The lag of those with the highest speed (rad).
+    pub best_lag_rad: f64,
+    /// Speed/(ωΦ) at θ = −τ_imp.
+    pub speed_at_impact_phase: f64,
+    /// Speed/(ωΦ) at θ = −π/2.
+    pub speed_of_elliptical: f64,
+}
+
+/// A disk on a platform that vibrates with Γ next to 1/π.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Γ − 1/π, as a multiple of the distance of two doubles there.
+    pub distance_in_ulps: f64,
+    /// Whether a disk at rest on the platform leaves it.
+    pub leaves: bool,
+    /// Of the disks thrown up at first, those that have not come to rest for ever after many impacts.
+    pub still_bouncing: usize,
+    /// Disks thrown up.
+    pub thrown: usize,
+}
+
+/// A long motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// ε.
+    pub restitution: f64,
+    /// Impacts.
+    pub impacts: usize,
+    /// Periods of the platform.
+    pub platform_periods: f64,
+    /// Mean vertical velocity of the disk over the whole, as a share of ωA.
+    pub mean_vertical_velocity: f64,
+    /// Largest height of the disk, in amplitudes of the platform.
+    pub highest: f64,
+    /// No disk can ever rise higher, by energy.
+    pub height_bound: f64,
+    /// Angle turned in the first half of the impacts, in amplitudes Φ.
+    pub turned_in_first_half: f64,
+    /// The same for the second half.
+    pub turned_in_second_half: f64,
+}
+
+/// How many numbers the next collision depends on, if w_A is in units of ωA and w_T in units of ωΦ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Dimension {
+    /// Parameters of the system in SI units that are changed one by one.
+    pub parameters: Vec<String>,
+    /// Numbers that are looked at.
+    pub outcomes: usize,
+    /// Rank of the matrix of derivatives.
+    pub rank: usize,
+    /// Its pivots relative to the first.
+    pub pivots: Vec<f64>,
+}
+
+/// Γ_T beside the torques.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TorqueRatio {
+    /// The system.
+    pub system: String,
+    /// Γ_T.
+    pub angular_forcing: f64,
+    /// The torque that gives the disk the platform's largest angular acceleration, over the frictional torque of the preload.
+    pub ratio: f64,
+}
+
+/// The angular impulses of an orbit, by size, and what of them is transferred in impacts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Transfer {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Γ_T.
+    pub angular_forcing: f64,
+    /// Whether it is the orbit from rest, or the followed attractor.
+    pub from_rest: bool,
+    /// Share of the impulses that impacts transfer, those of a chatter included.
+    pub share_in_impacts: f64,
+}
+
+/// What orbits visit in the plane of phase and speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Visited {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Impacts.
+    pub impacts: usize,
+    /// Occupied arc of the phases, in periods.
+    pub arc_cycles: f64,
+    /// Largest |w_A Γ/(ωA)|.
+    pub largest_speed: f64,
+    /// Cells of the plane visited, a hundredth of a period wide and a hundredth high.
+    pub cells: usize,
+}
+
+/// The widening at the crisis, and the shadow that the attractor leaves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Explored {
+    /// The attractor just before the crisis.
+    pub before: Visited,
+    /// The same with as many impacts of a disk from rest there.
+    pub before_with_chattering: Visited,
+    /// The orbit that starts on that attractor, just after the crisis.
+    pub after: Visited,
+    /// Beyond the crisis: Γ, and the share of the impacts of the orbit from rest that are near the attractor just before the crisis.
+    pub shadows: Vec<Shadow>,
+    /// The chattering orbits of (a) to (c): the same.
+    pub low_period: Vec<Shadow>,
+    /// Share of the plane, up to the largest speed just after, that is near the attractor.
+    pub share_of_plane: f64,
+    /// The same for ten times the distance.
+    pub share_of_plane_at_ten_times_the_distance: f64,
+}
+
+/// How many impacts of an orbit lie near the attractor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shadow {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Impacts.
+    pub impacts: usize,
+    /// Share of them within a hundredth or two of the attractor, in periods and in |w_A Γ/(ωA)|.
+    pub share_near: f64,
+    /// Share of them within a tenth or two.
+    pub share_at_ten_times_the_distance: f64,
+}
+
+/// The phase lag with the highest mean speed at one Γ, of the followed attractor or, beyond it, of a disk from rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BestLag {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Γ_T.
+    pub angular_forcing: f64,
+    /// Whether it is the followed attractor.
+    pub followed: bool,
+    /// Impacts in one round of it, if it is periodic.
+    pub period: Option<usize>,
+    /// The best lag tried (rad).
+    pub lag_rad: f64,
+    /// Mean speed/(ωΦ) there.
+    pub speed: f64,
 }
 
 /// Phase lag and angular forcing.
@@ -61,6 +287,8 @@ pub struct Slice {
     pub axial_forcing: f64,
     /// Impacts in one round of a periodic orbit or from one rest to the next of a chattering one, if it repeats.
     pub period: Option<usize>,
+    /// Periods of the platform in the same.
+    pub platform_periods: Option<u64>,
     /// Whether the rotary motions of (c) and (d) have the same vertical one, to the last bit.
     pub vertical_motions_agree: bool,
     /// τ_imp/2π.

@@ -1,9 +1,9 @@
 //! The crisis in which the followed attractor is lost to chattering, by bisection on survival.
 
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Vibration, follow, lives};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow, lives};
 
 use super::data::Merging;
-use super::scan::Inputs;
+use super::scan::{Inputs, map};
 use crate::experiment::ExperimentError;
 
 /// Γ inside the chaotic range, where the starts of all trials lie on the attractor.
@@ -15,13 +15,8 @@ const STARTS: usize = 8;
 /// Width at which the bisection ends.
 const BRACKET: f64 = 1.0e-7;
 
-fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
-    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
-    ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
-}
-
 /// States on the followed attractor at [`SAFE_FORCING`].
-fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactState>, ExperimentError> {
+pub(super) fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactState>, ExperimentError> {
     let Inputs { restitution, followed_from, .. } = inputs;
     let forcings = (0..).map(|i| followed_from + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
     let mut state = first;

@@ -2,29 +2,45 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{ChatterPolicy, Followed, ImpactMap, Vibration, follow, period_doublings};
+use bouncing_disk::core::{
+    ChatterPolicy, Followed, ImpactMap, ImpactState, Vibration, columns, follow, lyapunov_exponents,
+    period_doublings,
+};
 use bouncing_disk::{
     Dimensionless, ForcingParameters, MultiTossSettings, OrbitClass, Start, TossOrbit, multi_toss,
 };
 use rayon::prelude::*;
 
-use super::data::{Fig06Data, Slice, Twist};
-use super::{chattering, merging};
+use super::data::{Bouncing, Fig06Data, Slice, Twist};
+use super::{chattering, contact, dimension, explored, merging, period_one, rotation};
 use crate::experiment::{ExperimentError, Quality};
 use crate::paper::{self, SectionFour};
 use crate::progress::Progress;
 
 /// The range of Γ of the diagram.
-const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
+pub(in crate::figures) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
+/// Impacts after which a disk that has not come to rest is looked at.
+const SETTLING: usize = 20_000;
+/// Longest period (impacts) of an orbit that it may have settled on, and how well two rounds of it agree.
+const LONGEST_PERIOD: usize = 256;
+/// See [`LONGEST_PERIOD`].
+const REPEATS_WITHIN: f64 = 1.0e-6;
+/// Values of Γ of the followed attractor, and of the disk from rest, at which transfers and lags are looked at.
+const SAMPLED: usize = 40;
+/// Impacts that a search for the best lag does not look at: more than the rotation takes at Γ_T = 100.
+const LAG_TRANSIENT: usize = 300;
+/// Impacts over which a Lyapunov exponent is taken.
+const GROWTH_IMPACTS: usize = 4_000;
+
 /// The printed inputs of the diagrams.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inputs {
     pub(super) restitution: f64,
     pub(super) followed_from: f64,
     /// (c).
-    linear: Twist,
+    pub(super) linear: Twist,
     /// (d).
-    semielliptical: Twist,
+    pub(super) semielliptical: Twist,
 }
 
 impl From<&SectionFour> for Inputs {
@@ -66,12 +82,12 @@ impl Systems {
     }
 }
 
-fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
+pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
     ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
 }
 
-fn no_orbit(axial_forcing: f64) -> ExperimentError {
+pub(super) fn no_orbit(axial_forcing: f64) -> ExperimentError {
     ExperimentError::model(bouncing_disk::core::Error::NotSettled {
         what: "period-1 orbit",
         iterations: 0,
@@ -130,11 +146,11 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         .collect::<Result<_, _>>()?;
     progress.start(4, "searches");
     let not_chattering = forcings
-        .iter()
+        .par_iter()
         .zip(&chattering)
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
-        .map(|(forcing, _)| *forcing)
-        .collect();
+        .map(|(forcing, _)| bouncing(*forcing, restitution))
+        .collect::<Result<_, ExperimentError>>()?;
     // Side by side, for in most of them one step follows from another.
     let some: Vec<f64> = forcings.iter().copied().step_by(10).collect();
     let crisis = || merging::merging(first, inputs, quality.choose(40_000, 400_000));
@@ -145,12 +161,49 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         progress.advance(1);
         let doublings = period_doublings(restitution, 7).map_err(ExperimentError::model)?;
         progress.advance(1);
-        Ok((single_tosses, policies, doublings))
+        let below = walk.iter().rev().find(|at| at.axial_forcing <= explored::ZOOM.0);
+        let zoom = explored::zoom(below.map_or(first, |at| at.state), inputs, quality)?;
+        Ok((single_tosses, policies, doublings, zoom))
     };
     let (merging, others) = rayon::join(crisis, others);
-    let (merging, (single_tosses, policies, doublings)) = (merging?, others?);
+    let (merging, (single_tosses, policies, doublings, zoom)) = (merging?, others?);
     progress.advance(1);
     let doublings: Vec<f64> = doublings.into_iter().map(|doubling| doubling.axial_forcing).collect();
+    let last = doublings.last().copied().unwrap_or(f64::NAN);
+    let chaotic: Vec<&Followed> =
+        walk[..followed.len()].iter().filter(|at| at.axial_forcing > last).collect();
+    let growths = lyapunov_exponents(
+        &chaotic.iter().map(|at| (at.map, at.state)).collect::<Vec<_>>(),
+        0,
+        GROWTH_IMPACTS,
+    )
+    .map_err(ExperimentError::model)?;
+    let lyapunov_exponents =
+        chaotic.iter().zip(growths).filter_map(|(at, growth)| Some((at.axial_forcing, growth?))).collect();
+    let crisis = merging.axial_forcing();
+    let impacts: Vec<(f64, Option<usize>)> =
+        cycles.iter().map(|(forcing, cycle)| (*forcing, cycle.map(|cycle| cycle.impacts))).collect();
+    let [low_a, low_b, low_c, ..] = section.axial_forcings_of_fig7;
+    let explored = explored::explored(first, inputs, &merging, &impacts, &[low_a, low_b, low_c])?;
+    // Evenly over the diagram: of the followed attractor, and of the disk from rest, all along and beyond the crisis.
+    let spread = |count: usize, all: &[(f64, ImpactState)]| -> Vec<(f64, ImpactState)> {
+        all.iter().copied().step_by((all.len() / count).max(1)).collect()
+    };
+    let states: Vec<(f64, ImpactState)> =
+        walk[..followed.len()].iter().map(|at| (at.axial_forcing, at.state)).collect();
+    let resting: Vec<f64> =
+        impacts.iter().filter(|(_, cycle)| cycle.is_some()).map(|(forcing, _)| *forcing).collect();
+    let resting: Vec<f64> = resting.iter().copied().step_by((resting.len() / SAMPLED).max(1)).collect();
+    let transfers = contact::transfers(&spread(SAMPLED, &states), &resting, inputs)?;
+    let beyond: Vec<f64> = resting.iter().copied().filter(|forcing| *forcing > crisis).collect();
+    let beyond: Vec<f64> = beyond.iter().copied().step_by((beyond.len() / (SAMPLED / 4)).max(1)).collect();
+    let lag_settings = MultiTossSettings { transient_impacts: LAG_TRANSIENT, ..settings };
+    let chaotic: Vec<(f64, ImpactState)> = chaotic.iter().map(|at| (at.axial_forcing, at.state)).collect();
+    let lagged: Vec<_> =
+        spread(SAMPLED / 4, &states).into_iter().chain(spread(SAMPLED / 4, &chaotic)).collect();
+    let best_lags = explored::best_lags(&lagged, &beyond, inputs, lag_settings)?;
+    let (period_one_threshold, phase_at_threshold_rad) = period_one::threshold(inputs, first)?;
+    let crossings = rotation::branch_crossings(&followed, &doublings);
     let at_doubling = doublings.first().copied().unwrap_or(f64::NAN);
     let phase = map(at_doubling, restitution)?.period_one(1).ok_or_else(|| no_orbit(at_doubling))?.phase();
     Ok(Fig06Data {
@@ -166,15 +219,44 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         followed,
         chattering: chattering.into_iter().flatten().collect(),
         not_chattering,
+        zoom,
         doublings,
-        period_one_threshold: (1.0 - restitution) / (1.0 + restitution),
+        period_one_threshold,
+        closed_forms: period_one::closed_forms(restitution),
+        phase_at_threshold_rad,
         phase_at_first_doubling_rad: phase.angle(),
         multiplier_where_followed_from: bouncing_disk::core::Multipliers::of(first_orbit.monodromy)
             .spectral_radius(),
         merging,
         single_tosses,
         policies,
+        branch_crossings: crossings,
+        lyapunov_exponents,
+        period_one: period_one::period_one(inputs)?,
+        contact: contact::contact(inputs)?,
+        motions: contact::motions(&section.axial_forcings_of_fig7, inputs)?,
+        dimension: dimension::dimension()?,
+        torque_ratios: dimension::torque_ratios()?,
+        transfers,
+        motor_share_in_impacts: contact::motor_transfer()?,
+        explored,
+        best_lags,
     })
+}
+
+/// What a disk from rest that does not come to rest again has settled on.
+fn bouncing(axial_forcing: f64, restitution: f64) -> Result<Bouncing, ExperimentError> {
+    let map = map(axial_forcing, restitution)?;
+    let mut period = None;
+    if let Some(leaves) = map.vibration().separation_phase() {
+        let orbit =
+            map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)?;
+        let settled = columns(&[orbit], SETTLING, 1).map_err(ExperimentError::model)?;
+        if let Some(state) = settled.first().and_then(|states| states.first()) {
+            period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;
+        }
+    }
+    Ok(Bouncing { axial_forcing, period })
 }
 
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
@@ -202,7 +284,7 @@ fn followed_slice(
 }
 
 /// Six decimals.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     (value * 1.0e6).round() / 1.0e6
 }
 
@@ -231,9 +313,16 @@ pub(super) fn slice(
         states.map(|state| (state.phase, state.axial_impact_velocity)).collect::<Vec<_>>()
     };
     let shared = linear.collisions.len().min(semielliptical.collisions.len());
+    let platform_periods = match linear.class {
+        OrbitClass::Periodic { platform_periods, .. } | OrbitClass::Chattering { platform_periods, .. } => {
+            Some(platform_periods)
+        }
+        _ => None,
+    };
     Slice {
         axial_forcing,
         period,
+        platform_periods,
         vertical_motions_agree: vertical(linear)[..shared] == vertical(semielliptical)[..shared],
         impact_phase_cycles: impacts
             .iter()

@@ -17,6 +17,75 @@ pub struct Fig07Data {
     pub windows: Windows,
     /// At Γ = 0.55: impacts N, and the share of the window that has not come to rest after N of them.
     pub decay: Vec<(u32, f64)>,
+    /// Shares along the period-1 window.
+    pub along_window: Vec<Easiness>,
+    /// Starts that do not come to rest, beyond the merging.
+    pub beyond: Vec<Beyond>,
+    /// A disk at rest, at the Γ of the panels.
+    pub rest: Vec<Rest>,
+    /// The further attractor of panel (b), followed in Γ; `None` if there is none.
+    pub traced: Option<Traced>,
+}
+
+/// How large the basins are at one Γ of the period-1 window.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Easiness {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Shares by the top of the window.
+    pub shares: Vec<TopShares>,
+}
+
+/// Shares of the window [0, top].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TopShares {
+    /// Top of the window of |w_A Γ/(ωA)|.
+    pub top: f64,
+    /// End on the period-1 orbit.
+    pub period_one: f64,
+    /// Come to rest.
+    pub chattering: f64,
+}
+
+/// The starts at one Γ beyond the merging.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Beyond {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Starts, on a square grid over the window.
+    pub starts: usize,
+    /// Those of them that have not come to rest after `impacts`.
+    pub not_at_rest: usize,
+    /// Impacts followed.
+    pub impacts: u32,
+    /// Impacts in one round of what the first of them has settled on; `None` if there is none or it does not repeat.
+    pub period: Option<usize>,
+}
+
+/// Disks at rest on the platform, let go at phases where it falls away.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rest {
+    /// Γ.
+    pub axial_forcing: f64,
+    /// Disks.
+    pub starts: usize,
+    /// Those that come to rest again.
+    pub come_to_rest: usize,
+}
+
+/// An attractor followed in Γ.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Traced {
+    /// Step of Γ.
+    pub step: f64,
+    /// Lowest Γ to which it can be followed.
+    pub appears: f64,
+    /// Impacts in one round there.
+    pub period_where_it_appears: Option<usize>,
+    /// Highest Γ with half of the impacts that it has in the panel; it doubles its period within a step above.
+    pub doubles: Option<f64>,
+    /// Highest Γ to which it can be followed.
+    pub lost: f64,
 }
 
 /// The basins at one Γ.
@@ -33,6 +102,11 @@ pub struct Panel {
     pub shares: Shares,
     /// Share of the cells that have a neighbour of another kind, with the cells grouped 1, 2, 4, 8 a side.
     pub boundary_shares: Vec<(usize, f64)>,
+    /// The exponents α of boundary share ~ (cell size)^α from each grouping to the next; 2 − α is the boundary's dimension.
+    /// Empty where there is no boundary.
+    pub boundary_exponents: Vec<f64>,
+    /// The same from the finest grouping to the coarsest.
+    pub boundary_exponent: Option<f64>,
     /// Lowest |w_A Γ/(ωA)| of a cell that does not chatter; `None` if all do.
     pub lowest_not_chattering: Option<f64>,
     /// Impacts of the attractor of the period-doubling route.

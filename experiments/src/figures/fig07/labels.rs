@@ -1,5 +1,6 @@
 //! Labels of cells, and their storage as runs.
 
+use bouncing_disk::core::elementary::ln;
 use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
 
 /// Kinds of cells in the picture, as indices into its palette.
@@ -62,6 +63,15 @@ pub(super) fn boundary_share(kinds: &[u8], side: usize, size: usize) -> f64 {
     count as f64 / (groups * groups) as f64
 }
 
+/// The exponent α of share ~ size^α between two groupings; `None` where there is no boundary.
+pub(super) fn exponent(
+    (fine, fine_share): (usize, f64),
+    (coarse, coarse_share): (usize, f64),
+) -> Option<f64> {
+    (fine_share > 0.0 && coarse_share > 0.0)
+        .then(|| ln(coarse_share / fine_share) / ln(coarse as f64 / fine as f64))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,5 +90,13 @@ mod tests {
         let kinds: Vec<u8> = (0..side * side).map(|i| u8::from(i / side >= 8)).collect();
         assert!((boundary_share(&kinds, side, 1) - 1.0 / 16.0).abs() < 1e-15);
         assert!((boundary_share(&kinds, side, 4) - 1.0 / 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_boundary_of_a_half_plane_has_the_exponent_of_a_line() {
+        let exponent_of = |coarse_share| exponent((1, 1.0 / 16.0), (4, coarse_share));
+        assert!(exponent_of(1.0 / 4.0).is_some_and(|exponent| (exponent - 1.0).abs() < 1e-15));
+        assert!(exponent_of(1.0 / 16.0).is_some_and(|exponent| exponent.abs() < 1e-15));
+        assert_eq!(exponent_of(0.0), None);
     }
 }

@@ -6,7 +6,7 @@ use bouncing_disk::core::{
 };
 
 use super::data::{Other, Panel, Shares, Spot};
-use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, kind, runs};
+use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
 use crate::experiment::ExperimentError;
 use crate::progress::Progress;
 
@@ -36,7 +36,7 @@ fn spot(state: ImpactState) -> Spot {
     (state.phase().cycles(), state.normalised_speed())
 }
 
-fn start(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, ExperimentError> {
+pub(super) fn start(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, ExperimentError> {
     ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
         .map_err(ExperimentError::model)
 }
@@ -148,6 +148,8 @@ pub(super) fn panel(
         Route::Gone => Vec::new(),
     };
     let speed_step = top / side as f64;
+    let boundary_shares: Vec<(usize, f64)> =
+        [1, 2, 4, 8].into_iter().map(|size| (size, boundary_share(&kinds, side, size))).collect();
     Ok(Panel {
         axial_forcing,
         max_impacts,
@@ -158,10 +160,12 @@ pub(super) fn panel(
             other: share(OTHER),
             undecided: share(STILL_OPEN),
         },
-        boundary_shares: [1, 2, 4, 8]
-            .into_iter()
-            .map(|size| (size, boundary_share(&kinds, side, size)))
+        boundary_exponents: boundary_shares
+            .windows(2)
+            .filter_map(|pair| exponent(pair[0], pair[1]))
             .collect(),
+        boundary_exponent: exponent(boundary_shares[0], boundary_shares[boundary_shares.len() - 1]),
+        boundary_shares,
         lowest_not_chattering: kinds
             .iter()
             .position(|kind| *kind != CHATTERING)

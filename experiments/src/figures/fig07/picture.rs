@@ -39,7 +39,8 @@ fn basin_panel(data: &Fig07Data, basins: &Basins, letter: &str, area: Rect) -> P
             .label(r"$|w_A\Gamma/(\omega A)|$")
             .ticks(Ticks::every(1.0).minor(5)))
         .title(format!(r"({letter}) $\Gamma = {}$", forcing_text(basins.axial_forcing)))
-        .layer(raster);
+        .layer(raster)
+        .markers_on_top();
     match letter {
         "d" => panel.layer(dots(&basins.attractor, YELLOW, 1.3)).layer(dots(&basins.chattering, RED, 3.0)),
         "e" => panel.layer(dots(&basins.chattering, Colour::BLACK, 1.6)),

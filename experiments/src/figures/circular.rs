@@ -1,0 +1,71 @@
+//! How far angles extend on a circle, whose end is its beginning.
+
+/// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap between neighbours. Zero
+/// for one phase, `None` for none.
+///
+/// Phases are in periods; 0 and 1 are the same.
+pub(crate) fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let mut phases: Vec<f64> = phases.into_iter().map(|phase| phase - phase.floor()).collect();
+    phases.sort_by(f64::total_cmp);
+    let (first, last) = (phases.first()?, phases.last()?);
+    let across_the_end = first + 1.0 - last;
+    let largest = phases.windows(2).map(|pair| pair[1] - pair[0]).fold(across_the_end, f64::max);
+    Some(1.0 - largest)
+}
+
+/// The shorter way from one phase to the other, in periods: at most one half.
+pub(crate) fn distance(one: f64, other: f64) -> f64 {
+    let apart = one - other;
+    let apart = apart - apart.floor();
+    apart.min(1.0 - apart)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(phases: &[f64]) -> f64 {
+        occupied_arc(phases.iter().copied()).expect("there are phases")
+    }
+
+    #[test]
+    fn an_arc_is_one_period_minus_the_largest_gap() {
+        assert_eq!(occupied_arc([]), None);
+        for (phases, expected) in [
+            (&[0.3][..], 0.0),
+            (&[0.3, 0.3, 0.3], 0.0),
+            (&[0.1, 0.2, 0.35], 0.25),
+            // Both sides of zero.
+            (&[0.95, 0.05], 0.1),
+            (&[0.05, 0.95, 0.9], 0.15),
+            // The end is the beginning.
+            (&[0.0, 1.0], 0.0),
+            (&[1.0], 0.0),
+            (&[0.0, 1.0, 0.125], 0.125),
+            (&[-0.1, 0.1], 0.2),
+            (&[0.0, 0.5], 0.5),
+            (&[0.0, 0.25, 0.5, 0.75], 0.75),
+        ] {
+            assert!((arc(phases) - expected).abs() < 1e-15, "{phases:?}: {}", arc(phases));
+        }
+    }
+
+    #[test]
+    fn an_arc_does_not_depend_on_the_order_or_on_where_the_period_begins() {
+        let phases = [0.93, 0.02, 0.11, 0.99];
+        let expected = arc(&phases);
+        for shift in [0.0, 0.07, 0.5, 0.9, 3.0] {
+            let mut shifted = phases.map(|phase| phase + shift);
+            shifted.reverse();
+            assert!((arc(&shifted) - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_distance_goes_the_shorter_way() {
+        for (one, other, expected) in [(0.95, 0.05, 0.1), (0.0, 1.0, 0.0), (0.2, 0.7, 0.5), (0.3, 0.1, 0.2)] {
+            assert!((distance(one, other) - expected).abs() < 1e-15);
+            assert!((distance(other, one) - expected).abs() < 1e-15);
+        }
+    }
+}

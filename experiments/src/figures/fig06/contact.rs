@@ -1,0 +1,239 @@
+//! Whether a disk bounces at all, how far it goes, and where it gets its angular momentum.
+
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
+
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase, lives};
+use bouncing_disk::{
+    CollisionEvent, Collisions, Dimensionless, Engine, Event, EventRecord, ForcingParameters, Start,
+};
+use rayon::prelude::*;
+
+use super::data::{Contact, Motion, Transfer};
+use super::scan::{Inputs, Systems, map};
+use crate::experiment::ExperimentError;
+use crate::figures::motor_case::MotorCase;
+use crate::paper;
+
+/// The Γ next to 1/π: so many neighbours in doubles on both sides, and powers of ten of the relative distance beyond them.
+const NEIGHBOURS: i32 = 8;
+/// See [`NEIGHBOURS`].
+const FARTHEST_POWER: i32 = -14;
+/// Events within which a disk at rest would leave; a period of the platform has fewer than ten.
+const EVENTS: usize = 100;
+/// Disks thrown up, at as many phases, with as much relative speed as the platform has at most (in units of g/ω).
+const THROWN: usize = 16;
+/// Impacts within which they come to rest: each takes half of the speed.
+const THROWN_IMPACTS: usize = 10_000;
+
+/// Γ on both sides of 1/π. The double nearest to it lies above it by 0.37 of the distance of two doubles; it is left out, for
+/// π times it cannot be told from 1.
+fn forcings() -> Vec<f64> {
+    let mut forcings = Vec::new();
+    let (mut below, mut above) = (FRAC_1_PI, FRAC_1_PI);
+    for _ in 0..NEIGHBOURS {
+        (below, above) = (below.next_down(), above.next_up());
+        forcings.extend([below, above]);
+    }
+    let mut distance = 0.1;
+    for _ in FARTHEST_POWER..0 {
+        forcings.extend([FRAC_1_PI * (1.0 - distance), FRAC_1_PI * (1.0 + distance)]);
+        distance *= 0.1;
+    }
+    // Far below, too: a tenth to nine tenths of 1/π.
+    forcings.extend((1..10).map(|tenths| 0.1 * f64::from(tenths) * FRAC_1_PI));
+    forcings.sort_by(f64::total_cmp);
+    forcings
+}
+
+pub(super) fn contact(inputs: Inputs) -> Result<Vec<Contact>, ExperimentError> {
+    let ulp = FRAC_1_PI.next_up() - FRAC_1_PI;
+    forcings()
+        .into_par_iter()
+        .map(|axial_forcing| {
+            let system = Systems::at(axial_forcing, inputs)?.linear;
+            let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+            let rest = Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
+            let mut engine =
+                Engine::new(system, rest, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+            let mut leaves = false;
+            for _ in 0..EVENTS {
+                let Some(record) = engine.advance().map_err(ExperimentError::model)? else { break };
+                leaves |= matches!(record.event, Event::Separation);
+            }
+            let map = map(axial_forcing, inputs.restitution)?;
+            let orbits = (0..THROWN)
+                .map(|index| {
+                    let angle = TAU * index as f64 / THROWN as f64;
+                    let start = Phase::new(angle)
+                        .and_then(|phase| ImpactState::new(phase, -1.0 / inputs.restitution));
+                    Ok(map.orbit(start.map_err(ExperimentError::model)?, ChatterPolicy::Complete))
+                })
+                .collect::<Result<Vec<_>, ExperimentError>>()?;
+            let lives = lives(&orbits, THROWN_IMPACTS).map_err(ExperimentError::model)?;
+            Ok(Contact {
+                axial_forcing,
+                distance_in_ulps: (axial_forcing - FRAC_1_PI) / ulp,
+                leaves,
+                still_bouncing: lives.into_iter().filter(|lived| *lived >= THROWN_IMPACTS).count(),
+                thrown: THROWN,
+            })
+        })
+        .collect()
+}
+
+/// Impacts of a long motion.
+const LONG: usize = 4_000;
+/// Restitutions other than the paper's: nearly elastic ones.
+const NEARLY_ELASTIC: [f64; 2] = [0.9, 0.99];
+
+/// No impact is faster than this, relative to the platform: between two impacts the disk falls by no more than the platform's
+/// 2P, and the platform moves with no more than P. In units of g/ω.
+fn speed_bound(peak: f64, restitution: f64) -> f64 {
+    let mut speed = 0.0_f64;
+    // A contraction by the restitution.
+    for _ in 0..10_000 {
+        let launched = restitution * speed + peak;
+        speed = (launched * launched + 4.0 * peak).sqrt() + peak;
+    }
+    speed
+}
+
+fn motion(axial_forcing: f64, system: &Dimensionless) -> Result<Motion, ExperimentError> {
+    let peak = system.peak_acceleration();
+    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    let start = Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
+    let mut collisions =
+        Collisions::new(*system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let (mut impacts, mut highest) = (0, peak);
+    let (mut first, mut half, mut last) = (None, 0.0, None);
+    while impacts < LONG {
+        let Some(event) = collisions.advance().map_err(ExperimentError::model)? else { break };
+        let CollisionEvent::Collision(collision) = event else { continue };
+        impacts += 1;
+        let phase = collision.state.phase;
+        let launched = -system.restitution() * collision.state.axial_impact_velocity + peak * phase.cos();
+        let rise = if launched > 0.0 { 0.5 * launched * launched } else { 0.0 };
+        highest = highest.max(peak * phase.sin() + rise);
+        if first.is_none() {
+            first = Some(collision);
+        }
+        if impacts <= LONG / 2 {
+            half = collision.angle;
+        }
+        last = Some(collision);
+    }
+    let (Some(first), Some(last)) = (first, last) else {
+        return Err(super::scan::no_orbit(axial_forcing));
+    };
+    let height = |phase: Phase| peak * phase.sin();
+    let span = last.time.since(&first.time).radians();
+    let launched = system.restitution() * speed_bound(peak, system.restitution()) + peak;
+    Ok(Motion {
+        axial_forcing,
+        restitution: system.restitution(),
+        impacts,
+        platform_periods: span / TAU,
+        mean_vertical_velocity: (height(last.time.phase) - height(first.time.phase)) / (span * peak),
+        highest: highest / peak,
+        height_bound: (peak + 0.5 * launched * launched) / peak,
+        turned_in_first_half: (half - first.angle) / system.twist_speed(),
+        turned_in_second_half: (last.angle - half) / system.twist_speed(),
+    })
+}
+
+/// Motions from rest at the Γ of Fig. 7, at the paper's restitution and nearly elastic.
+pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, ExperimentError> {
+    let restitutions = [inputs.restitution, NEARLY_ELASTIC[0], NEARLY_ELASTIC[1]];
+    let cases: Vec<(f64, f64)> =
+        forcings.iter().flat_map(|forcing| restitutions.map(|restitution| (*forcing, restitution))).collect();
+    cases
+        .into_par_iter()
+        .map(|(axial_forcing, restitution)| {
+            let system = ForcingParameters {
+                axial_forcing,
+                angular_forcing: inputs.semielliptical.angular_forcing,
+                phase_lag: inputs.semielliptical.phase_lag_rad,
+                restitution,
+            };
+            motion(axial_forcing, &system.build().map_err(ExperimentError::model)?)
+        })
+        .collect()
+}
+
+/// Impacts over which the angular impulses are added up, from a disk that does not turn: once it turns in step with the
+/// platform, nothing is transferred in period 1.
+const TRANSFERS: usize = 600;
+/// Parts into which a spell on the platform is divided: the impulse of friction may change its sign within a spell.
+const PARTS: usize = 16;
+
+/// The share of the angular impulses, by size, that impacts transfer; `None` where there are none.
+fn share_in_impacts(system: &Dimensionless, start: Start) -> Result<Option<f64>, ExperimentError> {
+    let mut engine = Engine::new(*system, start, ChatterPolicy::Paper).map_err(ExperimentError::model)?;
+    let (mut impacts, mut impulsive, mut contact) = (0, 0.0, 0.0);
+    while impacts < TRANSFERS {
+        let Some(record) = engine.advance().map_err(ExperimentError::model)? else { break };
+        impacts += usize::from(matches!(record.event, Event::Impact { .. }));
+        impulsive += record.angular_impulse.abs();
+        contact += turned_in_contact(&record, system);
+    }
+    let all = impulsive + contact;
+    Ok((all > 0.0).then(|| impulsive / all))
+}
+
+/// The sum of the sizes of the changes of angular speed on the platform; zero in flight.
+fn turned_in_contact(record: &EventRecord, system: &Dimensionless) -> f64 {
+    let speed = |part: usize| record.evaluate(system, part as f64 / PARTS as f64).disk.angular_speed;
+    if record.spell.state.mode == bouncing_disk::Mode::Flight {
+        return 0.0;
+    }
+    (0..PARTS).map(|part| (speed(part + 1) - speed(part)).abs()).sum()
+}
+
+/// The share of the motor of Table III, from rest.
+pub(super) fn motor_transfer() -> Result<Option<f64>, ExperimentError> {
+    let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
+    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    share_in_impacts(motor.dimensionless(), Start::Contact { phase, angular_speed: 0.0 })
+}
+
+/// The transfers of both rotary motions, for the followed attractor from its states and for a disk from rest.
+pub(super) fn transfers(
+    followed: &[(f64, ImpactState)],
+    from_rest: &[f64],
+    inputs: Inputs,
+) -> Result<Vec<Transfer>, ExperimentError> {
+    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    let starts: Vec<(f64, Option<ImpactState>)> = followed
+        .iter()
+        .map(|(forcing, state)| (*forcing, Some(*state)))
+        .chain(from_rest.iter().map(|forcing| (*forcing, None)))
+        .collect();
+    let pairs: Vec<[Option<Transfer>; 2]> = starts
+        .into_par_iter()
+        .map(|(axial_forcing, state)| {
+            let systems = Systems::at(axial_forcing, inputs)?;
+            let transfer = |system: &Dimensionless, angular_forcing: f64| -> Result<_, ExperimentError> {
+                let start = match state {
+                    Some(state) => Start::Launch {
+                        phase: state.phase(),
+                        relative_speed: -system.restitution() * state.velocity(),
+                        angular_speed: 0.0,
+                    },
+                    None => Start::Contact { phase, angular_speed: 0.0 },
+                };
+                let share_in_impacts = share_in_impacts(system, start)?;
+                Ok(share_in_impacts.map(|share_in_impacts| Transfer {
+                    axial_forcing,
+                    angular_forcing,
+                    from_rest: state.is_none(),
+                    share_in_impacts,
+                }))
+            };
+            Ok([
+                transfer(&systems.linear, inputs.linear.angular_forcing)?,
+                transfer(&systems.semielliptical, inputs.semielliptical.angular_forcing)?,
+            ])
+        })
+        .collect::<Result<_, ExperimentError>>()?;
+    Ok(pairs.into_iter().flatten().flatten().collect())
+}

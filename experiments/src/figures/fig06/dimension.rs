@@ -1,0 +1,166 @@
+//! The numbers that the next-collision map depends on, and what Γ_T compares.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{CollisionEvent, CollisionState, Collisions, Dimensionless, System};
+
+use super::data::{Dimension, TorqueRatio};
+use super::scan::no_orbit;
+use crate::experiment::ExperimentError;
+use crate::figures::motor_case::MotorCase;
+use crate::figures::toss_case::TossCase;
+use crate::paper;
+
+/// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference, and the rounding
+/// that it divides are both far below [`DEPENDENT`].
+const CHANGE: f64 = 1.0e-5;
+/// A pivot below this share of the largest one counts as zero. Those that are not zero are four powers of ten above it, the others
+/// that much below.
+const DEPENDENT: f64 = 1.0e-6;
+/// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast, forward and backward, in
+/// which the slip ends (the first and the last) or goes on (the others).
+const IMPACTS: [(f64, f64, f64); 4] =
+    [(0.3, -0.9, 0.4), (1.2, -0.5, -6.0), (5.9, -0.6, 5.0), (0.7, -2.3, -2.1)];
+
+/// The names of the nine inputs of Sec. V A.
+const NAMES: [&str; 9] = ["a_g", "a_e", "ω", "g", "μ", "ε", "A", "ωΦ", "θ"];
+
+/// The motor with the input of this index changed by `relative`.
+fn changed(case: MotorCase, index: usize, relative: f64) -> MotorCase {
+    let mut case = case;
+    let factor = 1.0 + relative;
+    match index {
+        0 => case.gyration_radius_m *= factor,
+        1 => case.contact_radius_m *= factor,
+        2 => case.frequency_hz *= factor,
+        3 => case.preload_acceleration_m_per_s2 *= factor,
+        4 => case.friction *= factor,
+        5 => case.restitution *= factor,
+        6 => case.amplitude_m *= factor,
+        7 => case.peak_angular_speed_rad_per_s *= factor,
+        _ => case.phase_lag_rad += relative,
+    }
+    case
+}
+
+/// The impacts that follow [`IMPACTS`], in the same units.
+fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
+    let system: Dimensionless = case.system()?.into();
+    let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
+    let mut outcomes = Vec::with_capacity(3 * IMPACTS.len());
+    for (angle, axial, tangential) in IMPACTS {
+        let state = CollisionState {
+            phase: Phase::new(angle).map_err(ExperimentError::model)?,
+            axial_impact_velocity: axial * peak,
+            tangential_impact_velocity: tangential * twist,
+        };
+        let next = Collisions::after(system, state, ChatterPolicy::Complete)
+            .and_then(|mut collisions| collisions.advance())
+            .map_err(ExperimentError::model)?;
+        let Some(CollisionEvent::Collision(next)) = next else {
+            return Err(no_orbit(system.axial_forcing()));
+        };
+        outcomes.extend([
+            TAU * next.time.cycles(),
+            next.state.axial_impact_velocity / peak,
+            next.state.tangential_impact_velocity / twist,
+        ]);
+    }
+    Ok(outcomes)
+}
+
+/// The sizes of the pivots of a set of rows, largest first: what is left of the largest row when the ones before are taken out.
+fn pivots(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut pivots = Vec::with_capacity(rows.len());
+    while !rows.is_empty() {
+        let largest =
+            (0..rows.len()).max_by(|a, b| dot(&rows[*a], &rows[*a]).total_cmp(&dot(&rows[*b], &rows[*b])));
+        let row = rows.swap_remove(largest.unwrap_or_default());
+        let size = dot(&row, &row);
+        pivots.push(size.sqrt());
+        if size > 0.0 {
+            for other in &mut rows {
+                // Twice: the second takes what rounding has left.
+                for _ in 0..2 {
+                    let share = dot(other, &row) / size;
+                    other.iter_mut().zip(&row).for_each(|(value, own)| *value -= share * own);
+                }
+            }
+        }
+    }
+    pivots
+}
+
+/// The rank of the derivatives of the next collisions by the nine inputs, at the toss of Table I as a motor of those inputs.
+pub(super) fn dimension() -> Result<Dimension, ExperimentError> {
+    let section = paper::section_four()?;
+    let toss = TossCase::from(&paper::table_one()?);
+    let platform = toss.system()?;
+    let case = MotorCase {
+        friction: toss.friction,
+        restitution: section.restitution,
+        phase_lag_rad: section.semielliptical_phase_lag_rad,
+        amplitude_m: platform.platform().parameters().amplitude,
+        peak_angular_speed_rad_per_s: platform.platform().peak_angular_speed(),
+        contact_radius_m: toss.contact_radius_m,
+        gyration_radius_m: toss.gyration_radius_m,
+        preload_acceleration_m_per_s2: toss.preload_acceleration_m_per_s2,
+        frequency_hz: toss.angular_frequency_rad_per_s / TAU,
+    };
+    let rows = (0..NAMES.len())
+        .map(|index| {
+            let above = next_collisions(changed(case, index, CHANGE))?;
+            let below = next_collisions(changed(case, index, -CHANGE))?;
+            Ok(above.iter().zip(&below).map(|(above, below)| (above - below) / (2.0 * CHANGE)).collect())
+        })
+        .collect::<Result<Vec<Vec<f64>>, ExperimentError>>()?;
+    let outcomes = rows.first().map_or(0, Vec::len);
+    let pivots = pivots(rows);
+    let first = pivots.first().copied().unwrap_or(1.0);
+    let pivots: Vec<f64> = pivots.into_iter().map(|pivot| pivot / first).collect();
+    Ok(Dimension {
+        parameters: NAMES.map(str::to_owned).to_vec(),
+        outcomes,
+        rank: pivots.iter().filter(|pivot| **pivot > DEPENDENT).count(),
+        pivots,
+    })
+}
+
+/// The inertial and the frictional torque of a disk that follows the platform under its preload.
+fn torque_ratio(name: &str, system: &System) -> Result<TorqueRatio, ExperimentError> {
+    let (disk, platform) = (system.disk(), system.platform());
+    // Per unit mass: a_g² times the largest angular acceleration, and μ a_e g.
+    let inertial = disk.gyration_radius()
+        * disk.gyration_radius()
+        * platform.parameters().angular_frequency
+        * platform.peak_angular_speed();
+    let frictional = disk.friction() * disk.contact_radius() * disk.preload_acceleration();
+    let angular_forcing = system.angular_forcing().ok_or_else(|| no_orbit(system.axial_forcing()))?;
+    Ok(TorqueRatio { system: name.to_owned(), angular_forcing, ratio: inertial / frictional })
+}
+
+pub(super) fn torque_ratios() -> Result<Vec<TorqueRatio>, ExperimentError> {
+    let toss = TossCase::from(&paper::table_one()?).system()?;
+    let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
+    Ok(vec![torque_ratio("the toss of Table I", &toss)?, torque_ratio("the motor of Table III", &motor)?])
+}
+
+/// π Γ_T is the ratio.
+pub(super) fn is_torque_ratio(of: &TorqueRatio) -> bool {
+    (of.ratio / (PI * of.angular_forcing) - 1.0).abs() < 1.0e-12
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pivots_count_independent_rows() {
+        let rows = vec![vec![1.0, 0.0, 2.0], vec![0.0, 3.0, 0.0], vec![2.0, 3.0, 4.0], vec![0.0; 3]];
+        let pivots = pivots(rows);
+        assert_eq!(pivots.len(), 4);
+        assert!(pivots[1] > 1.0 && pivots[2] < 1e-14 && pivots[3] < 1e-14, "{pivots:?}");
+    }
+}

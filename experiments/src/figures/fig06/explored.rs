@@ -1,0 +1,233 @@
+//! What the orbits visit at the crisis and beyond it, and the period doublings at finer steps of Γ.
+
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, columns, follow};
+use bouncing_disk::{Dimensionless, ForcingParameters, MultiTossSettings, OrbitClass, Start, multi_toss};
+use rayon::prelude::*;
+
+use super::chattering::from_rest;
+use super::data::{BestLag, Column, Explored, Merging, Shadow, Visited};
+use super::merging::starts;
+use super::scan::{Inputs, map, no_orbit, rounded};
+use crate::experiment::{ExperimentError, Quality};
+use crate::figures::circular::occupied_arc;
+
+/// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
+/// impacts on the mean before it comes to rest for the first time.
+const BESIDE: f64 = 1.0e-4;
+/// Impacts before and after the crisis.
+const VISITING: usize = 20_000;
+/// Cells of the plane of phase (periods) and speed |w_A Γ/(ωA)| a unit: near are cells next to each other.
+const CELLS: f64 = 100.0;
+/// The same with a ten times larger distance, to show what hangs on it.
+const COARSE_CELLS: f64 = 10.0;
+/// Impacts of an orbit beyond the crisis that are compared with the attractor.
+const SHADOWING: usize = 2_000;
+
+/// A set of cells, so many a unit.
+struct Cells {
+    unit: f64,
+    cells: BTreeSet<(i32, i32)>,
+}
+
+impl Cells {
+    fn of(states: &[ImpactState], unit: f64) -> Self {
+        Self { unit, cells: states.iter().map(|state| Self::cell(state, unit)).collect() }
+    }
+
+    fn cell(state: &ImpactState, unit: f64) -> (i32, i32) {
+        ((unit * state.phase().cycles()) as i32, (unit * state.normalised_speed()) as i32)
+    }
+
+    /// Whether a cell or one that touches it is among them; the last column of cells touches the first.
+    fn near(&self, (column, row): (i32, i32)) -> bool {
+        let columns = self.unit as i32;
+        let mut around = (-1..=1).flat_map(|across| (-1..=1).map(move |up| (across, up)));
+        around.any(|(across, up)| self.cells.contains(&((column + across).rem_euclid(columns), row + up)))
+    }
+
+    /// The share of some impacts that are near.
+    fn share(&self, states: &[ImpactState]) -> f64 {
+        let near = states.iter().filter(|state| self.near(Self::cell(state, self.unit))).count();
+        near as f64 / states.len().max(1) as f64
+    }
+
+    /// The share of the plane up to a speed that is near.
+    fn share_of_plane(&self, largest_speed: f64) -> f64 {
+        let (columns, rows) = (self.unit as i32, (self.unit * largest_speed) as i32 + 1);
+        let plane = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
+        plane.filter(|cell| self.near(*cell)).count() as f64 / f64::from(columns * rows)
+    }
+}
+
+fn visited(axial_forcing: f64, states: &[ImpactState]) -> Visited {
+    Visited {
+        axial_forcing,
+        impacts: states.len(),
+        arc_cycles: occupied_arc(states.iter().map(|state| state.phase().cycles())).unwrap_or_default(),
+        largest_speed: states.iter().map(ImpactState::normalised_speed).fold(0.0, f64::max),
+        cells: Cells::of(states, CELLS).cells.len(),
+    }
+}
+
+/// The orbit of a disk from rest, where it leaves the platform at all.
+fn orbit_from_rest(axial_forcing: f64, inputs: Inputs) -> Result<Orbit, ExperimentError> {
+    let map = map(axial_forcing, inputs.restitution)?;
+    let leaves = map.vibration().separation_phase().ok_or_else(|| no_orbit(axial_forcing))?;
+    map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)
+}
+
+/// The impacts of some orbits, as many of each.
+fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, ExperimentError> {
+    columns(orbits, 0, impacts).map_err(ExperimentError::model)
+}
+
+/// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ; `low` the Γ of Fig. 7(a)–(c).
+pub(super) fn explored(
+    first: ImpactState,
+    inputs: Inputs,
+    merging: &Merging,
+    cycles: &[(f64, Option<usize>)],
+    low: &[f64],
+) -> Result<Explored, ExperimentError> {
+    let crisis = merging.axial_forcing();
+    let start = *starts(first, inputs)?.first().ok_or_else(|| no_orbit(crisis))?;
+    let orbit_at = |forcing: f64| -> Result<Orbit, ExperimentError> {
+        Ok(map(forcing, inputs.restitution)?.orbit(start, ChatterPolicy::Paper))
+    };
+    let (before, after) = (crisis - BESIDE, crisis + BESIDE);
+    // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
+    let beside =
+        columns(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING).map_err(ExperimentError::model)?;
+    let cells = [CELLS, COARSE_CELLS].map(|unit| Cells::of(&beside[0], unit));
+    let chattering = recorded(&[orbit_from_rest(before, inputs)?], VISITING)?;
+    let union: Vec<ImpactState> = beside[0].iter().chain(&chattering[0]).copied().collect();
+    let beyond: Vec<f64> = cycles
+        .iter()
+        .filter(|(forcing, cycle)| *forcing > crisis && cycle.is_some())
+        .map(|(forcing, _)| *forcing)
+        .collect();
+    let orbits =
+        beyond.iter().map(|forcing| orbit_from_rest(*forcing, inputs)).collect::<Result<Vec<_>, _>>()?;
+    let shadows = beyond.iter().zip(recorded(&orbits, SHADOWING)?);
+    let orbits =
+        low.iter().map(|forcing| orbit_from_rest(*forcing, inputs)).collect::<Result<Vec<_>, _>>()?;
+    let low_period = low.iter().zip(recorded(&orbits, SHADOWING)?);
+    let after = visited(after, &beside[1]);
+    let shadow = |(forcing, states): (&f64, Vec<ImpactState>)| Shadow {
+        axial_forcing: *forcing,
+        impacts: states.len(),
+        share_near: cells[0].share(&states),
+        share_at_ten_times_the_distance: cells[1].share(&states),
+    };
+    Ok(Explored {
+        before: visited(before, &beside[0]),
+        before_with_chattering: visited(before, &union),
+        shadows: shadows.map(shadow).collect(),
+        low_period: low_period.map(shadow).collect(),
+        share_of_plane: cells[0].share_of_plane(after.largest_speed),
+        share_of_plane_at_ten_times_the_distance: cells[1].share_of_plane(after.largest_speed),
+        after,
+    })
+}
+
+/// The Γ of the enlarged part of the diagram.
+pub(super) const ZOOM: (f64, f64) = (0.5390, 0.5430);
+/// Impacts at each Γ of it before any is kept: next to a doubling an orbit attracts slowly.
+const ZOOM_TRANSIENT: usize = 3_000;
+/// Impacts at each Γ of it that are kept.
+const ZOOM_IMPACTS: usize = 128;
+
+/// The followed attractor in the enlarged part, from a state on it at a lower Γ.
+pub(super) fn zoom(
+    from: ImpactState,
+    inputs: Inputs,
+    quality: Quality,
+) -> Result<Vec<Column>, ExperimentError> {
+    let steps = quality.choose(80, 480);
+    let (low, high) = ZOOM;
+    let forcings = (0..=steps).map(|step| low + (high - low) * f64::from(step) / f64::from(steps));
+    let followed = follow(inputs.restitution, forcings, from, ZOOM_TRANSIENT, ChatterPolicy::Paper)
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(ExperimentError::model)?;
+    let orbits: Vec<Orbit> = followed.iter().map(|at| at.map.orbit(at.state, ChatterPolicy::Paper)).collect();
+    let states = recorded(&orbits, ZOOM_IMPACTS)?;
+    Ok(followed
+        .iter()
+        .zip(states)
+        .map(|(at, states)| {
+            let mut phases: Vec<f64> = states.iter().map(|state| rounded(state.phase().cycles())).collect();
+            phases.sort_by(f64::total_cmp);
+            phases.dedup_by(|one, other| one.total_cmp(other).is_eq());
+            Column { axial_forcing: at.axial_forcing, impact_phase_cycles: phases }
+        })
+        .collect())
+}
+
+/// The lags tried, in steps: wherever an orbit spends its impacts between phase 0 and a quarter of a period, the best lag is there.
+const LAGS_DEG: std::ops::RangeInclusive<i32> = -9..=2;
+/// Distance of two lags (degrees).
+pub(super) const LAG_STEP_DEG: i32 = 10;
+
+/// The best phase lag of the followed attractor at some states of it, and of a disk from rest at some Γ, for both Γ_T of Fig. 6.
+pub(super) fn best_lags(
+    followed: &[(f64, ImpactState)],
+    from_rest_at: &[f64],
+    inputs: Inputs,
+    settings: MultiTossSettings,
+) -> Result<Vec<BestLag>, ExperimentError> {
+    let forcings = [inputs.semielliptical.angular_forcing, inputs.linear.angular_forcing];
+    let starts: Vec<(f64, Option<ImpactState>, f64)> = followed
+        .iter()
+        .map(|(forcing, state)| (*forcing, Some(*state)))
+        .chain(from_rest_at.iter().map(|forcing| (*forcing, None)))
+        .flat_map(|(forcing, state)| forcings.map(|angular| (forcing, state, angular)))
+        .collect();
+    starts
+        .into_par_iter()
+        .map(|(axial_forcing, state, angular_forcing)| {
+            let mut best = BestLag {
+                axial_forcing,
+                angular_forcing,
+                followed: state.is_some(),
+                period: None,
+                lag_rad: 0.0,
+                speed: f64::NEG_INFINITY,
+            };
+            for step in LAGS_DEG {
+                let phase_lag = PI * f64::from(step * LAG_STEP_DEG) / 180.0;
+                let system = ForcingParameters {
+                    axial_forcing,
+                    angular_forcing,
+                    phase_lag,
+                    restitution: inputs.restitution,
+                }
+                .build()
+                .map_err(ExperimentError::model)?;
+                let orbit =
+                    multi_toss(system, start(&system, state)?, settings).map_err(ExperimentError::model)?;
+                let speed = orbit.mean_angular_speed.unwrap_or_default() / system.twist_speed();
+                if speed > best.speed {
+                    let period = match orbit.class {
+                        OrbitClass::Periodic { period, .. } => Some(period),
+                        _ => None,
+                    };
+                    best = BestLag { lag_rad: phase_lag, speed, period, ..best };
+                }
+            }
+            Ok(best)
+        })
+        .collect()
+}
+
+/// On the followed attractor, or at rest.
+fn start(system: &Dimensionless, state: Option<ImpactState>) -> Result<Start, ExperimentError> {
+    let Some(state) = state else { return from_rest(system) };
+    Ok(Start::Launch {
+        phase: state.phase(),
+        relative_speed: -system.restitution() * state.velocity(),
+        angular_speed: system.platform_angular_speed(state.phase()),
+    })
+}

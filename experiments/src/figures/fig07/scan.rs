@@ -1,0 +1,185 @@
+//! Basins at many more forcings, on coarse grids: along the period-1 window, beyond the crisis, and from rest.
+
+use std::f64::consts::PI;
+
+use bouncing_disk::core::{
+    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Phase, UNDECIDED, follow,
+    lives,
+};
+use rayon::prelude::*;
+
+use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
+use super::panels::{grid, map, start};
+use crate::experiment::{ExperimentError, Quality};
+use crate::paper::SectionFour;
+
+/// Forcings from that of panel (a) to that of (b).
+const ALONG_WINDOW: u32 = 16;
+/// The tops of the windows in which shares are taken: every whole one from where speeds of period 1 (1.33) are well inside.
+const TOPS: [usize; 7] = [2, 3, 4, 5, 6, 7, 8];
+/// Impacts after which a start along the window belongs neither to period 1 nor to chattering.
+const LONGEST_ALONG: u32 = 4_000;
+/// Impacts after which a start beyond the crisis counts as one that never comes to rest. The transients of some hundred impacts
+/// that the crisis leaves are over by far.
+const LONGEST_BEYOND: u32 = 20_000;
+/// Phases between separation and its mirror image at which a disk at rest is let go, too: there the platform falls away.
+const REST_PHASES: u32 = 64;
+/// Longest period (impacts) that is recognised, and how well two rounds agree.
+const LONGEST_PERIOD: usize = 256;
+/// See [`LONGEST_PERIOD`].
+const REPEATS_WITHIN: f64 = 1.0e-6;
+/// Steps of Γ in which the further attractor of panel (b) is followed, and impacts in each.
+const TRACE_STEP: f64 = 2.0e-5;
+/// See [`TRACE_STEP`].
+const TRACE_IMPACTS: usize = 500;
+/// How far it is followed at most; it is lost long before.
+const TRACE_REACH: f64 = 0.03;
+
+/// Shares of the period-1 and the chattering basin along the period-1 window.
+pub(super) fn along_window(
+    section: &SectionFour,
+    quality: Quality,
+) -> Result<Vec<Easiness>, ExperimentError> {
+    let [first, last, ..] = section.axial_forcings_of_fig7;
+    let (rows, columns) = quality.choose((80, 40), (240, 90));
+    (0..ALONG_WINDOW)
+        .into_par_iter()
+        .map(|index| {
+            let axial_forcing = first + (last - first) * f64::from(index) / f64::from(ALONG_WINDOW - 1);
+            let map = map(axial_forcing, section.restitution)?;
+            let mut known = Vec::new();
+            if let Some(state) = map.period_one(1) {
+                let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
+                if let Some(radius) = orbit.trapping_radius(&map, 64) {
+                    known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
+                }
+            }
+            let highest = TOPS[TOPS.len() - 1];
+            let settings = BasinSettings { max_impacts: LONGEST_ALONG, policy: ChatterPolicy::Complete };
+            let basins = map
+                .basins(grid(highest as f64, rows, columns)?, &known, settings, || ())
+                .map_err(ExperimentError::model)?;
+            let shares = TOPS
+                .iter()
+                .map(|top| {
+                    let cells = &basins.labels()[..columns * (rows * top / highest)];
+                    let share =
+                        |label| cells.iter().filter(|own| **own == label).count() as f64 / cells.len() as f64;
+                    TopShares {
+                        top: *top as f64,
+                        period_one: share(FIRST_ORBIT),
+                        chattering: share(ATTACHED),
+                    }
+                })
+                .collect();
+            Ok(Easiness { axial_forcing, shares })
+        })
+        .collect()
+}
+
+/// The starts that do not come to rest, from the printed Γ of the merging to the end of the diagram of Fig. 6.
+pub(super) fn beyond(
+    section: &SectionFour,
+    top: f64,
+    quality: Quality,
+) -> Result<Vec<Beyond>, ExperimentError> {
+    let (first, last) = (section.merging, crate::figures::fig06::FORCING_RANGE.1);
+    let (step, side) = quality.choose((5.0e-4, 8), (2.0e-4, 16));
+    let count = ((last - first) / step).round() as u32;
+    (0..=count)
+        .into_par_iter()
+        .map(|index| {
+            let axial_forcing = first + step * f64::from(index);
+            let map = map(axial_forcing, section.restitution)?;
+            let grid = grid(top, side, side)?;
+            let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
+            let basins = map.basins(grid, &[], settings, || ()).map_err(ExperimentError::model)?;
+            let open = |label: &u8| *label == UNDECIDED;
+            let mut period = None;
+            if let Some(index) = basins.labels().iter().position(|label| open(label)) {
+                let from = start(&grid, index / side, index % side)?;
+                let survivor = map
+                    .survivor(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)
+                    .map_err(ExperimentError::model)?;
+                if let Some(state) = survivor {
+                    period = map
+                        .period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)
+                        .map_err(ExperimentError::model)?;
+                }
+            }
+            Ok(Beyond {
+                axial_forcing,
+                starts: side * side,
+                not_at_rest: basins.labels().iter().filter(|label| open(label)).count(),
+                impacts: LONGEST_BEYOND,
+                period,
+            })
+        })
+        .collect()
+}
+
+/// What becomes of a disk at rest on the platform, at any phase.
+pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, ExperimentError> {
+    forcings
+        .par_iter()
+        .map(|&axial_forcing| {
+            let map: ImpactMap = map(axial_forcing, restitution)?;
+            let mut orbits = Vec::new();
+            if let Some(leaves) = map.vibration().separation_phase() {
+                // At all other phases it stays until the first of these.
+                let falling = PI - 2.0 * leaves.angle();
+                for index in 0..REST_PHASES {
+                    let angle = leaves.angle() + falling * f64::from(index) / f64::from(REST_PHASES);
+                    let phase = if index == 0 { Ok(leaves) } else { Phase::new(angle) };
+                    let phase = phase.map_err(ExperimentError::model)?;
+                    let orbit = map.orbit_from_launch(phase, 0.0, ChatterPolicy::Complete);
+                    orbits.push(orbit.map_err(ExperimentError::model)?);
+                }
+            }
+            let longest = LONGEST_BEYOND as usize;
+            let lives = lives(&orbits, longest).map_err(ExperimentError::model)?;
+            Ok(Rest {
+                axial_forcing,
+                starts: orbits.len(),
+                come_to_rest: lives.into_iter().filter(|lived| *lived < longest).count(),
+            })
+        })
+        .collect()
+}
+
+/// Where the further attractor of panel (b) comes from and where it is lost.
+pub(super) fn traced(
+    axial_forcing: f64,
+    other: &Other,
+    restitution: f64,
+) -> Result<Option<Traced>, ExperimentError> {
+    let Some(&(cycles, speed)) = other.impacts.first() else { return Ok(None) };
+    let first = bouncing_disk::core::ImpactState::from_normalised(2.0 * PI * cycles, speed)
+        .map_err(ExperimentError::model)?;
+    let steps = (TRACE_REACH / TRACE_STEP) as u32;
+    // Γ and period as far as it can be followed: to a rest, or to the period-1 orbit.
+    let trace = |direction: f64| -> Result<Vec<(f64, Option<usize>)>, ExperimentError> {
+        let forcings = (0..=steps).map(|step| axial_forcing + direction * TRACE_STEP * f64::from(step));
+        let mut passed = Vec::new();
+        for at in follow(restitution, forcings, first, TRACE_IMPACTS, ChatterPolicy::Complete) {
+            let at = at.map_err(ExperimentError::model)?;
+            let period =
+                at.map.period_of(at.state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;
+            if period == Some(1) {
+                break;
+            }
+            passed.push((at.axial_forcing, period));
+        }
+        Ok(passed)
+    };
+    let (down, up) = rayon::join(|| trace(-1.0), || trace(1.0));
+    let (down, up) = (down?, up?);
+    let undoubled = |(_, period): &&(f64, Option<usize>)| *period == Some(other.impacts.len() / 2);
+    Ok(down.last().zip(up.last()).map(|(lowest, highest)| Traced {
+        step: TRACE_STEP,
+        appears: lowest.0,
+        period_where_it_appears: lowest.1,
+        doubles: down.iter().find(undoubled).map(|at| at.0),
+        lost: highest.0,
+    }))
+}
