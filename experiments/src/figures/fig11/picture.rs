@@ -13,13 +13,13 @@ const STYLES: [(Colour, Dash); 3] =
     [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
 
 /// Ends of the axes: speed, and stall acceleration.
-const SPEEDS: (f64, f64) = (-9.0, 51.0);
+const SPEEDS: (f64, f64) = (-9.0, 57.0);
 const STALLS: (f64, f64) = (-4.0, 36.0);
 
 /// Shares of panel (a) that the legend takes with a line for the measurements, and a little more.
-const LEGEND_WIDTH: f64 = 0.55;
+const LEGEND_WIDTH: f64 = 0.78;
 /// See [`LEGEND_WIDTH`].
-const LEGEND_HEIGHT: f64 = 0.45;
+const LEGEND_HEIGHT: f64 = 0.52;
 
 /// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would hide the curves.
 const BAR_EVERY: usize = 12;
@@ -117,6 +117,7 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .enumerate()
                     .flat_map(|(index, curve)| layers(curve, index, steady_speed, Names::Shown)),
             )
+            .layer(squares(Vec::new()).name("stall load in (b), (d)"))
             .layers(crosses(data, frequency, |point| point.steady_speed_rad_per_s))
             .layer(label.clone());
         let torque = 1e6 * data.moment_of_inertia();
@@ -132,22 +133,19 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .enumerate()
                     .flat_map(|(index, curve)| layers(curve, index, stall, Names::Hidden)),
             )
-            .layer(
-                Scatter::new(stalls_really)
-                    .marker(Marker::Square)
-                    .colour(Colour::PURPLE)
-                    .width(1.4)
-                    .size(7.0)
-                    .name("load torque that stalls it"),
-            )
+            .layer(squares(stalls_really))
             .layers(crosses(data, frequency, |point| point.stall_acceleration_rad_per_s2))
-            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.70, words)))
+            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.85, words)))
             .layer(label);
         let left = if row == 0 { left.legend(Legend::at(Corner::TopRight)) } else { left };
-        let right = if row == 0 { right.legend(Legend::at(Corner::TopLeft).inset(26.0)) } else { right };
         figure = figure.panel(left).panel(right);
     }
     figure
+}
+
+/// The loads that really stall the motor.
+fn squares(points: Vec<(f64, f64)>) -> Scatter {
+    Scatter::new(points).marker(Marker::Square).colour(Colour::PURPLE).width(1.4).size(6.0)
 }
 
 /// The measured points of a panel, if there are any, with the crosses of the paper.
