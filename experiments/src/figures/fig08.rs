@@ -57,7 +57,8 @@ impl Experiment for Fig08 {
              steel ball of {} mm diameter with radius of gyration a_g = {} mm; the stator, a pretwisted beam glued to an \
              axially poled piezoelectric transducer, which the ball touches along a circle of radius a_e = {} mm (enlarged at \
              the right). A sinusoidal voltage at a resonance makes the stator's tip vibrate as Eq. (1) describes, s up and \
-             down and β about the axis; P is the poling. The preload is the weight of the ball, reduced by a magnet above it. All other \
+             down and β about the axis; the arrow in the transducer is its poling. The preload mg is the weight of the ball, reduced by a magnet above it: g is the \
+             acceleration that is left. All other \
              dimensions of the drawing are made up: the paper's drawing is not in its text.",
             data.ball_diameter_mm, data.table_iii.gyration_radius_mm, data.table_iii.contact_radius_mm
         )

@@ -1,5 +1,6 @@
 //! Fig. 11: steady-state speed and stall torque of the motor against preload.
 
+mod bouncing;
 mod data;
 mod measured;
 mod picture;

@@ -27,17 +27,20 @@ impl Experiment for Table3 {
             "The default motor. Sec. V A announces {} inputs, the table prints {}: a column for ω is missing, and its \
              last column can be read in two ways, both computed here: g = {} m/s² as printed, or ω/2π = {} kHz with \
              gravity for g. ω is 2π × {} kHz in both. Below the nine inputs: what follows from \
-             them.",
+             them. The load torque that stalls the motor is found by bisection on the sign of the mean speed, {} members over {} rise times each; the paper takes \
+             α̇_ss/t_c for it.",
             data.inputs.len(),
             data.printed_inputs,
             data.printed_preload_acceleration_m_per_s2,
             data.frequency_khz,
-            data.frequency_khz
+            data.frequency_khz,
+            data.stalls[1].members,
+            data.stalls[1].rises,
         )
     }
 
-    fn run(_: Quality, _: &dyn Progress) -> Result<Table3Data, ExperimentError> {
-        derived::compute()
+    fn run(quality: Quality, _: &dyn Progress) -> Result<Table3Data, ExperimentError> {
+        derived::compute(quality)
     }
 
     fn draw(data: &Table3Data) -> Result<Figure, ExperimentError> {

@@ -81,6 +81,9 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
     let turn = arc(&camera, 0.62 * radius, (AZIMUTH - 1.1, AZIMUTH + 1.1), 0.0);
     drawing = drawing.arrow(turn, Stroke::new(Colour::BLACK, 0.9));
     drawing = drawing.text((x, y - 0.47 * radius), Anchor::Centre, r"$\alpha$");
+    // The preload.
+    drawing =
+        drawing.arrow([(x, y + 0.75 * radius), (x, y + 0.04 * radius)], Stroke::new(Colour::VERMILION, 1.4));
     // Diameter.
     let side = x - radius - 3.2;
     for height in [y - radius, y + radius] {
@@ -117,8 +120,8 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
         .text_styled(
             (front(middle).0 + 1.2, front(middle).1),
             Anchor::LeftCentre,
-            "$P$",
-            Some(8.5),
+            "poling",
+            Some(8.0),
             Colour::BLACK,
             0.0,
         );
@@ -132,8 +135,9 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
         drawing,
         (x + 4.0, at(magnet.top - 3.0).1),
         (right, at(magnet.top - 1.0).1),
-        &["magnet", "(sets the preload)"],
+        &["magnet", "(reduces the preload)"],
     );
+    drawing = leader(drawing, (x + 0.7, y + 0.45 * radius), (right, y + 10.5), &["preload $mg$"]);
     drawing =
         leader(drawing, (x + 0.80 * radius, y + 0.35 * radius), (right, y + 6.0), &["steel ball (rotor)"]);
     drawing = leader(

@@ -13,13 +13,18 @@ const STYLES: [(Colour, Dash); 3] =
     [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
 
 /// Ends of the axes: speed, and stall acceleration.
-const SPEEDS: (f64, f64) = (-5.0, 43.0);
+const SPEEDS: (f64, f64) = (-9.0, 57.0);
 const STALLS: (f64, f64) = (-4.0, 36.0);
 
 /// Shares of panel (a) that the legend takes with a line for the measurements, and a little more.
-const LEGEND_WIDTH: f64 = 0.55;
+const LEGEND_WIDTH: f64 = 0.78;
 /// See [`LEGEND_WIDTH`].
-const LEGEND_HEIGHT: f64 = 0.45;
+const LEGEND_HEIGHT: f64 = 0.52;
+
+/// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would hide the curves.
+const BAR_EVERY: usize = 12;
+/// See [`BAR_EVERY`].
+const BAR_SHIFT: usize = 4;
 
 /// The ends of an axis, extended where measurements lie outside.
 fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
@@ -98,9 +103,21 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             .ticks(ticks(speed_ends, SPEEDS, 10.0, 2))
             .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
         let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, STALLS, 10.0, 2));
+        let stalls_really: Vec<(f64, f64)> = data
+            .stalls
+            .iter()
+            .filter(|at| at.frequency_hz.total_cmp(&frequency).is_eq())
+            .map(|at| (at.preload_mn, at.stall.load_rad_per_s2.mean))
+            .collect();
         let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
         let left = frame(0, ["a", "c"][row], speeds)
-            .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, steady_speed)))
+            .layers(
+                curves
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(index, curve)| layers(curve, index, steady_speed, Names::Shown)),
+            )
+            .layer(squares(Vec::new()).name("stall load in (b), (d)"))
             .layers(crosses(data, frequency, |point| point.steady_speed_rad_per_s))
             .layer(label.clone());
         let torque = 1e6 * data.moment_of_inertia();
@@ -110,7 +127,13 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .ticks(ticks(stall_ends, STALLS, 10.0, 2))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
-            .layers(curves.iter().enumerate().flat_map(|(index, curve)| layers(curve, index, stall)))
+            .layers(
+                curves
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(index, curve)| layers(curve, index, stall, Names::Hidden)),
+            )
+            .layer(squares(stalls_really))
             .layers(crosses(data, frequency, |point| point.stall_acceleration_rad_per_s2))
             .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.85, words)))
             .layer(label);
@@ -118,6 +141,11 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
         figure = figure.panel(left).panel(right);
     }
     figure
+}
+
+/// The loads that really stall the motor.
+fn squares(points: Vec<(f64, f64)>) -> Scatter {
+    Scatter::new(points).marker(Marker::Square).colour(Colour::PURPLE).width(1.4).size(6.0)
 }
 
 /// The measured points of a panel, if there are any, with the crosses of the paper.
@@ -128,8 +156,8 @@ fn crosses(data: &Fig11Data, frequency_hz: f64, reading: fn(&measured::Point) ->
     (!points.is_empty()).then(|| crosses.name("measured"))
 }
 
-/// The line of one amplitude, its points with error bars, and those where the motor repeats a low-period cycle.
-fn layers(curve: &Curve, index: usize, reading: Reading) -> Vec<Layer> {
+/// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a low-period cycle.
+fn layers(curve: &Curve, index: usize, reading: Reading, names: Names) -> Vec<Layer> {
     let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
     let read = |low_period: bool| -> Vec<(f64, f64, f64)> {
         let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
@@ -138,23 +166,29 @@ fn layers(curve: &Curve, index: usize, reading: Reading) -> Vec<Layer> {
             .collect()
     };
     let dots = read(false);
-    let low_period = read(true);
-    let scatter = |points: &[(f64, f64, f64)]| {
-        Scatter::new(points.iter().map(|(x, y, _)| (*x, *y)))
-            .errors_y(points.iter().map(|point| point.2))
-            .colour(colour)
-            .size(3.4)
+    let barred: Vec<_> = dots.iter().skip(BAR_SHIFT * index).step_by(BAR_EVERY).copied().collect();
+    let scatter =
+        |points: &[(f64, f64, f64)]| Scatter::new(points.iter().map(|(x, y, _)| (*x, *y))).colour(colour);
+    let line = Line::new(dots.iter().map(|(x, y, _)| (*x, *y))).colour(colour).width(0.7).dash(dash);
+    let circles = scatter(&read(true)).marker(Marker::Circle).filled_white().size(3.4);
+    let (line, circles) = match names {
+        Names::Shown => (
+            line.name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m))),
+            if index + 1 == STYLES.len() { circles.name("low-period cycle") } else { circles },
+        ),
+        Names::Hidden => (line, circles),
     };
-    let circles = scatter(&low_period).marker(Marker::Circle).filled_white();
-    let circles = if index + 1 == STYLES.len() { circles.name("low-period cycle") } else { circles };
     vec![
-        Line::new(dots.iter().map(|(x, y, _)| (*x, *y)))
-            .colour(colour)
-            .width(0.8)
-            .dash(dash)
-            .name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m)))
-            .into(),
-        scatter(&dots).into(),
+        line.into(),
+        scatter(&dots).size(1.8).into(),
+        scatter(&barred).errors_y(barred.iter().map(|point| point.2)).size(1.8).into(),
         circles.into(),
     ]
+}
+
+/// Whether layers have names for a legend.
+#[derive(Clone, Copy)]
+enum Names {
+    Shown,
+    Hidden,
 }

@@ -1,182 +1,295 @@
 //! The trends of Fig. 11 over the preloads.
 
 use bouncing_disk::core::elementary::ln;
+use serde::{Deserialize, Serialize};
 
-use super::data::{Curve, Fig11Data, Point};
-use crate::claim::Claim;
-use crate::figures::motor_case::relative_range;
+use super::data::{Curve, Point};
+use crate::claim::Agreement;
 use crate::figures::regression::StraightLine;
 
-/// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload.
-const PROPORTIONAL_WITHIN: f64 = 0.1;
+/// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
+/// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
+pub(super) const SHARP: f64 = 0.2;
 
-/// Largest exponent (of either sign, with two standard errors) at which the steady speed counts as relatively independent of the preload:
-/// over the 3.5-fold range of preloads it then changes by 13 % at most.
-const INDEPENDENT_WITHIN: f64 = 0.1;
+/// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload, and largest exponent of either
+/// sign (with two standard errors) at which the speed counts as independent of it: over the 3.5-fold range of preloads both make 13 %.
+pub(super) const EXPONENT_WITHIN: f64 = 0.1;
 
-/// A change of the steady speed by more than this share of its mean is sharp.
-const SHARP: f64 = 0.2;
-
-/// The points of a curve between the preloads of the trends; with or without those on a low-period cycle.
-pub(super) fn in_range<'a>(data: &Fig11Data, curve: &'a Curve, with_locked: bool) -> Vec<&'a Point> {
-    let [from, to] = data.trend_mn();
-    let inside = curve.points.iter().filter(|point| (from..=to).contains(&point.preload_mn));
-    inside.filter(|point| with_locked || !point.statistics.is_low_period()).collect()
+/// A power of the preload, fitted to logarithms.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Power {
+    pub(super) exponent: f64,
+    pub(super) standard_error: f64,
+    /// Share of the variance that it explains.
+    pub(super) explained: f64,
+    pub(super) motors: usize,
 }
 
-/// The straight line through the logarithms of preload and of what `of` reads, and the relative range of that.
-fn power_law(points: &[&Point], of: fn(&Point) -> Option<f64>) -> Option<(StraightLine, f64)> {
-    let read: Vec<(f64, f64)> = points
-        .iter()
-        .filter_map(|point| of(point).map(|value| (point.preload_mn, value.abs())))
-        .filter(|(_, value)| *value > 0.0)
-        .collect();
-    let logarithms: Vec<_> = read.iter().map(|(x, y)| (ln(*x), ln(*y))).collect();
-    let values: Vec<_> = read.iter().map(|point| point.1).collect();
-    StraightLine::through(&logarithms).map(|line| (line, relative_range(&values)))
+/// One curve: what its motors do inside the preloads of the measured trends, and beside them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Trend {
+    pub(super) frequency_hz: f64,
+    pub(super) amplitude_m: f64,
+    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration over preload.
+    pub(super) median_speed_rad_per_s: f64,
+    pub(super) median_stall_per_preload_rad_per_s2_mn: f64,
+    /// How many motors inside have a speed, a torque or both on the trend. A motor without a stall torque is off it.
+    pub(super) speed: Agreement,
+    pub(super) torque: Agreement,
+    pub(super) both: Agreement,
+    /// Motors inside on a low-period cycle, and those of them with speed and torque on the trend.
+    pub(super) low_period: usize,
+    pub(super) low_period_on_trend: usize,
+    /// Motors inside without a stall torque.
+    pub(super) without_torque: usize,
+    /// Exponents inside without the motors on a low-period cycle.
+    pub(super) torque_power: Option<Power>,
+    pub(super) speed_power: Option<Power>,
+    /// Above the preload of the measured plateau: how steeply the torque of all motors that have one rises, in units of the middle torque over preload inside.
+    /// The median over all pairs of motors, which a few motors off the trend do not move; 1 on the trend, 0 on a plateau.
+    pub(super) high_torque_slope: Option<f64>,
+    /// The exponent there without the motors on a low-period cycle.
+    pub(super) high_torque_power_without: Option<Power>,
+    /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
+    pub(super) no_fall: Agreement,
+    pub(super) no_rise_above: Agreement,
+    /// The same without the motors on a low-period cycle.
+    pub(super) no_fall_without: Agreement,
+    pub(super) no_rise_above_without: Agreement,
+    /// Slowest and fastest steady speed outside, of these.
+    pub(super) outside_without_rad_per_s: Option<[f64; 2]>,
+}
+
+impl Trend {
+    pub(super) fn of(curve: &Curve, [from, to]: [f64; 2], plateau_mn: f64) -> Self {
+        let inside: Vec<&Point> =
+            curve.points.iter().filter(|point| (from..=to).contains(&point.preload_mn)).collect();
+        let below: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn < from).collect();
+        let above: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn > to).collect();
+        let per_preload = |point: &Point| stall(point).map(|stall| stall / point.preload_mn);
+        let median_speed = median(inside.iter().map(|point| speed(point)));
+        let median_stall = median(inside.iter().filter_map(|point| per_preload(point)));
+        let near = |value: f64, middle: f64| (value - middle).abs() <= SHARP * middle.abs();
+        let speed_holds = |point: &Point| near(speed(point), median_speed);
+        let torque_holds = |point: &Point| per_preload(point).is_some_and(|value| near(value, median_stall));
+        let chaotic = |points: &[&'_ Point]| -> Vec<Point> {
+            points.iter().filter(|point| !point.statistics.is_low_period()).map(|&&point| point).collect()
+        };
+        let all = |points: &[&'_ Point]| -> Vec<Point> { points.iter().map(|&&point| point).collect() };
+        let no_fall = |points: &[Point]| {
+            Agreement::of(points.iter().map(|point| speed(point) >= (1.0 - SHARP) * median_speed))
+        };
+        let no_rise = |points: &[Point]| {
+            Agreement::of(points.iter().map(|point| speed(point) <= (1.0 + SHARP) * median_speed))
+        };
+        let outside = [below, above.clone()].concat();
+        let high: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn > plateau_mn).collect();
+        let inside_chaotic = chaotic(&inside);
+        Self {
+            frequency_hz: curve.frequency_hz,
+            amplitude_m: curve.amplitude_m,
+            median_speed_rad_per_s: median_speed,
+            median_stall_per_preload_rad_per_s2_mn: median_stall,
+            speed: Agreement::of(inside.iter().map(|point| speed_holds(point))),
+            torque: Agreement::of(inside.iter().map(|point| torque_holds(point))),
+            both: Agreement::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
+            low_period: inside.len() - inside_chaotic.len(),
+            low_period_on_trend: inside
+                .iter()
+                .filter(|point| point.statistics.is_low_period())
+                .filter(|point| speed_holds(point) && torque_holds(point))
+                .count(),
+            without_torque: inside.iter().filter(|point| stall(point).is_none()).count(),
+            torque_power: Power::through(&inside_chaotic, stall),
+            speed_power: Power::through(&inside_chaotic, |point| Some(speed(point))),
+            high_torque_slope: median_slope(&high).map(|slope| slope / median_stall),
+            high_torque_power_without: Power::through(&chaotic(&high), stall),
+            no_fall: no_fall(&all(&outside)),
+            no_rise_above: no_rise(&all(&above)),
+            no_fall_without: no_fall(&chaotic(&outside)),
+            no_rise_above_without: no_rise(&chaotic(&above)),
+            outside_without_rad_per_s: extent(&chaotic(&outside).iter().map(speed).collect::<Vec<_>>()),
+        }
+    }
+
+    /// The amplitude in words.
+    pub(super) fn name(&self) -> String {
+        format!("{:e} m", self.amplitude_m)
+    }
+}
+
+impl Power {
+    /// Through the motors for which `of` reads a positive number.
+    fn through(points: &[Point], of: fn(&Point) -> Option<f64>) -> Option<Self> {
+        let logarithms: Vec<(f64, f64)> = points
+            .iter()
+            .filter_map(|point| of(point).map(|value| (point.preload_mn, value)))
+            .filter(|(_, value)| *value > 0.0)
+            .map(|(preload, value)| (ln(preload), ln(value)))
+            .collect();
+        StraightLine::through(&logarithms).map(|line| Self {
+            exponent: line.slope,
+            standard_error: line.slope_error,
+            explained: line.explained,
+            motors: logarithms.len(),
+        })
+    }
+
+    /// In words.
+    pub(super) fn words(self) -> String {
+        format!("{:+.3} ± {:.3}", self.exponent, self.standard_error)
+    }
+}
+
+/// The motors on a low-period cycle, and what those of a single flight do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Holes {
+    pub(super) motors: usize,
+    pub(super) low_period: usize,
+    pub(super) one_flight: usize,
+    /// Smallest and largest fraction of Γ of the motors on a cycle of one flight, and the difference.
+    pub(super) one_flight_fractions: Option<[f64; 2]>,
+    pub(super) one_flight_window: Option<f64>,
+    /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
+    pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
+    pub(super) low_period_speeds_rad_per_s: Option<[f64; 2]>,
+    pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
+}
+
+impl Holes {
+    pub(super) fn of(curves: &[Curve]) -> Self {
+        let points: Vec<&Point> = curves.iter().flat_map(|curve| &curve.points).collect();
+        let is_one_flight =
+            |point: &Point| point.statistics.is_low_period() && point.statistics.cycle.is_one_flight();
+        let speeds = |wanted: &dyn Fn(&Point) -> bool| {
+            let chosen = points.iter().filter(|point| wanted(point)).map(|point| speed(point));
+            extent(&chosen.collect::<Vec<_>>())
+        };
+        let one_flight: Vec<_> = points.iter().filter(|point| is_one_flight(point)).collect();
+        let fractions: Vec<f64> =
+            one_flight.iter().map(|point| point.axial_forcing.rem_euclid(1.0)).collect();
+        let one_flight_fractions = extent(&fractions);
+        Self {
+            motors: points.len(),
+            low_period: points.iter().filter(|point| point.statistics.is_low_period()).count(),
+            one_flight: one_flight.len(),
+            one_flight_fractions,
+            one_flight_window: one_flight_fractions.map(|[least, most]| most - least),
+            one_flight_speeds_rad_per_s: speeds(&is_one_flight),
+            low_period_speeds_rad_per_s: speeds(&|point| point.statistics.is_low_period()),
+            other_speeds_rad_per_s: speeds(&|point| !point.statistics.is_low_period()),
+        }
+    }
 }
 
 pub(super) fn stall(point: &Point) -> Option<f64> {
     point.statistics.stall_acceleration_rad_per_s2.map(|spread| spread.mean)
 }
 
-pub(super) fn speed(point: &Point) -> Option<f64> {
-    Some(point.statistics.steady_speed_rad_per_s.mean)
+pub(super) fn speed(point: &Point) -> f64 {
+    point.statistics.steady_speed_rad_per_s.mean
 }
 
-fn name(curve: &Curve) -> String {
-    format!("{:e} m", curve.amplitude_m)
-}
-
-/// Whether the trends hold at one frequency, and the numbers.
-pub(super) struct Trends {
-    pub(super) proportional: bool,
-    pub(super) stalls: String,
-    pub(super) independent: bool,
-    pub(super) speeds: String,
-}
-
-/// Proportional stall torque and constant speed.
-pub(super) fn trends(data: &Fig11Data, frequency_hz: f64) -> Trends {
-    let (mut proportional, mut independent) = (true, true);
-    let (mut stalls, mut speeds) = (Vec::new(), Vec::new());
-    for curve in at_frequency(data, frequency_hz) {
-        let chaotic = in_range(data, curve, false);
-        let all = in_range(data, curve, true);
-        let left_out = all.len() - chaotic.len();
-        match power_law(&chaotic, stall) {
-            Some((line, _)) => {
-                proportional &= (line.slope - 1.0).abs() <= PROPORTIONAL_WITHIN;
-                stalls.push(format!(
-                    "{}: {:.3} ± {:.3} (R² = {:.4}; {} points, {left_out} on a low-period cycle left out)",
-                    name(curve),
-                    line.slope,
-                    line.slope_error,
-                    line.explained,
-                    chaotic.len(),
-                ));
-            }
-            None => proportional = false,
-        }
-        match power_law(&chaotic, speed).zip(power_law(&all, speed)) {
-            Some(((line, range), (_, full_range))) => {
-                independent &= line.slope.abs() + 2.0 * line.slope_error <= INDEPENDENT_WITHIN;
-                speeds.push(format!(
-                    "{}: {:+.3} ± {:.3}, range {:.1} % of the mean ({:.1} % with the {left_out} on a low-period cycle)",
-                    name(curve),
-                    line.slope,
-                    line.slope_error,
-                    100.0 * range,
-                    100.0 * full_range,
-                ));
-            }
-            None => independent = false,
-        }
-    }
-    Trends {
-        proportional,
-        stalls: format!("exponent of stall acceleration against preload: {}", stalls.join("; ")),
-        independent,
-        speeds: format!("exponent of steady speed against preload: {}", speeds.join("; ")),
-    }
-}
-
-fn at_frequency(data: &Fig11Data, frequency_hz: f64) -> impl Iterator<Item = &Curve> {
-    data.curves.iter().filter(move |curve| curve.frequency_hz.total_cmp(&frequency_hz).is_eq())
-}
-
-/// A preload against the range of the trends.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Below,
-    Inside,
-    Above,
-}
-
-/// That no steady speed at the preloads `wanted` leaves the range of those inside by more than [`SHARP`] of their mean,
-/// downwards for a negative `direction`.
-pub(super) fn no_sharp_change(
-    data: &Fig11Data,
-    key: &str,
-    frequency: usize,
-    wanted: fn(Place) -> bool,
-    direction: f64,
-) -> Claim {
-    let [from, to] = data.trend_mn();
-    let place = |point: &Point| match point.preload_mn {
-        preload if preload < from => Place::Below,
-        preload if preload > to => Place::Above,
-        _ => Place::Inside,
-    };
-    let mut holds = true;
-    let mut words = Vec::new();
-    for curve in at_frequency(data, data.printed.frequencies_hz[frequency]) {
-        let speeds = |chosen: &dyn Fn(Place) -> bool| -> Vec<f64> {
-            let chaotic = curve.points.iter().filter(|point| !point.statistics.is_low_period());
-            chaotic.filter(|point| chosen(place(point))).filter_map(speed).collect()
-        };
-        let inside = speeds(&|place| place == Place::Inside);
-        let outside = speeds(&wanted);
-        let mean = inside.iter().sum::<f64>() / inside.len() as f64;
-        let farthest =
-            outside.iter().map(|speed| direction * (speed - mean)).fold(f64::NEG_INFINITY, f64::max);
-        holds &= !outside.is_empty() && farthest <= SHARP * mean;
-        let (slow, fast) = extent(&outside);
-        words.push(format!("{}: {slow:.1} to {fast:.1} rad/s, mean inside {mean:.1}", name(curve)));
-    }
-    Claim::printed_statement(
-        key,
-        holds,
-        format!(
-            "steady speeds outside the range, motors on a low-period cycle left out: {}",
-            words.join("; ")
-        ),
-    )
-}
-
-/// The exponent of the stall torque above the preload of the measured plateau: 0 there, 1 on the trend.
-pub(super) fn plateau(data: &Fig11Data) -> Claim {
-    let from = 1e3 * data.printed.plateau_n;
-    let mut none = true;
-    let mut words = Vec::new();
-    for curve in at_frequency(data, data.printed.frequencies_hz[0]) {
-        let high =
-            curve.points.iter().filter(|point| point.preload_mn > from && !point.statistics.is_low_period());
-        if let Some((line, _)) = power_law(&high.collect::<Vec<_>>(), stall) {
-            none &= line.slope - 2.0 * line.slope_error > 0.0;
-            words.push(format!("{}: {:.2} ± {:.2}", name(curve), line.slope, line.slope_error));
-        }
-    }
-    Claim::printed_statement(
-        "section5.no_plateau",
-        none && !words.is_empty(),
-        format!("exponent of stall acceleration against preload above {from} mN: {}", words.join("; ")),
-    )
-}
-
-/// Smallest and largest value.
-pub(super) fn extent(values: &[f64]) -> (f64, f64) {
-    values
+/// The median slope of stall acceleration against preload over all pairs of motors that have one (Theil and Sen).
+fn median_slope(points: &[&Point]) -> Option<f64> {
+    let read: Vec<(f64, f64)> =
+        points.iter().filter_map(|point| stall(point).map(|value| (point.preload_mn, value))).collect();
+    let slopes: Vec<f64> = read
         .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
+        .enumerate()
+        .flat_map(|(index, one)| read[index + 1..].iter().map(move |other| (one, other)))
+        .filter(|(one, other)| (other.0 - one.0).abs() > 0.0)
+        .map(|(one, other)| (other.1 - one.1) / (other.0 - one.0))
+        .collect();
+    (!slopes.is_empty()).then(|| median(slopes.into_iter()))
+}
+
+/// The middle one, or the upper of two; zero of none.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Smallest and largest value; `None` of none.
+pub(super) fn extent(values: &[f64]) -> Option<[f64; 2]> {
+    let mut values = values.iter().copied();
+    let first = values.next()?;
+    Some(values.fold([first, first], |[low, high], value| [low.min(value), high.max(value)]))
+}
+
+/// The agreements of several curves together.
+pub(super) fn together(agreements: impl IntoIterator<Item = Agreement>) -> Agreement {
+    agreements.into_iter().fold(Agreement { holding: 0, tried: 0 }, |sum, more| Agreement {
+        holding: sum.holding + more.holding,
+        tried: sum.tried + more.tried,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk::Spread;
+
+    use super::*;
+    use crate::figures::motor_case::{Cycle, Form, MotorStatistics};
+
+    fn point(preload_mn: f64, speed: f64, stall: Option<f64>, long_flights: usize) -> Point {
+        let spread = |mean: f64| Spread { mean, deviation: 0.0, standard_error: 0.0 };
+        Point {
+            preload_acceleration_m_per_s2: preload_mn / 33.0,
+            preload_mn,
+            axial_forcing: 10.5,
+            statistics: MotorStatistics {
+                steady_speed_rad_per_s: spread(speed),
+                stall_acceleration_rad_per_s2: stall.map(spread),
+                form: Form::Exponential,
+                unfitted: 0,
+                cycle: Cycle::Chattering { impacts: 9, platform_periods: 11, long_flights },
+                locked: true,
+            },
+            net_share_at_rest: 0.5,
+        }
+    }
+
+    /// A motor that hardly turns counts against the trend, and against "no sharp fall" where it lies outside.
+    #[test]
+    fn a_motor_in_a_hole_counts_against_the_statement() {
+        let mut points: Vec<Point> = (0..30)
+            .map(|index| 20.0 + 10.0 * f64::from(index))
+            .map(|preload| point(preload, 20.0, Some(0.1 * preload), 30))
+            .collect();
+        points[10] = point(120.0, 3.0, None, 1);
+        points[2] = point(40.0, 3.0, None, 1);
+        let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points };
+        let trend = Trend::of(&curve, [80.0, 280.0], 200.0);
+        assert_eq!(trend.speed, Agreement { holding: 20, tried: 21 });
+        assert_eq!(trend.torque, Agreement { holding: 20, tried: 21 });
+        assert_eq!((trend.low_period, trend.low_period_on_trend, trend.without_torque), (1, 0, 1));
+        assert_eq!(trend.no_fall, Agreement { holding: 8, tried: 9 });
+        assert_eq!(trend.no_fall_without, Agreement { holding: 8, tried: 8 });
+        assert_eq!(trend.no_rise_above, Agreement { holding: 3, tried: 3 });
+        let slope = trend.high_torque_slope.expect("many motors");
+        assert!((slope - 1.0).abs() < 1e-12, "{slope}");
+        let power = trend.torque_power.expect("many motors");
+        assert!((power.exponent - 1.0).abs() < 1e-12 && power.motors == 20, "{power:?}");
+        let holes = Holes::of(&[curve]);
+        assert_eq!((holes.motors, holes.low_period, holes.one_flight), (30, 2, 2));
+        assert_eq!(
+            holes.one_flight_speeds_rad_per_s.map(|speeds| speeds.map(f64::to_bits)),
+            Some([3.0_f64.to_bits(); 2])
+        );
+    }
+
+    #[test]
+    fn a_speed_that_follows_the_preload_is_no_trend_of_independence() {
+        let points: Vec<Point> = (8..=28)
+            .map(|index| 10.0 * f64::from(index))
+            .map(|preload| point(preload, 0.1 * preload, Some(7.0), 30))
+            .collect();
+        let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points };
+        let trend = Trend::of(&curve, [80.0, 280.0], 200.0);
+        assert!(trend.speed.holding < 10 && trend.torque.holding < 12, "{trend:?}");
+        assert!(trend.high_torque_slope.expect("many motors").abs() < 1e-12);
+        assert!(trend.high_torque_power_without.expect("many motors").exponent.abs() < 1e-12);
+    }
 }

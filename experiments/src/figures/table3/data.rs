@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::claim::Agreement;
+use crate::figures::motor_case::Cycle;
+use crate::figures::stall::Stall;
 use crate::figures::uncertainty::Propagated;
 use crate::paper::BallDrop;
 
@@ -19,6 +22,8 @@ pub struct Table3Data {
     /// Range of preloads in the experiments, as accelerations.
     pub(super) varied_m_per_s2: [f64; 2],
     pub(super) derived: Vec<Following>,
+    /// The load that stalls the motor, for the two readings.
+    pub(super) stalls: [Stall; 2],
     pub(super) drop: Drop,
     /// a_g of a solid ball of the rotor's diameter.
     pub(super) ball_gyration_radius_mm: f64,
@@ -53,9 +58,27 @@ pub(super) struct Following {
 pub(super) struct Drop {
     pub(super) heights: BallDrop,
     pub(super) restitution: Propagated,
+    /// The least and the largest ε of heights that round to the printed ones.
+    pub(super) restitution_range: [f64; 2],
+    /// Of these heights, drawn evenly, those whose ε rounds to the printed one.
+    pub(super) restitution_agreement: Agreement,
     pub(super) impact_speed_m_per_s: f64,
     /// For the heights that are printed as the drop height.
     pub(super) impact_speed_range_m_per_s: [f64; 2],
     /// The heights that give the printed speed, as rounded.
     pub(super) heights_of_printed_speed_m: [f64; 2],
+    /// v²/(2 h) of the printed speed and height, and for everything that rounds to them.
+    pub(super) gravity_of_printed_speed_m_per_s2: f64,
+    pub(super) gravity_range_of_printed_speed_m_per_s2: [f64; 2],
+    /// What rounds to the printed gravity.
+    pub(super) printed_gravity_range_m_per_s2: [f64; 2],
+    /// Of the heights and gravities that round to the printed ones, drawn evenly, those that give the printed speed.
+    pub(super) agreement: Agreement,
+    /// The highest g of Sec. V B, and the impact speed with it.
+    pub(super) highest_varied_m_per_s2: f64,
+    pub(super) impact_speed_at_highest_m_per_s: f64,
+    /// The motor with the smallest A of Fig. 10 at gravity and at that highest g.
+    pub(super) smallest_amplitude_m: f64,
+    pub(super) cycle_at_gravity: Cycle,
+    pub(super) cycle_at_highest: Cycle,
 }

@@ -2,14 +2,24 @@
 
 use std::f64::consts::PI;
 
+use bouncing_disk::TransientSettings;
+use bouncing_disk::core::ChatterPolicy;
+
 use super::data::{Drop, Following, Input, Table3Data};
-use crate::experiment::ExperimentError;
+use crate::claim::Agreement;
+use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
+use crate::figures::printed_inputs::DRAWN;
+use crate::figures::stall::Stall;
+use crate::figures::synthetic::Noise;
 use crate::figures::uncertainty::Propagated;
 use crate::ledger;
 use crate::paper::{self, Measured, SectionFive};
 
-pub(super) fn compute() -> Result<Table3Data, ExperimentError> {
+/// Seed of the drops whose height and gravity round to the printed ones.
+const DROP_SEED: u64 = 95;
+
+pub(super) fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
     let table = paper::table_three()?;
     let section = paper::section_five()?;
     let as_frequency = MotorCase::default_of(&table, &section);
@@ -17,6 +27,10 @@ pub(super) fn compute() -> Result<Table3Data, ExperimentError> {
         MotorCase { preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2, ..as_frequency };
     let cases = [as_printed, as_frequency];
     let mass = section.rotor_mass_kg();
+    let stall = |case: &MotorCase| {
+        Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
+    };
+    let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
     Ok(Table3Data {
         inputs: inputs(&cases)?,
         printed_inputs: paper::printed_inputs(),
@@ -25,8 +39,9 @@ pub(super) fn compute() -> Result<Table3Data, ExperimentError> {
         gravity_m_per_s2: section.gravity_m_per_s2,
         preloads_n: cases.map(|case| mass * case.preload_acceleration_m_per_s2),
         varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
-        derived: derived(&cases, mass)?,
-        drop: ball_drop(&section)?,
+        derived: derived(&cases, &stalls, mass)?,
+        stalls,
+        drop: ball_drop(&section, &as_frequency)?,
         ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
     })
 }
@@ -87,7 +102,11 @@ fn inputs(cases: &[MotorCase; 2]) -> Result<Vec<Input>, ExperimentError> {
     INPUTS.into_iter().map(input).collect()
 }
 
-fn derived(cases: &[MotorCase; 2], mass: f64) -> Result<Vec<Following>, ExperimentError> {
+fn derived(
+    cases: &[MotorCase; 2],
+    stalls: &[Stall; 2],
+    mass: f64,
+) -> Result<Vec<Following>, ExperimentError> {
     let [printed, frequency] = cases;
     let systems = [printed.system()?, frequency.system()?];
     let row = |symbol: &str, label: &str, unit: &str, origin: &str, values: [f64; 2]| Following {
@@ -137,10 +156,34 @@ fn derived(cases: &[MotorCase; 2], mass: f64) -> Result<Vec<Following>, Experime
             r"$\omega \Phi$ over the largest $\ddot{\alpha}$",
             cases.map(|case| case.rise_time_s()),
         ),
+        row(
+            "load that stalls the motor",
+            r"stall $T/m a_g^2$",
+            "rad/s²",
+            "load torque $T$ with mean speed 0",
+            stalls.map(|stall| stall.load_rad_per_s2.mean),
+        ),
+        row(
+            "stall torque",
+            "stall $T$",
+            "µN m",
+            "",
+            [0, 1].map(|index| {
+                let radius = cases[index].gyration_radius_m;
+                1e6 * mass * radius * radius * stalls[index].load_rad_per_s2.mean
+            }),
+        ),
+        row(
+            "α̇_ss/t_c",
+            r"$\dot{\alpha}_{ss}/t_c$",
+            "rad/s²",
+            "the paper's estimate of it",
+            stalls.map(|stall| stall.estimate_rad_per_s2.mean),
+        ),
     ])
 }
 
-fn ball_drop(section: &SectionFive) -> Result<Drop, ExperimentError> {
+fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, ExperimentError> {
     let heights = paper::ball_drop()?;
     let gravity = section.gravity_m_per_s2;
     let inputs = [Measured { value: heights.drop_height_m, uncertainty: 0.0 }, heights.rebound_height_m];
@@ -152,11 +195,45 @@ fn ball_drop(section: &SectionFive) -> Result<Drop, ExperimentError> {
         let printed = ledger::number(key, power)?;
         Ok([printed.value - printed.half_unit, printed.value + printed.half_unit])
     };
+    let printed_heights = ends("section5.drop_height", -2)?;
+    let printed_speeds = ends("section5.drop_speed", 0)?;
+    let printed_gravities = ends("table1.preload_acceleration", 0)?;
+    let needed = |speed: f64, height: f64| speed * speed / (2.0 * height);
+    let mut noise = Noise::new(DROP_SEED);
+    let mut even = |[low, high]: [f64; 2]| low + (high - low) * noise.even();
+    let agreement = Agreement::of((0..DRAWN).map(|_| {
+        let (height, gravity) = (even(printed_heights), even(printed_gravities));
+        (printed_speeds[0]..=printed_speeds[1]).contains(&(2.0 * gravity * height).sqrt())
+    }));
+    let printed_rebounds = ends("section5.rebound_height", -2)?;
+    let printed_restitutions = ends("section5.estimated_restitution", 0)?;
+    let restitution_agreement = Agreement::of((0..DRAWN).map(|_| {
+        let (height, rebound) = (even(printed_heights), even(printed_rebounds));
+        (printed_restitutions[0]..=printed_restitutions[1]).contains(&(rebound / height).sqrt())
+    }));
+    let [_, highest] = paper::preloads()?.preload_accelerations_m_per_s2;
+    let smallest = MotorCase { amplitude_m: section.amplitudes_of_fig10_m[0], ..*motor };
+    let at_highest = MotorCase { preload_acceleration_m_per_s2: highest, ..smallest };
+    let drop_height = heights.drop_height_m;
     Ok(Drop {
-        impact_speed_m_per_s: speed(heights.drop_height_m),
-        impact_speed_range_m_per_s: ends("section5.drop_height", -2)?.map(speed),
-        heights_of_printed_speed_m: ends("section5.drop_speed", 0)?.map(height),
+        impact_speed_m_per_s: speed(drop_height),
+        impact_speed_range_m_per_s: printed_heights.map(speed),
+        heights_of_printed_speed_m: printed_speeds.map(height),
+        gravity_of_printed_speed_m_per_s2: needed(paper::value("section5.drop_speed")?, drop_height),
+        gravity_range_of_printed_speed_m_per_s2: [
+            needed(printed_speeds[0], printed_heights[1]),
+            needed(printed_speeds[1], printed_heights[0]),
+        ],
+        printed_gravity_range_m_per_s2: printed_gravities,
+        agreement,
+        highest_varied_m_per_s2: highest,
+        impact_speed_at_highest_m_per_s: (2.0 * highest * drop_height).sqrt(),
+        smallest_amplitude_m: smallest.amplitude_m,
+        cycle_at_gravity: smallest.cycle(ChatterPolicy::Complete)?,
+        cycle_at_highest: at_highest.cycle(ChatterPolicy::Complete)?,
         heights,
         restitution,
+        restitution_range: [0, 1].map(|end| (printed_rebounds[end] / printed_heights[1 - end]).sqrt()),
+        restitution_agreement,
     })
 }

@@ -4,6 +4,10 @@ use super::Table3;
 use super::data::Table3Data;
 use crate::claim::Claim;
 use crate::experiment::Experiment;
+use crate::figures::stall::Stall;
+
+/// A difference of more than so many standard errors is one.
+const STANDARD_ERRORS: f64 = 3.0;
 
 pub(super) fn claims(data: &Table3Data) -> Vec<Claim> {
     let known = data.inputs.iter().filter(|input| input.known).count();
@@ -32,7 +36,14 @@ pub(super) fn claims(data: &Table3Data) -> Vec<Claim> {
             .note("a_g of a solid ball is √(2/5) of its radius"),
         preload(data),
         Claim::printed("section5.estimated_restitution", drop.restitution.value)
-            .note("square root of rebound height over drop height"),
+            .note(format!(
+                "square root of rebound height over drop height. Heights that round to the printed ones give {:.3} to {:.3}, {} in {} of them an ε that \
+                 rounds to the printed one, whose printed uncertainty is larger than that of the digits",
+                drop.restitution_range[0],
+                drop.restitution_range[1],
+                drop.restitution_agreement.holding,
+                drop.restitution_agreement.tried,
+            )),
         Claim::printed_uncertainty(
             Table3::ID,
             "section5.estimated_restitution",
@@ -40,11 +51,58 @@ pub(super) fn claims(data: &Table3Data) -> Vec<Claim> {
             drop.restitution.sum,
         ),
         Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).note(format!(
-            "√(2 g h) for h = {:.1} cm; heights that round to it give {slowest:.3} to {fastest:.3} m/s, and the \
-             printed speed needs {shortest:.2} to {longest:.2} cm",
-            100.0 * drop.heights.drop_height_m
+            "√(2 g h) for h = {:.1} cm and g = {} m/s²; heights that round to it give {slowest:.3} to {fastest:.3} m/s, and the \
+             printed speed needs {shortest:.2} to {longest:.2} cm. Of heights and g that round to the printed ones {} in {} give the printed speed",
+            100.0 * drop.heights.drop_height_m, data.gravity_m_per_s2, drop.agreement.holding, drop.agreement.tried
         )),
+        drop_gravity(data),
+        stall(data),
     ]
+}
+
+/// The g that gives the printed speed. An inference from printed numbers; the text does not say which g was used.
+fn drop_gravity(data: &Table3Data) -> Claim {
+    let drop = &data.drop;
+    let [least, most] = drop.gravity_range_of_printed_speed_m_per_s2;
+    let holds = |gravity: f64| (least..=most).contains(&gravity);
+    Claim::statement(
+        Table3::ID,
+        "Sec. V A",
+        "the printed impact speed belongs to the g of 10 m/s² with which Sec. V B ends its range, not to gravity",
+        holds(drop.highest_varied_m_per_s2) && !holds(data.gravity_m_per_s2),
+        format!(
+            "v²/(2h) is {:.2} m/s², and {least:.3} to {most:.3} for everything that rounds to the printed height and speed; with {} m/s² the speed is {:.4} m/s. This suggests, and \
+             does not show, that the authors took {} m/s² for gravity, here and as the full preload of Fig. 10. There it matters: at A = {:e} m the motor repeats {} with {} m/s², and with {} m/s² {}",
+            drop.gravity_of_printed_speed_m_per_s2,
+            drop.highest_varied_m_per_s2,
+            drop.impact_speed_at_highest_m_per_s,
+            drop.highest_varied_m_per_s2,
+            drop.smallest_amplitude_m,
+            drop.cycle_at_gravity.words(),
+            data.gravity_m_per_s2,
+            drop.highest_varied_m_per_s2,
+            drop.cycle_at_highest.words(),
+        ),
+    )
+}
+
+/// The stall torque of the default motor.
+fn stall(data: &Table3Data) -> Claim {
+    let [printed, gravity] = &data.stalls;
+    let agrees = |stall: &Stall| stall.estimate_off.abs() <= STANDARD_ERRORS * stall.estimate_off_error;
+    Claim::statement(
+        Table3::ID,
+        "Sec. V C",
+        "α̇_ss/t_c of the default motor is the acceleration by the torque that stalls it",
+        agrees(gravity) && agrees(printed),
+        format!(
+            "with gravity it {}; with g as printed it {}. The balance of the normal impulse is within {:.1} and {:.1} standard errors of the load found",
+            gravity.words(),
+            printed.words(),
+            gravity.balance_deviation(),
+            printed.balance_deviation()
+        ),
+    )
 }
 
 /// The last column of Table III.

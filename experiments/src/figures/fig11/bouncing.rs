@@ -1,0 +1,125 @@
+//! What becomes of a bouncing rotor when its stator vibrates too little to throw it (Γ < 1/π).
+//!
+//! A rotor at rest is not thrown then, by Eq. (3). One that bounces already need not come to rest: the period-1 orbit needs Γ > (1 − ε)/(1 + ε) only,
+//! which is less than 1/π for ε > (π − 1)/(π + 1).
+
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
+
+use bouncing_disk::core::elementary::acos;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, OrbitEvent, Phase, Vibration};
+use serde::{Deserialize, Serialize};
+
+use crate::claim::Agreement;
+use crate::experiment::ExperimentError;
+use crate::figures::motor_case::{MotorCase, core_error};
+use crate::figures::printed_inputs::DRAWN;
+use crate::figures::synthetic::Noise;
+use crate::ledger;
+
+/// Seed of the rotors.
+const SEED: u64 = 318;
+
+/// A rotor that has not come to rest after so many impacts goes on bouncing: those that come to rest need some tens.
+const MOST_IMPACTS: usize = 10_000;
+
+/// What bouncing rotors do at Γ < 1/π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct EndOfBouncing {
+    pub(super) seed: u64,
+    /// What still prints as the ε of Table III.
+    pub(super) restitutions: [f64; 2],
+    /// The largest launch speed (g/ω): A ω²/g of the default motor.
+    pub(super) largest_launch_speed: f64,
+    /// How many come to rest for good.
+    pub(super) at_rest: Agreement,
+    /// The most impacts that one of these needed.
+    pub(super) most_impacts: usize,
+    /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.
+    pub(super) threshold_restitution: f64,
+    pub(super) coexisting: Coexisting,
+}
+
+/// A rotor that is launched on the period-1 orbit below Γ = 1/π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Coexisting {
+    pub(super) restitution: f64,
+    pub(super) axial_forcing: f64,
+    /// After so many impacts ...
+    pub(super) impacts: usize,
+    /// ... it still bounces.
+    pub(super) bounces: bool,
+}
+
+impl EndOfBouncing {
+    pub(super) fn of(motor: &MotorCase) -> Result<Self, ExperimentError> {
+        let largest_launch_speed = motor.system()?.peak_acceleration();
+        let printed = ledger::number("table3.restitution", 0)?;
+        let restitutions = [printed.value - printed.half_unit, printed.value + printed.half_unit];
+        let mut noise = Noise::new(SEED);
+        let mut most_impacts = 0;
+        let mut rested = Vec::with_capacity(DRAWN);
+        for _ in 0..DRAWN {
+            let restitution = restitutions[0] + (restitutions[1] - restitutions[0]) * noise.even();
+            let map = map(FRAC_1_PI * noise.even(), restitution)?;
+            let (phase, speed) = (TAU * noise.even(), largest_launch_speed * noise.even());
+            let impacts = impacts_to_rest(&map, phase, speed)?;
+            most_impacts = most_impacts.max(impacts.unwrap_or(0));
+            rested.push(impacts.is_some());
+        }
+        let restitution = restitutions[1];
+        let birth = (1.0 - restitution) / (1.0 + restitution);
+        let axial_forcing = 0.5 * (birth + FRAC_1_PI);
+        // Period 1: cos τ = (1 − ε)/((1 + ε) Γ), flights of one period.
+        let phase = acos(birth / axial_forcing);
+        let speed = TAU * restitution / (1.0 + restitution);
+        let bounces = impacts_to_rest(&map(axial_forcing, restitution)?, phase, speed)?.is_none();
+        Ok(Self {
+            seed: SEED,
+            restitutions,
+            largest_launch_speed,
+            at_rest: Agreement::of(rested),
+            most_impacts,
+            threshold_restitution: (PI - 1.0) / (PI + 1.0),
+            coexisting: Coexisting { restitution, axial_forcing, impacts: MOST_IMPACTS, bounces },
+        })
+    }
+}
+
+fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
+    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(core_error)?;
+    ImpactMap::new(vibration, restitution).map_err(core_error)
+}
+
+/// The impacts until the rotor is at rest for good; `None` if it is not after [`MOST_IMPACTS`].
+fn impacts_to_rest(map: &ImpactMap, phase: f64, speed: f64) -> Result<Option<usize>, ExperimentError> {
+    let phase = Phase::new(phase).map_err(core_error)?;
+    let mut orbit = map.orbit_from_launch(phase, speed, ChatterPolicy::Complete).map_err(core_error)?;
+    let mut impacts = 0;
+    while impacts < MOST_IMPACTS {
+        match orbit.advance().map_err(core_error)? {
+            Some(OrbitEvent::Impact(_)) => impacts += 1,
+            Some(OrbitEvent::Stick(stick)) if stick.separation.is_none() => return Ok(Some(impacts)),
+            Some(_) => {}
+            None => return Ok(Some(impacts)),
+        }
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn below_the_period_one_orbit_everything_rests_and_above_it_can_bounce() {
+        let bouncing = |forcing: f64, restitution: f64| {
+            let birth = (1.0 - restitution) / (1.0 + restitution);
+            let phase = if forcing > birth { acos(birth / forcing) } else { 0.0 };
+            let speed = TAU * restitution / (1.0 + restitution);
+            let map = map(forcing, restitution).expect("legal");
+            impacts_to_rest(&map, phase, speed).expect("no failure").is_none()
+        };
+        assert!(!bouncing(0.28, 0.55) && bouncing(0.30, 0.55));
+        assert!(!bouncing(0.31, 0.5), "the orbit of ε = 0.5 begins at Γ = 1/3");
+    }
+}
