@@ -319,12 +319,14 @@ mod tests {
         assert!(stall.hold_share < 1e-2, "{stall:?}");
     }
 
-    /// All the impulse at one phase: the load that balances is all that friction can give, with the sign of the stator's speed.
+    /// All the impulse at one phase: the load that balances is all that friction can give, with the sign of the stator's speed. Over n kicks the speed falls by the load
+    /// before each of them, so that its mean is zero for (n − 1)/n of that.
     #[test]
     fn a_stator_that_is_always_hit_at_one_phase_bears_the_whole_limit() {
-        for (stator, share) in [(0.7, 1.0), (-0.7, -1.0)] {
+        for (stator, share) in [(0.7, 0.999), (-0.7, -0.999)] {
             let kicks = vec![Kick { duration: 1.0, stator, impulse: 1.0 }; 1_000];
-            assert!((stall_share(&kicks, 1e-4) - share).abs() < 1e-5);
+            let found = stall_share(&kicks, 1e-4);
+            assert!((found - share).abs() < 1e-5, "{found} {share}");
         }
         // Two thirds forwards and one third backwards.
         let kicks: Vec<Kick> = (0..3_000)

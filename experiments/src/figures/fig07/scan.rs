@@ -96,7 +96,7 @@ pub(super) fn beyond(
             let basins = map.basins(grid, &[], settings, || ()).map_err(ExperimentError::model)?;
             let open = |label: &u8| *label == UNDECIDED;
             let mut period = None;
-            if let Some(index) = basins.labels().iter().position(|label| open(label)) {
+            if let Some(index) = basins.labels().iter().position(open) {
                 let from = start(&grid, index / side, index % side)?;
                 let survivor = map
                     .survivor(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_1_PI;
 
 use super::data::Fig11Data;
-use super::trends::{EXPONENT_WITHIN, Power, SHARP, Trend, together};
+use super::trends::{EXPONENT_WITHIN, OTHER_BOUNDS, Power, SHARP, Trend, together};
 use crate::claim::{Agreement, Claim, all, any};
 use crate::figures::motor_case::{Form, PerturbationEffect};
 use crate::table::{Cell, Table};
@@ -119,8 +119,9 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
             "section5.torque_proportional_to_preload",
             together(default.iter().map(|trend| trend.torque)),
             format!(
-                "a motor agrees if its stall torque over preload is within {} % of the middle one of its curve; {}",
+                "a motor agrees if its stall torque over preload is within {} % of the middle one of its curve{}; {}",
                 100.0 * SHARP,
+                other_bounds(&default, |trend| trend.torque_for_other_bounds),
                 counted(&default, |trend| trend.torque)
             ),
         ),
@@ -128,8 +129,9 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
             "section5.speed_independent_of_preload",
             together(default.iter().map(|trend| trend.speed)),
             format!(
-                "a motor agrees if its steady speed is within {} % of the middle one of its curve; {}",
+                "a motor agrees if its steady speed is within {} % of the middle one of its curve{}; {}",
                 100.0 * SHARP,
+                other_bounds(&default, |trend| trend.speed_for_other_bounds),
                 counted(&default, |trend| trend.speed)
             ),
         ),
@@ -196,6 +198,15 @@ fn counted(trends: &[&Trend], of: fn(&Trend) -> Agreement) -> String {
         sum(|trend| trend.low_period_on_trend),
         sum(|trend| trend.without_torque),
     )
+}
+
+/// How many agree with other bounds than [`SHARP`].
+fn other_bounds(trends: &[&Trend], of: fn(&Trend) -> [Agreement; 2]) -> String {
+    let words = OTHER_BOUNDS.iter().enumerate().map(|(index, bound)| {
+        let Agreement { holding, tried } = together(trends.iter().map(|trend| of(trend)[index]));
+        format!("{holding} of {tried} with {:.0} %", 100.0 * bound)
+    });
+    format!(" ({})", words.collect::<Vec<_>>().join(", "))
 }
 
 fn share_words(trends: &[&Trend], of: fn(&Trend) -> Agreement) -> String {

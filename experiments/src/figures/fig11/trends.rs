@@ -11,6 +11,9 @@ use crate::figures::regression::StraightLine;
 /// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
 pub(super) const SHARP: f64 = 0.2;
 
+/// Other bounds, for which the motors on the trend are counted, too: the verdicts should not hang on [`SHARP`].
+pub(super) const OTHER_BOUNDS: [f64; 2] = [0.1, 0.3];
+
 /// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload, and largest exponent of either
 /// sign (with two standard errors) at which the speed counts as independent of it: over the 3.5-fold range of preloads both make 13 %.
 pub(super) const EXPONENT_WITHIN: f64 = 0.1;
@@ -37,6 +40,9 @@ pub(super) struct Trend {
     pub(super) speed: Agreement,
     pub(super) torque: Agreement,
     pub(super) both: Agreement,
+    /// Speed and torque for [`OTHER_BOUNDS`] instead of [`SHARP`].
+    pub(super) speed_for_other_bounds: [Agreement; 2],
+    pub(super) torque_for_other_bounds: [Agreement; 2],
     /// Motors inside on a low-period cycle, and those of them with speed and torque on the trend.
     pub(super) low_period: usize,
     pub(super) low_period_on_trend: usize,
@@ -69,9 +75,13 @@ impl Trend {
         let per_preload = |point: &Point| stall(point).map(|stall| stall / point.preload_mn);
         let median_speed = median(inside.iter().map(|point| speed(point)));
         let median_stall = median(inside.iter().filter_map(|point| per_preload(point)));
-        let near = |value: f64, middle: f64| (value - middle).abs() <= SHARP * middle.abs();
-        let speed_holds = |point: &Point| near(speed(point), median_speed);
-        let torque_holds = |point: &Point| per_preload(point).is_some_and(|value| near(value, median_stall));
+        let near = |value: f64, middle: f64, bound: f64| (value - middle).abs() <= bound * middle.abs();
+        let speed_within = |point: &Point, bound: f64| near(speed(point), median_speed, bound);
+        let torque_within = |point: &Point, bound: f64| {
+            per_preload(point).is_some_and(|value| near(value, median_stall, bound))
+        };
+        let speed_holds = |point: &Point| speed_within(point, SHARP);
+        let torque_holds = |point: &Point| torque_within(point, SHARP);
         let chaotic = |points: &[&'_ Point]| -> Vec<Point> {
             points.iter().filter(|point| !point.statistics.is_low_period()).map(|&&point| point).collect()
         };
@@ -93,6 +103,10 @@ impl Trend {
             speed: Agreement::of(inside.iter().map(|point| speed_holds(point))),
             torque: Agreement::of(inside.iter().map(|point| torque_holds(point))),
             both: Agreement::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
+            speed_for_other_bounds: OTHER_BOUNDS
+                .map(|bound| Agreement::of(inside.iter().map(|point| speed_within(point, bound)))),
+            torque_for_other_bounds: OTHER_BOUNDS
+                .map(|bound| Agreement::of(inside.iter().map(|point| torque_within(point, bound)))),
             low_period: inside.len() - inside_chaotic.len(),
             low_period_on_trend: inside
                 .iter()
