@@ -187,6 +187,17 @@ mod tests {
     use crate::testing::motor;
     use crate::{Engine, Start};
 
+    /// The value is named, not a mean that comes to nothing because of it.
+    #[test]
+    fn a_value_that_is_not_finite_is_named() {
+        for value in [f64::INFINITY, f64::NEG_INFINITY] {
+            let named = Error::OutOfRange { field: "value of a spread", value, legal: "finite" };
+            assert_eq!(Spread::of(&[1.0, value, 2.0]), Err(named));
+        }
+        let error = Spread::of(&[1.0, f64::NAN]).expect_err("not a number").to_string();
+        assert!(error.contains("value of a spread"), "{error}");
+    }
+
     #[test]
     fn a_spread_is_that_of_a_sample() {
         let spread = Spread::of(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]).expect("values");
