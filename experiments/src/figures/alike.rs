@@ -12,6 +12,9 @@ use serde::{Deserialize, Serialize};
 use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase, core_error};
 use crate::experiment::ExperimentError;
 
+/// Intervals over which the speed of a transient is averaged.
+pub(crate) const INTERVALS: usize = 120;
+
 /// One motor of those that print alike. Nothing perturbs it, as nothing did in the paper's program: which of them it is, is chance
 /// enough.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -116,7 +119,7 @@ pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>,
                 phase: Phase::new(TAU * share).map_err(core_error)?,
                 settings: TransientSettings {
                     duration: duration(motor),
-                    intervals: 240,
+                    intervals: INTERVALS,
                     relaunch_perturbation: 0.0,
                     ..TransientSettings::default()
                 },

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::data::Fig10Data;
 use super::run::MEMBER_INTERVALS;
 use crate::claim::{Agreement, Claim, all};
-use crate::figures::alike::AlikeMotor;
+use crate::figures::alike::{AlikeMotor, INTERVALS};
 use crate::figures::motor_case::{LOW_PERIOD_FLIGHTS, perturbation_claim};
 use crate::ledger;
 
@@ -147,7 +147,7 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
             "section5.oscillation_grows",
             rises(|motor| motor.oscillation),
             format!(
-                "standard deviation of the speed (averaged over 1/240 of the time) in the second half of the transient; median over {over}, as a share of ωΦ: \
+                "standard deviation of the speed (averaged over 1/{INTERVALS} of the time) in the second half of the transient; median over {over}, as a share of ωΦ: \
                  {oscillations}"
             ),
         ),
