@@ -505,3 +505,19 @@ pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact
         evaluations: root.evaluations,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// It is above the platform nowhere else on the way, so that the crest is the first impact whatever window holds it.
+    #[test]
+    fn a_disk_that_comes_down_to_the_crest_at_the_crest_lands_there() {
+        for (peak, fall) in [(0.5, 1e-9), (3.0, 0.5), (3.0, 4.0), (200.0, 40.0)] {
+            let vibration = Vibration::new(peak).expect("legal");
+            let impact = vibration.impact_after_arc(CREST, (0.0, fall), 1.0, 0).expect("lands");
+            assert_eq!(impact.phase.angle().to_bits(), CREST.to_bits(), "{peak} {fall} {impact:?}");
+            assert!(impact.duration() == 0.0 && impact.velocity < 0.0, "{peak} {fall} {impact:?}");
+        }
+    }
+}
