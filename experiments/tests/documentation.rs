@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use bouncing_disk_experiments::errata::{ERRATA_FILE, TEMPLATE};
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results::{DIGESTS_FILE, Digests, PICTURES_FOLDER, RESULTS_FILE, digest};
 
@@ -21,6 +22,13 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
     let digests: Digests = serde_json::from_slice(&digests).expect("written by this version");
     let page = fs::read(docs(RESULTS_FILE)).expect("the page is committed");
     assert_eq!(digest(&page), digests.results, "{RESULTS_FILE} was edited");
+    let errata = fs::read(docs(ERRATA_FILE)).expect("the errata are committed");
+    assert_eq!(
+        digest(&errata),
+        digests.errata,
+        "{ERRATA_FILE} was edited: it is made from experiments/src/errata.md"
+    );
+    assert_eq!(digest(TEMPLATE.as_bytes()), digests.errata_template, "to repair: cargo xtask figures --docs");
     let known: Vec<_> = digests.figures.keys().map(String::as_str).collect();
     let mut ids: Vec<_> = registry::all().iter().map(|entry| entry.id()).collect();
     ids.sort_unstable();
