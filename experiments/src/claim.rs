@@ -215,11 +215,14 @@ impl Claim {
         })
     }
 
-    /// Judges a statement of this work over inputs that print alike, like [`printed_share`](Self::printed_share).
+    /// Judges a number, or a statement of this work, over inputs that print alike, like [`printed_share`](Self::printed_share). Of a number the computed
+    /// value stays that of the printed inputs.
     pub fn judged_over(mut self, agreement: Agreement) -> Self {
         if let (Some(share), Some(verdict)) = (agreement.share(), agreement.verdict()) {
-            self.computed =
-                Computed::Text(format!("holds for {} of {} inputs", agreement.holding, agreement.tried));
+            if !matches!(self.computed, Computed::Number(_)) {
+                self.computed =
+                    Computed::Text(format!("holds for {} of {} inputs", agreement.holding, agreement.tried));
+            }
             self.share = Some(share);
             self.verdict = verdict;
         }
@@ -543,6 +546,11 @@ mod tests {
         assert_eq!(verdict(10, 200), (Verdict::Differs, Some(50)));
         assert_eq!(verdict(0, 0), (Verdict::NotComputable, None));
         assert_eq!(Agreement::of([true, false, true]), Agreement { holding: 2, tried: 3 });
+        // A number keeps its value, and is not judged by it alone.
+        let number =
+            Claim::printed("section4.doubling_1", 0.486).judged_over(Agreement { holding: 1, tried: 2 });
+        assert_eq!(number.computed(), &Computed::Number(0.486));
+        assert_eq!((number.verdict(), number.share()), (Verdict::DependsOnUnprintedDigits, Some(0.5)));
     }
 
     #[test]

@@ -203,7 +203,7 @@ impl ClaimTexts {
         };
         let printed = match claim.computed() {
             Computed::Boolean(_) => "stated".to_owned(),
-            _ if claim.share().is_some() => "stated".to_owned(),
+            Computed::Text(_) if claim.share().is_some() => "stated".to_owned(),
             _ => with_unit(claim.printed_text(), claim.unit()),
         };
         let tolerance =

@@ -1,5 +1,6 @@
 //! Fig. 4: the performance of single tosses.
 
+mod alike;
 mod consistency;
 mod data;
 mod picture;
@@ -103,6 +104,7 @@ impl Experiment for Fig04 {
             no_launch: sweep::no_launch(&table)?,
             symmetry,
             consistency,
+            alike: alike::alike(quality)?,
             table_i,
             printed,
         })

@@ -130,24 +130,16 @@ fn claims(data: &Fig08Data) -> Vec<Claim> {
         milli(heavy)
     );
     let [least_preload, most_preload] = data.preloads_n;
-    vec![
-        Claim::reading(
-            id,
-            "table3.gyration_radius",
-            "a_g of a homogeneous sphere of the rotor's diameter, sqrt(2/5) of its radius",
-            data.gyration_radius_mm,
-        ),
-        Claim::statement(
-            id,
-            "this work",
-            "the measured preloads, read in mN, are below the weight of the ball, and their g lies in the simulated range",
-            least_preload < most_preload && most_preload < light && least <= low && high <= most,
-            format!(
-                "{weight}. Preloads of {:.0} to {:.0} mN over the mass are g = {low:.2} to {high:.2} m/s², simulated are \
+    vec![Claim::statement(
+        id,
+        "this work",
+        "the measured preloads, read in mN, are below the weight of the ball, and their g lies in the simulated range",
+        least_preload < most_preload && most_preload < light && least <= low && high <= most,
+        format!(
+            "{weight}. Preloads of {:.0} to {:.0} mN over the mass are g = {low:.2} to {high:.2} m/s², simulated are \
                  {least} to {most} m/s². The printed unit, mNm, is that of a torque",
-                milli(least_preload),
-                milli(most_preload)
-            ),
+            milli(least_preload),
+            milli(most_preload)
         ),
-    ]
+    )]
 }

@@ -1,4 +1,4 @@
-//! Motors whose inputs all round to the printed ones.
+//! Motors and tosses whose inputs all round to the printed ones.
 //!
 //! The orbit of a motor hangs on digits that the paper does not print: at A = 1 nm and g = 9.8 m/s² to all digits A ω²/g is 2π², and the
 //! motor repeats a cycle that it does not have at 9.81. A statement about such an orbit is therefore judged over many motors, drawn evenly from all that print like
@@ -6,6 +6,8 @@
 
 use super::motor_case::MotorCase;
 use super::synthetic::Noise;
+use super::toss_case::TossCase;
+use crate::claim::Agreement;
 use crate::experiment::ExperimentError;
 use crate::ledger::{self, LedgerError};
 
@@ -14,7 +16,7 @@ pub(crate) const DRAWN: usize = 200;
 
 /// An input between what still rounds to the printed number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Range {
+pub(crate) struct Range {
     low: f64,
     high: f64,
 }
@@ -22,7 +24,7 @@ struct Range {
 impl Range {
     /// All that rounds to the entry `key`, times a power of ten. A printed zero is a choice, θ = 0 for a linear motion, and taken as exact: there is no
     /// last digit to round.
-    fn printed(key: &str, power: i32) -> Result<Self, LedgerError> {
+    pub(crate) fn printed(key: &str, power: i32) -> Result<Self, LedgerError> {
         let number = ledger::number(key, power)?;
         let half = if number.value == 0.0 { 0.0 } else { number.half_unit };
         Ok(Self { low: number.value - half, high: number.value + half })
@@ -31,6 +33,58 @@ impl Range {
     fn at(self, share: f64) -> f64 {
         self.low + share * (self.high - self.low)
     }
+
+    fn holds(self, value: f64) -> bool {
+        // A value exactly between two printed ones may round either way.
+        let widened = 1e-9 * (self.high - self.low);
+        (self.low - widened..=self.high + widened).contains(&value)
+    }
+}
+
+/// Draws of `N` printed inputs, each evenly from what rounds to it.
+pub(crate) fn draws<const N: usize>(
+    inputs: [(&str, i32); N],
+    count: usize,
+    seed: u64,
+) -> Result<Vec<[f64; N]>, ExperimentError> {
+    let ranges =
+        inputs.iter().map(|(key, power)| Range::printed(key, *power)).collect::<Result<Vec<_>, _>>()?;
+    let mut noise = Noise::new(seed);
+    Ok((0..count).map(|_| std::array::from_fn(|input| ranges[input].at(noise.even()))).collect())
+}
+
+/// How many of some values round to the printed number `key`.
+pub(crate) fn agreement(
+    key: &str,
+    values: impl IntoIterator<Item = f64>,
+) -> Result<Agreement, ExperimentError> {
+    let printed = Range::printed(key, 0)?;
+    Ok(Agreement::of(values.into_iter().map(|value| printed.holds(value))))
+}
+
+/// Tosses whose inputs all round to those of Table I.
+pub(crate) fn tosses(count: usize, seed: u64) -> Result<Vec<TossCase>, ExperimentError> {
+    let inputs = [
+        ("table1.phase_lag", 0),
+        ("table1.amplitude_angle", 0),
+        ("table1.stroke", 0),
+        ("table1.angular_frequency", 0),
+        ("table1.contact_radius", 0),
+        ("table1.gyration_radius", 0),
+        ("table1.friction", 0),
+        ("table1.preload_acceleration", 0),
+    ];
+    let case = |[lag, angle, stroke, frequency, contact, gyration, friction, preload]: [f64; 8]| TossCase {
+        phase_lag_rad: lag,
+        amplitude_angle_rad: angle,
+        stroke_m: stroke,
+        angular_frequency_rad_per_s: frequency,
+        contact_radius_m: contact,
+        gyration_radius_m: gyration,
+        friction,
+        preload_acceleration_m_per_s2: preload,
+    };
+    Ok(draws(inputs, count, seed)?.into_iter().map(case).collect())
 }
 
 /// The ranges of all inputs of a motor.
@@ -156,6 +210,33 @@ mod tests {
         let (low, high) = extent(|motor| motor.restitution);
         assert!(low < 0.452 && high > 0.548, "{low} {high}");
         assert_ne!(motors, PrintedInputs::table_three().expect("reads").drawn(DRAWN, 8));
+    }
+
+    #[test]
+    fn tosses_print_like_table_one() {
+        let prints = |value: f64, printed: &str| {
+            let printed = PrintedNumber::read(printed).expect("a number");
+            (value - printed.value).abs() <= printed.half_unit * (1.0 + 1e-9)
+        };
+        let drawn = tosses(DRAWN, 4).expect("reads");
+        assert_eq!(drawn.len(), DRAWN);
+        for toss in &drawn {
+            assert!(prints(toss.amplitude_angle_rad, "0.55") && prints(toss.stroke_m, "0.25"), "{toss:?}");
+            assert!(
+                prints(toss.angular_frequency_rad_per_s, "15") && prints(toss.friction, "0.6"),
+                "{toss:?}"
+            );
+            assert!(
+                prints(toss.contact_radius_m, "0.135") && prints(toss.gyration_radius_m, "0.11"),
+                "{toss:?}"
+            );
+            assert!(
+                prints(toss.preload_acceleration_m_per_s2, "9.8") && toss.phase_lag_rad == 0.0,
+                "{toss:?}"
+            );
+        }
+        let speeds = agreement("section3.largest_airborne_speed", [21.4, 21.6, 22.5, 22.6]).expect("reads");
+        assert_eq!(speeds, Agreement { holding: 2, tried: 4 });
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use bouncing_disk::{LaunchSpeeds, Stroke};
 use serde::{Deserialize, Serialize};
 
+use super::printed_inputs::{DRAWN, agreement, tosses};
 use super::toss_case::TossCase;
 use super::uncertainty::Propagated;
-use crate::claim::{self, Claim, Verdict};
+use crate::claim::{self, Agreement, Claim, Verdict};
 use crate::draw::{Figure, Label, ruled_table};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
@@ -49,6 +50,8 @@ struct Effect {
     printed_rad_per_s: f64,
     /// The symbol as it is set in print.
     label: String,
+    /// Of tosses whose inputs all round to those of Table I, those whose half difference rounds to the printed effect.
+    agreement: Agreement,
 }
 
 /// The effects of all inputs together, in rad/s, from central effects.
@@ -73,6 +76,7 @@ struct Input {
     measured: Measured,
     printed: f64,
     set: fn(&mut TossCase, f64),
+    get: fn(&TossCase) -> f64,
 }
 
 fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
@@ -85,6 +89,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             measured: table.stroke_m,
             printed: printed.stroke_effect_rad_per_s,
             set: |case, value| case.stroke_m = value,
+            get: |case| case.stroke_m,
         },
         Input {
             symbol: "ω",
@@ -94,6 +99,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             measured: table.angular_frequency_rad_per_s,
             printed: printed.angular_frequency_effect_rad_per_s,
             set: |case, value| case.angular_frequency_rad_per_s = value,
+            get: |case| case.angular_frequency_rad_per_s,
         },
         Input {
             symbol: "a_e",
@@ -103,6 +109,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             measured: table.contact_radius_m,
             printed: printed.contact_radius_effect_rad_per_s,
             set: |case, value| case.contact_radius_m = value,
+            get: |case| case.contact_radius_m,
         },
         Input {
             symbol: "a_g",
@@ -112,6 +119,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             measured: table.gyration_radius_m,
             printed: printed.gyration_radius_effect_rad_per_s,
             set: |case, value| case.gyration_radius_m = value,
+            get: |case| case.gyration_radius_m,
         },
         Input {
             symbol: "μ",
@@ -121,6 +129,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             measured: table.friction,
             printed: printed.friction_effect_rad_per_s,
             set: |case, value| case.friction = value,
+            get: |case| case.friction,
         },
         Input {
             symbol: "φ_L",
@@ -130,22 +139,38 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             measured: table.amplitude_angle_rad,
             printed: printed.amplitude_angle_effect_rad_per_s,
             set: |case, value| case.amplitude_angle_rad = value,
+            get: |case| case.amplitude_angle_rad,
         },
     ]
 }
 
-fn effect(table: &TossCase, input: &Input) -> Result<Effect, ExperimentError> {
+/// Seed of the tosses that print alike.
+const SEED: u64 = 2;
+
+fn effect(table: &TossCase, input: &Input, alike: &[TossCase]) -> Result<Effect, ExperimentError> {
     let Measured { value, uncertainty } = input.measured;
     let speed = |share: f64| {
         let mut case = *table;
         (input.set)(&mut case, value + share * uncertainty);
         case.airborne_speed()
     };
+    let half_difference = |toss: &TossCase| -> Result<f64, ExperimentError> {
+        let end = |sign: f64| {
+            let mut case = *toss;
+            (input.set)(&mut case, (input.get)(toss) + sign * uncertainty);
+            case.airborne_speed()
+        };
+        Ok(0.5 * (end(1.0)? - end(-1.0)?).abs())
+    };
+    let key = format!("table2.{}_effect", input.name);
+    let of_alike = alike.iter().map(half_difference).collect::<Result<Vec<_>, _>>()?;
+    let agreement = agreement(&key, of_alike)?;
     let middle = speed(0.0)?;
     let (upper, lower) = (speed(1.0)? - middle, speed(-1.0)? - middle);
     Ok(Effect {
         input: input.symbol.to_owned(),
-        key: format!("table2.{}_effect", input.name),
+        key,
+        agreement,
         unit: input.unit.to_owned(),
         value,
         uncertainty,
@@ -236,9 +261,10 @@ impl Experiment for Table2 {
         let table = TossCase::from(&table_i);
         let inputs = inputs(&table_i, &printed);
         progress.start(inputs.len() as u64, "inputs");
+        let alike = tosses(DRAWN, SEED)?;
         let mut effects = Vec::new();
         for input in &inputs {
-            effects.push(effect(&table, input)?);
+            effects.push(effect(&table, input, &alike)?);
             progress.advance(1);
         }
         Ok(Table2Data {
@@ -292,10 +318,16 @@ impl Experiment for Table2 {
     fn claims(data: &Table2Data) -> Vec<Claim> {
         let mut claims = Vec::new();
         for effect in &data.effects {
-            claims.push(Claim::printed(&effect.key, effect.central_rad_per_s.abs()).note(format!(
-                "half the difference of the speeds at both ends; changes at the upper end {:+.4}, at the lower end \
-                 {:+.4}, slope times uncertainty {:+.4}",
-                effect.upper_rad_per_s, effect.lower_rad_per_s, effect.linear_rad_per_s
+            let claim =
+                Claim::printed(&effect.key, effect.central_rad_per_s.abs()).judged_over(effect.agreement);
+            claims.push(claim.note(format!(
+                "half the difference of the speeds at both ends, at the printed inputs; of {} tosses whose inputs all round to those of Table I {} give the printed \
+                 number; changes at the upper end {:+.4}, at the lower end {:+.4}, slope times uncertainty {:+.4}",
+                effect.agreement.tried,
+                effect.agreement.holding,
+                effect.upper_rad_per_s,
+                effect.lower_rad_per_s,
+                effect.linear_rad_per_s
             )));
         }
         claims.push(readings(data));

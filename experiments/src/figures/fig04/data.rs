@@ -4,6 +4,7 @@ use bouncing_disk::InitialState;
 use serde::{Deserialize, Serialize};
 
 use super::TossCase;
+use crate::claim::Agreement;
 use crate::paper::{SectionThree, TableOne};
 
 /// The data of Fig. 4.
@@ -41,6 +42,16 @@ pub struct Fig04Data {
     /// in.
     pub(super) lossless_efficiency_of_fastest: f64,
     pub(super) consistency: Consistency,
+    /// The printed numbers over tosses whose inputs all round to those of Table I.
+    pub(super) alike: Vec<PrintedShare>,
+}
+
+/// How many tosses whose inputs all round to those of Table I give a printed number.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct PrintedShare {
+    /// The entry of the ledger.
+    pub(super) key: String,
+    pub(super) agreement: Agreement,
 }
 
 /// The performance measures of one toss.

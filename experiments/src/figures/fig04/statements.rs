@@ -8,7 +8,7 @@ use bouncing_disk::core::elementary::{asin, tan};
 use super::consistency::PARAMETER_NAMES;
 use super::data::{Best, LagCurve, LagOptimum, RatioSearch, Reading, TossPoint};
 use super::{Fig04Data, TossCase};
-use crate::claim::{self, Claim, Verdict};
+use crate::claim::{self, Agreement, Claim, Verdict};
 use crate::printed::PrintedNumber;
 
 const ID: &str = "fig04";
@@ -120,13 +120,23 @@ pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
     claims
 }
 
+/// A printed number, judged over tosses whose inputs all round to those of Table I.
+fn over_alike(data: &Fig04Data, key: &str, computed: f64) -> Claim {
+    let claim = Claim::printed(key, computed);
+    let Some(share) = data.alike.iter().find(|share| share.key == key) else { return claim };
+    let Agreement { holding, tried } = share.agreement;
+    claim.judged_over(share.agreement).note(format!(
+        "at the printed inputs; of {tried} tosses whose inputs all round to those of Table I {holding} give the printed number"
+    ))
+}
+
 /// The best toss with the parameters of Table I.
 fn optimum(data: &Fig04Data) -> Vec<Claim> {
     let table_i_speed = data.table_i_toss.airborne_speed_rad_per_s;
     let measured = &data.printed.launch_angular_speed_rad_per_s;
     let observed = &data.table_i.amplitude_angle_rad;
     let mut claims = vec![
-        Claim::printed("section3.predicted_airborne_speed", table_i_speed)
+        over_alike(data, "section3.predicted_airborne_speed", table_i_speed)
             .note("its printed uncertainty is answered by table2"),
         Claim::printed_statement(
             "section3.prediction_agrees",
@@ -159,7 +169,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         ("speed_ratio_at_optimum", fastest.speed_ratio.unwrap_or(f64::NAN)),
     ];
     for (name, computed) in numbers {
-        let mut claim = in_turns(Claim::printed(&format!("section3.{name}"), computed), computed);
+        let mut claim = in_turns(over_alike(data, &format!("section3.{name}"), computed), computed);
         if name == "largest_efficiency" {
             claim = claim.note(format!(
                 "{:.3} if the energy lost in friction is not counted as put in; the most efficient toss, at φ_L = \
@@ -169,7 +179,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
                 curve.most_efficient.efficiency
             ));
         }
-        if claim.verdict() == Verdict::Differs {
+        if claim.verdict() != Verdict::Reproduced {
             claim = claim.note(&reason);
         }
         claims.push(claim);

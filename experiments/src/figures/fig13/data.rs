@@ -169,6 +169,8 @@ pub(super) struct Draw {
     /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit, against ε.
     pub(super) speed_ratio_slope: Option<f64>,
     pub(super) stall_over_limit_slope: Option<f64>,
+    /// What the second of these lines rises by over the range of ε, over its value at the first ε.
+    pub(super) stall_over_limit_rise: Option<f64>,
     /// The largest α̇_ss/t_c over the limit, at any of the ε.
     pub(super) largest_stall_over_limit: f64,
     /// The largest steady speed over ωΦ.

@@ -197,11 +197,12 @@ fn draw<'a>(
     motors: impl Iterator<Item = &'a AlikeMotor> + Clone,
     by_amplitude: impl Iterator<Item = &'a AlikeMotor> + Clone,
 ) -> Draw {
-    let slope = |of: fn(&AlikeMotor) -> Option<f64>| {
+    let line = |of: fn(&AlikeMotor) -> Option<f64>| {
         let points = restitutions.iter().zip(motors.clone());
         let points: Vec<_> = points.filter_map(|(x, motor)| of(motor).map(|y| (*x, y))).collect();
-        StraightLine::through(&points).map(|line| line.slope)
+        StraightLine::through(&points)
     };
+    let range = restitutions.last().zip(restitutions.first()).map_or(0.0, |(last, first)| last - first);
     let exponent = |of: fn(&AlikeMotor) -> Option<f64>| {
         let points = by_amplitude.clone().filter_map(|motor| {
             of(motor).filter(|value| *value > 0.0).map(|value| (ln(motor.amplitude_m), ln(value)))
@@ -213,8 +214,9 @@ fn draw<'a>(
     let speed = |motor: &AlikeMotor| Some(speed_ratio(motor));
     let stall = |motor: &AlikeMotor| motor.stall_over_limit;
     Draw {
-        speed_ratio_slope: slope(speed),
-        stall_over_limit_slope: slope(stall),
+        speed_ratio_slope: line(speed).map(|line| line.slope),
+        stall_over_limit_slope: line(stall).map(|line| line.slope),
+        stall_over_limit_rise: line(stall).map(|line| line.slope * range / line.intercept),
         largest_stall_over_limit: largest(stall),
         largest_speed_ratio: largest(speed),
         share_of_exponential: motors.clone().filter(|motor| motor.is_exponential()).count() as f64

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::claim::Agreement;
 use crate::figures::uncertainty::Propagated;
 use crate::paper::{Measured, SectionThree, TableOne};
 
@@ -19,6 +20,15 @@ pub struct Table1Data {
     pub(super) fastest: Fastest,
     pub(super) arc: Arc,
     pub(super) restitution: Restitution,
+    pub(super) alike: Alike,
+}
+
+/// How many inputs that all print alike give the printed entries.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Alike {
+    pub(super) angular_frequency: Agreement,
+    pub(super) amplitude_angle: Agreement,
+    pub(super) friction: Agreement,
 }
 
 /// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled

@@ -7,11 +7,12 @@ use bouncing_disk::core::elementary::{acos, asin, atan2, hypot, tan};
 use bouncing_disk::{InitialState, LaunchSpeeds, Platform, Stroke, System, single_toss};
 
 use super::data::{
-    Arc, AtSeparation, AtStart, Components, ComputedEntries, Fastest, Restitution, Row, Table1Data,
+    Alike, Arc, AtSeparation, AtStart, Components, ComputedEntries, Fastest, Restitution, Row, Table1Data,
 };
 use crate::experiment::ExperimentError;
 use crate::figures::hand_path::HandPath;
 use crate::figures::motor_case::core_error;
+use crate::figures::printed_inputs::{DRAWN, agreement, draws};
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
 use crate::ledger;
@@ -51,6 +52,7 @@ pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
         fastest: fastest(&case)?,
         arc: arc(&case, platform)?,
         restitution: restitution(&case)?,
+        alike: alike()?,
         table_i,
         section,
         slip_slope_deg,
@@ -82,6 +84,36 @@ fn computed_entries(
         friction: Propagated::of([slip_slope_deg], |[slope]| {
             Ok::<_, ExperimentError>(tan(PI / 180.0 * slope))
         })?,
+    })
+}
+
+/// Seed of the inputs that print alike.
+const SEED: u64 = 1;
+
+/// The computed entries over inputs that all round to the printed ones.
+fn alike() -> Result<Alike, ExperimentError> {
+    let launch = [
+        ("section3.launch_speed", 0),
+        ("section3.launch_angular_speed", 0),
+        ("table1.stroke", 0),
+        ("table1.contact_radius", 0),
+    ];
+    let strokes = draws(launch, DRAWN, SEED)?
+        .into_iter()
+        .map(stroke)
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(ExperimentError::model)?;
+    let slopes = draws([("section3.slip_slope", 0)], DRAWN, SEED)?;
+    Ok(Alike {
+        angular_frequency: agreement(
+            "table1.angular_frequency",
+            strokes.iter().map(|stroke| stroke.angular_frequency),
+        )?,
+        amplitude_angle: agreement(
+            "table1.amplitude_angle",
+            strokes.iter().map(|stroke| stroke.amplitude_angle),
+        )?,
+        friction: agreement("table1.friction", slopes.iter().map(|[slope]| tan(PI / 180.0 * slope)))?,
     })
 }
 

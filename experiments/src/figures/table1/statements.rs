@@ -2,7 +2,7 @@
 
 use super::Table1;
 use super::data::Table1Data;
-use crate::claim::Claim;
+use crate::claim::{Agreement, Claim};
 use crate::experiment::Experiment;
 use crate::figures::uncertainty::Propagated;
 
@@ -20,10 +20,10 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
         ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
     let corrected = data.separation.corrected_angular_frequency_rad_per_s;
     vec![
-        Claim::printed(angle, entries.amplitude_angle_rad.value),
+        over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
         combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
             .note("the effects of a_e and the launch speeds"),
-        Claim::printed(frequency, entries.angular_frequency_rad_per_s.value),
+        over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
         combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
             .note("the effects of c, a_e and the launch speeds"),
         Claim::reading(
@@ -32,7 +32,8 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
             "ω by Eq. (14) with the launch speeds taken at τ_sep",
             corrected.value,
         ),
-        Claim::printed(friction, entries.friction.value).note(format!("tan({}°)", data.slip_slope_deg.value)),
+        over_alike(friction, entries.friction.value, data.alike.friction)
+            .note(format!("tan({}°)", data.slip_slope_deg.value)),
         Claim::printed("table1.friction_uncertainty", entries.friction.sum)
             .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
         Claim::printed_statement(
@@ -105,6 +106,14 @@ fn combined(key: &str, computed: &Propagated) -> Claim {
         return claim.note(note);
     }
     claim.fitted("how the effects of the inputs add up, as a plain sum").note(note)
+}
+
+/// An entry that the paper computes, judged over inputs that all round to the printed ones.
+fn over_alike(key: &str, computed: f64, agreement: Agreement) -> Claim {
+    Claim::printed(key, computed).judged_over(agreement).note(format!(
+        "at the printed inputs; of {} inputs that all round to them {} give the printed number",
+        agreement.tried, agreement.holding
+    ))
 }
 
 /// Eq. (14) takes the largest speeds of the hand for the speeds at separation.

@@ -70,9 +70,9 @@ pub(super) struct Drop {
     /// v²/(2 h) of the printed speed and height, and for everything that rounds to them.
     pub(super) gravity_of_printed_speed_m_per_s2: f64,
     pub(super) gravity_range_of_printed_speed_m_per_s2: [f64; 2],
-    /// What rounds to the printed gravity.
+    /// What rounds to the printed gravity, up to the highest g of Sec. V B: no g is printed for the drop.
     pub(super) printed_gravity_range_m_per_s2: [f64; 2],
-    /// Of the heights and gravities that round to the printed ones, drawn evenly, those that give the printed speed.
+    /// Of the heights that round to the printed one and of these g, drawn evenly, those that give the printed speed.
     pub(super) agreement: Agreement,
     /// The highest g of Sec. V B, and the impact speed with it.
     pub(super) highest_varied_m_per_s2: f64,

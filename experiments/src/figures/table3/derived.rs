@@ -197,7 +197,10 @@ fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, Experimen
     };
     let printed_heights = ends("section5.drop_height", -2)?;
     let printed_speeds = ends("section5.drop_speed", 0)?;
-    let printed_gravities = ends("table1.preload_acceleration", 0)?;
+    let [_, highest] = paper::preloads()?.preload_accelerations_m_per_s2;
+    // No g is printed for the drop either: the range of the motors.
+    let [lowest, _] = ends("table1.preload_acceleration", 0)?;
+    let printed_gravities = [lowest, highest];
     let needed = |speed: f64, height: f64| speed * speed / (2.0 * height);
     let mut noise = Noise::new(DROP_SEED);
     let mut even = |[low, high]: [f64; 2]| low + (high - low) * noise.even();
@@ -211,7 +214,6 @@ fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, Experimen
         let (height, rebound) = (even(printed_heights), even(printed_rebounds));
         (printed_restitutions[0]..=printed_restitutions[1]).contains(&(rebound / height).sqrt())
     }));
-    let [_, highest] = paper::preloads()?.preload_accelerations_m_per_s2;
     let smallest = MotorCase { amplitude_m: section.amplitudes_of_fig10_m[0], ..*motor };
     let at_highest = MotorCase { preload_acceleration_m_per_s2: highest, ..smallest };
     let drop_height = heights.drop_height_m;

@@ -36,9 +36,10 @@ pub(super) fn claims(data: &Table3Data) -> Vec<Claim> {
             .note("a_g of a solid ball is √(2/5) of its radius"),
         preload(data),
         Claim::printed("section5.estimated_restitution", drop.restitution.value)
+            .judged_over(drop.restitution_agreement)
             .note(format!(
                 "square root of rebound height over drop height. Heights that round to the printed ones give {:.3} to {:.3}, {} in {} of them an ε that \
-                 rounds to the printed one, whose printed uncertainty is larger than that of the digits",
+                 rounds to the printed one",
                 drop.restitution_range[0],
                 drop.restitution_range[1],
                 drop.restitution_agreement.holding,
@@ -50,10 +51,16 @@ pub(super) fn claims(data: &Table3Data) -> Vec<Claim> {
             "uncertainty of ε: half the difference of both ends of the rebound height",
             drop.restitution.sum,
         ),
-        Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).note(format!(
+        Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
             "√(2 g h) for h = {:.1} cm and g = {} m/s²; heights that round to it give {slowest:.3} to {fastest:.3} m/s, and the \
-             printed speed needs {shortest:.2} to {longest:.2} cm. Of heights and g that round to the printed ones {} in {} give the printed speed",
-            100.0 * drop.heights.drop_height_m, data.gravity_m_per_s2, drop.agreement.holding, drop.agreement.tried
+             printed speed needs {shortest:.2} to {longest:.2} cm. No g is printed for the drop: of heights that round to the printed one and g from {:.2} to \
+             {:.2} m/s² {} in {} give the printed speed",
+            100.0 * drop.heights.drop_height_m,
+            data.gravity_m_per_s2,
+            drop.printed_gravity_range_m_per_s2[0],
+            drop.printed_gravity_range_m_per_s2[1],
+            drop.agreement.holding,
+            drop.agreement.tried
         )),
         drop_gravity(data),
         stall(data),
@@ -68,7 +75,7 @@ fn drop_gravity(data: &Table3Data) -> Claim {
     Claim::statement(
         Table3::ID,
         "Sec. V A",
-        "the printed impact speed belongs to the g of 10 m/s² with which Sec. V B ends its range, not to gravity",
+        "the printed impact speed is consistent with the g of 10 m/s² with which Sec. V B ends its range, and not with the 9.8 m/s² of Table I",
         holds(drop.highest_varied_m_per_s2) && !holds(data.gravity_m_per_s2),
         format!(
             "v²/(2h) is {:.2} m/s², and {least:.3} to {most:.3} for everything that rounds to the printed height and speed; with {} m/s² the speed is {:.4} m/s. This suggests, and \
