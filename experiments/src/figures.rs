@@ -27,6 +27,7 @@ mod impulse;
 mod motor_case;
 mod printed_inputs;
 mod regression;
+mod samples;
 mod stall;
 mod synthetic;
 pub mod table1;

@@ -8,6 +8,7 @@ use super::data::{Fig06Data, Slice};
 use super::dimension::is_torque_ratio;
 use crate::claim::{self, Claim};
 use crate::figures::circular;
+pub(super) use crate::figures::samples::extent;
 
 /// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow approach to the
 /// orbit next to a doubling.
@@ -26,12 +27,6 @@ pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
 pub(super) fn period_ones(data: &Fig06Data) -> Vec<(&Slice, f64)> {
     let ones = data.followed.iter().filter(|slice| slice.period == Some(1));
     ones.filter_map(|slice| Some((slice, TAU * slice.impact_phase_cycles.first()?))).collect()
-}
-
-/// The smallest and the largest of some numbers.
-pub(super) fn extent(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
-    let start = (f64::INFINITY, f64::NEG_INFINITY);
-    values.into_iter().fold(start, |(low, high), value| (low.min(value), high.max(value)))
 }
 
 /// How far numbers that are no angles extend.

@@ -7,6 +7,7 @@ use super::run::MEMBER_INTERVALS;
 use crate::claim::{Agreement, Claim, all};
 use crate::figures::alike::{AlikeMotor, INTERVALS};
 use crate::figures::motor_case::{LOW_PERIOD_FLIGHTS, perturbation_claim};
+use crate::figures::samples;
 use crate::ledger;
 
 const ID: &str = "fig10";
@@ -104,11 +105,9 @@ fn percent(value: f64) -> String {
     format!("{:.1} %", 100.0 * value)
 }
 
-/// The middle of some numbers.
+/// The middle of some numbers, NaN of none: in words, and in comparisons that must fail then.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+    samples::median(values).unwrap_or(f64::NAN)
 }
 
 fn transients(data: &Fig10Data) -> Vec<Claim> {

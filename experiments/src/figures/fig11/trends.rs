@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::data::{Curve, Point};
 use crate::claim::Agreement;
 use crate::figures::regression::StraightLine;
+use crate::figures::samples;
 
 /// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
 /// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
@@ -218,11 +219,9 @@ fn median_slope(points: &[&Point]) -> Option<f64> {
     (!slopes.is_empty()).then(|| median(slopes.into_iter()))
 }
 
-/// The middle one, or the upper of two; zero of none.
+/// The middle one; zero of none.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
+    samples::median(values).unwrap_or(0.0)
 }
 
 /// Smallest and largest value; `None` of none.

@@ -4,6 +4,7 @@ use bouncing_disk::core::elementary::ln;
 
 use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
 use crate::figures::regression::StraightLine;
+pub(super) use crate::figures::samples::extent;
 
 pub(super) fn sweep_points(data: &Fig13Data) -> impl Iterator<Item = &SweepPoint> {
     data.sweeps.iter().flat_map(|sweep| &sweep.points)
@@ -58,9 +59,4 @@ pub(super) fn elasticity(data: &Fig13Data, parameter: Parameter, of: Reading) ->
 
 pub(super) fn words(line: Option<StraightLine>) -> String {
     line.map_or_else(|| "no fit".to_owned(), |line| format!("{:+.3} ± {:.3}", line.slope, line.slope_error))
-}
-
-/// Smallest and largest value.
-pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

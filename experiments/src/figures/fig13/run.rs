@@ -14,6 +14,7 @@ use crate::figures::impulse::Impulses;
 use crate::figures::motor_case::{MotorCase, perturbation_table};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
+use crate::figures::samples;
 use crate::paper;
 use crate::progress::Progress;
 
@@ -235,11 +236,7 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
         motors.iter().map(|motor| motor.cycle.chattering_flights().unwrap_or(usize::MAX)).collect();
     flights.sort_unstable();
     let share = |most: usize| flights.partition_point(|flights| *flights <= most) as f64 / count;
-    let median = |of: fn(&AlikeMotor) -> Option<f64>| {
-        let mut values: Vec<f64> = motors.iter().filter_map(of).collect();
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
+    let median = |of: fn(&AlikeMotor) -> Option<f64>| samples::median(motors.iter().filter_map(of));
     Prevalence {
         restitution,
         share_of_low_period: share_where(&|_, motor| motor.cycle.is_low_period()),
