@@ -63,8 +63,8 @@ impl Arc {
     }
 
     /// Integral of the integral of N up to tau.
-    pub(crate) fn force_twice(&self) -> f64 {
-        0.5 * (self.duration * self.duration) + self.peak * self.cosine_moment()
+    pub(crate) fn force_twice(&self) -> Term {
+        Term::of([0.5 * (self.duration * self.duration), self.peak * self.cosine_moment()])
     }
 
     /// Integral of N (tau - tau_0).

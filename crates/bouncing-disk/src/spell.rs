@@ -133,7 +133,7 @@ fn sliding_turn(system: &Dimensionless, direction: SlipDirection, speed: f64, ar
     let load = system.load();
     Turn {
         speed: speed - (grip * arc.force().value + load * t),
-        angle: t * (speed - 0.5 * load * t) - grip * arc.force_twice(),
+        angle: t * (speed - 0.5 * load * t) - grip * arc.force_twice().value,
     }
 }
 
@@ -163,11 +163,15 @@ pub(crate) fn contact_ledger(
 
     let load = system.load();
     ledger.book_rotary_change(state.angular_speed, turn.speed);
-    ledger.book_load(load * turn.angle, (load * turn.angle).abs());
     let (cosine, sine) = system.twist_components();
     match state.mode {
         Mode::Sliding(direction) => {
             let mu = system.friction();
+            // Where friction all but holds the load, the angle is a small difference of what each of them would give alone.
+            let t = arc.duration;
+            let angle_size =
+                t * (state.angular_speed.abs() + 0.5 * load.abs() * t) + mu * arc.force_twice().size;
+            ledger.book_load(load * turn.angle, load.abs() * angle_size);
             // Work of the platform: integral of -s mu N Q cos(tau + theta).
             let force = arc.force();
             let (force_cosine, force_sine) = (arc.force_cosine(), arc.force_sine());
@@ -190,6 +194,7 @@ pub(crate) fn contact_ledger(
             ledger.book_friction(work, mu * slipped.value, mu * (platform.size + slipped.size));
         }
         Mode::Sticking | Mode::Flight => {
+            ledger.book_load(load * turn.angle, (load * turn.angle).abs());
             // The friction torque is l + d(platform angular speed)/d tau: integrated times the platform's speed.
             let angle_change = cosine * arc.sine_change + sine * arc.cosine_change;
             let (before, after) = (start.angular_speed, end.angular_speed);

@@ -34,6 +34,62 @@ fn energy(state: &DiskState) -> (f64, f64) {
     )
 }
 
+/// Friction that all but holds the load lets the disk slide for thousands of periods, and the angle is a small difference of
+/// what the two would give alone: the balance knows its rounding, and the angle is v^2/(2 (mu - l)) as far as mu and l are known.
+#[test]
+fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
+    let phase = Phase::new(2.884_361_746_820_472).unwrap();
+    let mut long = 0;
+    for (friction, peak_acceleration, twist_speed) in [
+        (0.072_764_355_802_913_67, 0.0, 0.0),
+        (0.1, 0.0, 0.0),
+        (0.1, 0.5, 0.0),
+        (0.1, 0.0, 0.05),
+        (1.3, 0.9, 0.01),
+    ] {
+        for exponent in 1..=40 {
+            for speed in [0.104_885_647_927_958_9, 1e-3, 7.0, 100.0] {
+                let excess = friction * bouncing_disk_core::elementary::exp(-0.75 * f64::from(exponent));
+                let parameters = DimensionlessParameters {
+                    peak_acceleration,
+                    twist_speed,
+                    phase_lag: 0.3,
+                    friction,
+                    restitution: 0.5,
+                    load: -(friction - excess),
+                };
+                let system = parameters.build().unwrap();
+                let start = Start::Contact { phase, angular_speed: speed };
+                let Ok(records) = Engine::new(system, start, ChatterPolicy::Complete)
+                    .and_then(|engine| engine.take(4).collect::<Result<Vec<_>, _>>())
+                else {
+                    // Longer than its end could be resolved.
+                    continue;
+                };
+                for record in &records {
+                    let ledger = &record.ledger;
+                    assert!(
+                        ledger.relative_closure() <= CLOSURE,
+                        "{:e} {record:?}",
+                        ledger.relative_closure()
+                    );
+                }
+                let Some(slip) = records.first() else { continue };
+                long += usize::from(slip.span.periods > 100);
+                if peak_acceleration == 0.0 && twist_speed == 0.0 {
+                    let net = friction + system.load();
+                    let expected = speed * speed / (2.0 * net);
+                    let turned = slip.after.angle - slip.spell.state.angle;
+                    let known = 8.0 * f64::EPSILON * (friction / net) * expected
+                        + f64::EPSILON * slip.after.angle.abs();
+                    assert!((turned - expected).abs() <= known, "{turned} {expected} {slip:?}");
+                }
+            }
+        }
+    }
+    assert!(long > 100, "{long}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
