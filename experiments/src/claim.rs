@@ -8,6 +8,8 @@
 //! Only what the paper itself asserts counts for or against it: the [`Class`] of a claim tells that from inputs, from what was
 //! fitted, from what is true by construction, and from what this work adds.
 
+use std::iter::Sum;
+
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::ledger::{self, PrintedEntry};
@@ -105,12 +107,46 @@ impl Agreement {
         (self.tried > 0).then(|| self.holding as f64 / self.tried as f64)
     }
 
+    /// The standard error of the share, as that of a sample of the inputs that print alike; `None` where none was tried.
+    pub fn standard_error(self) -> Option<f64> {
+        self.share().map(|share| (share * (1.0 - share) / self.tried as f64).sqrt())
+    }
+
+    /// In words: how many of how many, the share and its standard error.
+    pub fn words(self) -> String {
+        let Self { holding, tried } = self;
+        match self.share().zip(self.standard_error()) {
+            Some((share, error)) => {
+                format!("{holding} of {tried}, {:.1} ± {:.1} %", 100.0 * share, 100.0 * error)
+            }
+            None => "none".to_owned(),
+        }
+    }
+
+    /// Whether more draws might move the share across one of the bounds: it is nearer to it than two standard errors.
+    fn is_close(self) -> bool {
+        let near = |share: f64, error: f64| {
+            [AGREED_SHARE, 1.0 - AGREED_SHARE].iter().any(|bound| (share - bound).abs() < 2.0 * error)
+        };
+        self.share().zip(self.standard_error()).is_some_and(|(share, error)| near(share, error))
+    }
+
     fn verdict(self) -> Option<Verdict> {
         self.share().map(|share| match share {
             share if share >= AGREED_SHARE => Verdict::Reproduced,
             // Of whole numbers, so that one in twenty is no matter of rounding.
             _ if 20 * self.holding <= self.tried => Verdict::Differs,
             _ => Verdict::DependsOnUnprintedDigits,
+        })
+    }
+}
+
+/// Several groups of inputs together.
+impl Sum for Agreement {
+    fn sum<I: Iterator<Item = Self>>(agreements: I) -> Self {
+        agreements.fold(Self { holding: 0, tried: 0 }, |sum, more| Self {
+            holding: sum.holding + more.holding,
+            tried: sum.tried + more.tried,
         })
     }
 }
@@ -225,6 +261,12 @@ impl Claim {
             }
             self.share = Some(share);
             self.verdict = verdict;
+            if agreement.is_close() {
+                return self.note(format!(
+                    "the share, {}, is within two standard errors of a bound of the verdict",
+                    agreement.words()
+                ));
+            }
         }
         self
     }
@@ -546,6 +588,16 @@ mod tests {
         assert_eq!(verdict(10, 200), (Verdict::Differs, Some(50)));
         assert_eq!(verdict(0, 0), (Verdict::NotComputable, None));
         assert_eq!(Agreement::of([true, false, true]), Agreement { holding: 2, tried: 3 });
+        assert_eq!(Agreement { holding: 183, tried: 200 }.words(), "183 of 200, 91.5 ± 2.0 %");
+        assert_eq!(Agreement { holding: 0, tried: 0 }.words(), "none");
+        let close = |holding| {
+            let agreement = Agreement { holding, tried: 200 };
+            Claim::printed_share("section5.oscillation_grows", agreement, "")
+                .remarks()
+                .contains("two standard errors")
+        };
+        // 0.95 is 2.7 standard errors above 0.90, and 1.97 above 0.915.
+        assert!(close(183) && close(190) && close(10) && !close(180) && !close(100) && !close(200));
         // A number keeps its value, and is not judged by it alone.
         let number =
             Claim::printed("section4.doubling_1", 0.486).judged_over(Agreement { holding: 1, tried: 2 });

@@ -1,6 +1,7 @@
 //! `docs/errata.md`: prose by hand, every number in it from the data of a figure.
 //!
-//! The template beside this file holds references like `{fig06:/merging/survived:.7}`: figure, JSON pointer into its data, format. The page is made
+//! The template beside this file holds references like `{fig06:/merging/survived:.7}`: figure, JSON pointer into its data, format. Of a long list
+//! `axial_forcing~0.56` in a pointer takes the entry whose `axial_forcing` is nearest to 0.56: a place in a list means nothing, and shifts. The page is made
 //! with them in paper quality, together with `docs/results.md`. `{claims:/section4.merging:.4}` is the computed number of the claim that answers an entry of the ledger, or
 //! the share of the inputs that print alike for which it holds. What the template writes out itself are numbers that the paper prints, which must stand in
 //! the [ledger](crate::ledger): a test reads all of them.
@@ -125,11 +126,27 @@ pub fn filled(template: &str, data: impl Fn(&str) -> Option<Value>) -> Result<St
         let Reference { id, pointer, format } = Reference::read(piece)?;
         let missing = || ErrataError::Missing { id: id.to_owned(), pointer: pointer.to_owned() };
         let data = data(id).ok_or_else(missing)?;
-        let number = data.pointer(pointer).and_then(Value::as_f64).ok_or_else(missing)?;
+        let number = value_at(&data, pointer).and_then(Value::as_f64).ok_or_else(missing)?;
         let format = Format::read(format).ok_or_else(missing)?;
         text.push_str(&format.write(number));
     }
     Ok(text)
+}
+
+/// What a pointer points at; see the [module](self).
+fn value_at<'a>(data: &'a Value, pointer: &str) -> Option<&'a Value> {
+    pointer.split('/').skip(1).try_fold(data, |value, part| match part.split_once('~') {
+        Some((field, wanted)) => {
+            let wanted: f64 = wanted.parse().ok()?;
+            let off = |entry: &Value| Some((entry.get(field)?.as_f64()? - wanted).abs());
+            let entries = value.as_array()?.iter().filter_map(|entry| Some((off(entry)?, entry)));
+            entries.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, entry)| entry)
+        }
+        None => match value {
+            Value::Array(entries) => entries.get(part.parse::<usize>().ok()?),
+            _ => value.get(part),
+        },
+    })
 }
 
 /// The numbers of the claims that answer entries of the ledger, by key: shares where a statement is judged by them.
@@ -167,16 +184,19 @@ mod tests {
     fn references_are_filled_in_and_faults_named() {
         let data = |id: &str| {
             (id == "fig06")
-                .then(|| json!({"merging": {"survived": 0.560_750_7, "width": -1.2e-7}, "list": [0.25, 3]}))
+                .then(|| json!({"merging": {"survived": 0.560_750_7, "width": -1.2e-7}, "list": [0.25, 3], "slices": [{"x": 1.0, "y": 5}, {"x": 2.0, "y": 6}]}))
         };
         let fill = |template: &str| filled(template, data);
         assert_eq!(fill("At {fig06:/merging/survived:.4}!").as_deref(), Ok("At 0.5608!"));
         assert_eq!(fill("{fig06:/merging/width:e1}").as_deref(), Ok("−1.2e−7"));
         assert_eq!(fill("{fig06:/list/0:%.1} %, {fig06:/list/1:.0}").as_deref(), Ok("25.0 %, 3"));
+        assert_eq!(fill("{fig06:/slices/x~1.9/y:.0}, {fig06:/slices/x~-3/y:.0}").as_deref(), Ok("6, 5"));
         assert_eq!(fill("{fig06:/list/0:π.4}π").as_deref(), Ok("0.0796π"));
         assert_eq!(fill("{fig06:/list/1:s6}, {fig06:/list/1:k.3}").as_deref(), Ok("3, 0.003"));
         for (template, part) in [
             ("{fig06:/list/2:.0}", "no number at /list/2"),
+            ("{fig06:/slices/z~1/y:.0}", "no number at /slices/z~1/y"),
+            ("{fig06:/slices/x~one/y:.0}", "no number"),
             ("{fig07:/list/0:.0}", "data of fig07"),
             ("{fig06:/list/0}", "is no reference"),
             ("{fig06:/list/0:x}", "is no reference"),

@@ -242,7 +242,9 @@ const CLASSES: &str = "\
     chosen so that the number comes out. *Input*: a parameter, a choice, a measurement or a quotation, with nothing to compute. *Identity*: true by\n\
     construction, a definition or an equation that the code implements, or one printed number against another. *This work*: a further reading of a\n\
     printed number, or a finding that the paper does not have. A statement that hangs on digits which the paper does not print is judged over\n\
-    inputs that all round to the printed ones: reproduced where it holds for 95 % of them, differing where it holds for at most 5 %.\n";
+    inputs that all round to the printed ones: reproduced where it holds for 95 % of them, differing where it holds for at most 5 %.\n\
+    A statement about a range of a parameter is meant for all of it: one counterexample, which the remark gives, makes it differ. One about \"most\" of\n\
+    something needs more than half. The counts are of rows and not of causes: one cause can move several rows.\n";
 
 fn picture_name(id: &str) -> String {
     format!("{id}.png")

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase, core_error};
+use super::regression::StraightLine;
 use crate::experiment::ExperimentError;
 
 /// Intervals over which the speed of a transient is averaged.
@@ -36,7 +37,8 @@ pub(crate) struct AlikeMotor {
     pub(crate) exponential_residual: f64,
     /// The same for a linear rise to a constant.
     pub(crate) ramp_residual: f64,
-    /// Standard deviation of the speed over the second half of the transient, as a share of ωΦ: the oscillation of the steady speed.
+    /// Standard deviation of the speed from its straight line over the second half of the transient, as a share of ωΦ: the oscillation of the steady speed. A slow
+    /// rise that goes on is none.
     pub(crate) oscillation: f64,
     pub(crate) impacts_per_s: f64,
     /// The time from nine tenths of the last speed to all but a fiftieth of it, over that to one half: 0.16 for a linear rise to a constant, 2.3 for an
@@ -83,14 +85,21 @@ impl AlikeMotor {
             .then(|| steady / constant / motor.largest_acceleration()),
             exponential_residual: exponential.residual / top,
             ramp_residual: ramp.residual / top,
-            oscillation: Spread::of(&curve.speeds[curve.speeds.len() / 2..])
-                .map_err(ExperimentError::model)?
-                .deviation
-                / top,
+            oscillation: oscillation(curve)? / top,
             impacts_per_s: curve.impacts as f64 / duration,
             turn: turn(curve),
         })
     }
+}
+
+/// Standard deviation of the speed from its straight line over the second half.
+fn oscillation(curve: &SpeedCurve) -> Result<f64, ExperimentError> {
+    let half = curve.speeds.len() / 2;
+    let points: Vec<(f64, f64)> =
+        curve.times.iter().zip(&curve.speeds).skip(half).map(|(time, speed)| (*time, *speed)).collect();
+    let unexplained = StraightLine::through(&points).map_or(1.0, |line| 1.0 - line.explained);
+    let spread = Spread::of(&curve.speeds[half..]).map_err(ExperimentError::model)?;
+    Ok(spread.deviation * unexplained.max(0.0).sqrt())
 }
 
 /// How sharply the curve turns to its last speed, the mean over its last fifth.
@@ -149,6 +158,20 @@ mod tests {
         assert!((curve(|time| -7.0 * (0.5 * time).min(1.0)) - TURN_OF_RAMP).abs() < 1e-9);
         let exponential = curve(|time| 3.0 * (1.0 - bouncing_disk::core::elementary::exp(-time)));
         assert!((exponential - TURN_OF_EXPONENTIAL).abs() < 0.01, "{exponential}");
+    }
+
+    #[test]
+    fn a_slow_rise_is_no_oscillation() {
+        let times: Vec<f64> = (0..200).map(f64::from).collect();
+        let curve = |speed: fn(f64) -> f64| SpeedCurve {
+            speeds: times.iter().map(|time| speed(*time)).collect(),
+            times: times.clone(),
+            impacts: 0,
+            separations: 0,
+        };
+        assert!(oscillation(&curve(|time| 3.0 + 0.1 * time)).expect("many") < 1e-9);
+        let alternating = oscillation(&curve(|time| 0.1 * time + if time % 2.0 < 1.0 { 1.0 } else { -1.0 }));
+        assert!((alternating.expect("many") - 1.0).abs() < 0.02);
     }
 
     #[test]

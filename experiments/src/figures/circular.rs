@@ -1,4 +1,7 @@
-//! How far angles extend on a circle, whose end is its beginning.
+//! How far angles extend on a circle, whose end is its beginning, and where on it they are concentrated.
+
+use bouncing_disk::core::elementary::{atan2, cos, hypot, sin_cos};
+use serde::{Deserialize, Serialize};
 
 /// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap between neighbours. Zero
 /// for one phase, `None` for none.
@@ -20,8 +23,39 @@ pub(crate) fn distance(one: f64, other: f64) -> f64 {
     apart.min(1.0 - apart)
 }
 
+/// First trigonometric moment of weights at phases: where they are concentrated, and how much.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Concentration {
+    /// Mean direction (rad), from −π to π.
+    pub(crate) mean_direction_rad: f64,
+    /// Mean resultant length: 0 if they are spread evenly, 1 if all have the same phase.
+    pub(crate) resultant_length: f64,
+}
+
+impl Concentration {
+    /// Of (phase in rad, weight); `None` without weight.
+    pub(crate) fn of(weights: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
+        let (mut cosine, mut sine, mut total) = (0.0, 0.0, 0.0);
+        for (phase, weight) in weights {
+            let (sin, cos) = sin_cos(phase);
+            (cosine, sine, total) = (cosine + weight * cos, sine + weight * sin, total + weight);
+        }
+        (total > 0.0).then(|| Self {
+            mean_direction_rad: atan2(sine, cosine),
+            resultant_length: hypot(cosine, sine) / total,
+        })
+    }
+
+    /// The mean cosine.
+    pub(crate) fn mean_cosine(&self) -> f64 {
+        self.resultant_length * cos(self.mean_direction_rad)
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{PI, TAU};
+
     use super::*;
 
     fn arc(phases: &[f64]) -> f64 {
@@ -67,5 +101,18 @@ mod tests {
             assert!((distance(one, other) - expected).abs() < 1e-15);
             assert!((distance(other, one) - expected).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn weights_about_the_seam_are_concentrated_there() {
+        let of = |phases: &[f64]| Concentration::of(phases.iter().map(|phase| (*phase, 2.0)));
+        let seam = of(&[0.3, TAU - 0.3]).expect("two");
+        assert!(seam.mean_direction_rad.abs() < 1e-15, "{seam:?}");
+        assert!((seam.mean_cosine() - cos(0.3)).abs() < 1e-15, "{seam:?}");
+        let even = of(&[0.0, 0.25 * TAU, 0.5 * TAU, 0.75 * TAU]).expect("four");
+        assert!(even.resultant_length < 1e-15, "{even:?}");
+        let opposite = of(&[PI]).expect("one");
+        assert!((opposite.mean_cosine() + 1.0).abs() < 1e-15, "{opposite:?}");
+        assert_eq!(of(&[]), None);
     }
 }

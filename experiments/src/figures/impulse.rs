@@ -9,11 +9,12 @@
 //! The steady speed is ωΦ times the impulse-weighted median of cos(τ + θ), and for a cycle of few impacts the
 //! speed rises in straight lines that break where the rotor catches up with the stator at one of them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::elementary::cos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Orbit, OrbitEvent, Phase};
 
+use super::circular::Concentration;
 use super::motor_case::core_error;
 use crate::experiment::ExperimentError;
 
@@ -31,6 +32,8 @@ const GOLDEN_STEP: f64 = 0.618_033_988_749_894_8;
 pub(crate) struct Impulses {
     /// Of single impacts.
     pub(crate) impacts: Vec<(f64, f64)>,
+    /// Phases of the impacts that end a flight of more than half a period, those of a last cycle that is cut off among them. Those of a chattering sequence, without end, are not among them.
+    pub(crate) landings: Vec<f64>,
     /// Of chattering that is summed, and of contact, in parts.
     pub(crate) contact: Vec<(f64, f64)>,
     /// Duration in radians, equal to the sum of all impulses between two separations.
@@ -54,6 +57,9 @@ impl Impulses {
             match event {
                 OrbitEvent::Impact(impact) => {
                     flown += impact.duration();
+                    if impact.duration() > PI {
+                        impulses.landings.push(impact.phase.angle());
+                    }
                     impulses
                         .impacts
                         .push((impact.phase.angle(), -(1.0 + map.restitution()) * impact.velocity));
@@ -108,6 +114,16 @@ impl Impulses {
         }
         let total: f64 = shares.iter().sum();
         shares.iter().map(|share| share / total).collect()
+    }
+
+    /// Where in the cycle the impulse is concentrated.
+    pub(crate) fn concentration(&self) -> Option<Concentration> {
+        Concentration::of(self.all())
+    }
+
+    /// Where the [`landings`](Self::landings) are.
+    pub(crate) fn concentration_of_collisions(&self) -> Option<Concentration> {
+        Concentration::of(self.landings.iter().map(|phase| (*phase, 1.0)))
     }
 
     /// Share of the impulse within `reach` (rad) of τ = 0.

@@ -135,6 +135,18 @@ impl PrintedInputs {
         Self { restitution: Range { low: restitution, high: restitution }, ..self }
     }
 
+    /// With μ, ε, A and ωΦ, which can be chosen, exactly as printed: only what is measured is drawn.
+    pub(crate) fn exact_settings(self) -> Self {
+        let exact = |range: Range| Range { low: range.at(0.5), high: range.at(0.5) };
+        Self {
+            friction: exact(self.friction),
+            restitution: exact(self.restitution),
+            amplitude_m: exact(self.amplitude_m),
+            peak_angular_speed_rad_per_s: exact(self.peak_angular_speed_rad_per_s),
+            ..self
+        }
+    }
+
     /// The first `count` motors of the seeded sequence, each input drawn evenly and independently of the others.
     pub(crate) fn drawn(&self, count: usize, seed: u64) -> Vec<MotorCase> {
         let mut noise = Noise::new(seed);
@@ -253,6 +265,23 @@ mod tests {
         assert!(
             light.drawn(20, 1).iter().all(|motor| (0.5..=1.5).contains(&motor.preload_acceleration_m_per_s2))
         );
+        let exact = inputs.exact_settings().drawn(20, 1);
+        for motor in &exact {
+            assert!(
+                (motor.restitution - 0.5).abs() < 1e-15 && (motor.amplitude_m - 1e-8).abs() < 1e-22,
+                "{motor:?}"
+            );
+            assert!(
+                (motor.friction - 0.1).abs() < 1e-16
+                    && (motor.peak_angular_speed_rad_per_s - 30.0).abs() < 1e-13
+            );
+        }
+        // What is not a setting is drawn as before.
+        assert!(exact.iter().zip(inputs.drawn(20, 1)).all(|(one, other)| {
+            one.frequency_hz.to_bits() == other.frequency_hz.to_bits()
+                && one.preload_acceleration_m_per_s2.to_bits()
+                    == other.preload_acceleration_m_per_s2.to_bits()
+        }));
         assert!(inputs.amplitude("section5.no_such_amplitude").is_err());
         assert!(inputs.words().contains("g 9.7500 to 10.0000 m/s²"), "{}", inputs.words());
     }

@@ -62,7 +62,9 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
     }
     let exception = exception(&MotorCase { amplitude_m: amplitudes[0], ..case })?;
     progress.advance(1);
-    let alike = drawn_alike(quality)?;
+    let inputs = PrintedInputs::table_three()?;
+    let alike = drawn_alike(inputs, |inputs| inputs, quality)?;
+    let exact_settings = drawn_alike(inputs, PrintedInputs::exact_settings, quality)?;
     progress.advance(1);
     let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
     let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
@@ -80,6 +82,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
         readings,
         exception,
         alike,
+        exact_settings,
         perturbations,
         own_motor_axial_forcing: forcing(
             section.own_motor_amplitude_m,
@@ -101,14 +104,17 @@ fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> f64 {
 }
 
 /// The motors of Table III at the three amplitudes, every input anywhere between what still rounds to the printed one.
-fn drawn_alike(quality: Quality) -> Result<Alike, ExperimentError> {
-    let inputs = PrintedInputs::table_three()?;
+fn drawn_alike(
+    inputs: PrintedInputs,
+    settings: fn(PrintedInputs) -> PrintedInputs,
+    quality: Quality,
+) -> Result<Alike, ExperimentError> {
     let count = quality.choose(DRAWN / 5, DRAWN);
     let motors = |key| -> Result<_, ExperimentError> {
-        alike(&inputs.amplitude(key)?.drawn(count, SEED), JUDGED_RISES)
+        alike(&settings(inputs.amplitude(key)?).drawn(count, SEED), JUDGED_RISES)
     };
     Ok(Alike {
-        inputs: inputs.words(),
+        inputs: settings(inputs).words(),
         motors: [
             motors("section5.smallest_amplitude_of_fig10")?,
             motors("section5.middle_amplitude_of_fig10")?,

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::data::Fig10Data;
+use super::data::{Alike, Fig10Data};
 use super::run::MEMBER_INTERVALS;
-use crate::claim::{Agreement, Claim, all};
+use crate::claim::{Agreement, Claim};
 use crate::figures::alike::{AlikeMotor, INTERVALS};
 use crate::figures::motor_case::{LOW_PERIOD_FLIGHTS, perturbation_claim};
 use crate::figures::samples;
@@ -129,12 +129,18 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
         oscillations.map(|value| format!("{:.2} %", 100.0 * value)).collect::<Vec<_>>().join(", ");
     let rates = medians(|motor| motor.impacts_per_s);
     let rises = |of: fn(&AlikeMotor) -> f64| {
-        Agreement::of(alike.draws().map(|draw| draw.windows(2).all(|pair| of(pair[0]) < of(pair[1]))))
+        move |draw: [&AlikeMotor; 3]| draw.windows(2).all(|pair| of(pair[0]) < of(pair[1]))
+    };
+    let judged = |key: &str, holds: &dyn Fn([&AlikeMotor; 3]) -> bool, evidence: String| {
+        let over = |alike: &Alike| Agreement::of(alike.draws().map(holds));
+        let exactly = over(&data.exact_settings);
+        Claim::printed_share(key, over(alike), evidence)
+            .note(format!("with μ, ε, A and ωΦ exactly as printed it holds for {}", exactly.words()))
     };
     vec![
-        Claim::printed_share(
+        judged(
             "section5.exponential_transients",
-            Agreement::of(alike.draws().map(|draw| draw.into_iter().all(AlikeMotor::is_exponential))),
+            &|draw| draw.into_iter().all(AlikeMotor::is_exponential),
             format!(
                 "whether at all three A the exponential fits better than a linear rise to a constant; {over} it does for {} of the motors one \
                  by one. {}",
@@ -142,28 +148,26 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
                 exception(data),
             ),
         ),
-        Claim::printed_share(
+        judged(
             "section5.oscillation_grows",
-            rises(|motor| motor.oscillation),
+            &rises(|motor| motor.oscillation),
             format!(
-                "standard deviation of the speed (averaged over 1/{INTERVALS} of the time) in the second half of the transient; median over {over}, as a share of ωΦ: \
+                "standard deviation of the speed (averaged over 1/{INTERVALS} of the time) from its straight line in the second half of the transient; median over {over}, as a share of ωΦ: \
                  {oscillations}"
             ),
         ),
         long_period_oscillates(data),
-        Claim::printed_share(
+        judged(
             "section5.frequent_collisions",
-            rises(|motor| -motor.impacts_per_s),
+            &rises(|motor| -motor.impacts_per_s),
             format!(
                 "median number of impacts a second of {over}: {}",
                 rates.iter().map(|rate| format!("{rate:.0}")).collect::<Vec<_>>().join(", ")
             ),
         ),
-        Claim::printed_share(
+        judged(
             "section5.long_period_chattering",
-            Agreement::of(
-                alike.draws().map(|draw| draw.into_iter().all(|motor| !motor.cycle.is_low_period())),
-            ),
+            &|draw| draw.into_iter().all(|motor| !motor.cycle.is_low_period()),
             format!(
                 "{} of {over}, are of low period (at most {LOW_PERIOD_FLIGHTS} flights of more than half a period from rest to rest)",
                 shares(|motor| motor.cycle.is_low_period()),
@@ -172,20 +176,26 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
     ]
 }
 
-/// At each amplitude the motors of long period must oscillate more than those of low period, on the median.
+/// Of any two motors that print alike at the same amplitude, one of long and one of low period, that of long period must oscillate more.
 fn long_period_oscillates(data: &Fig10Data) -> Claim {
-    let middle = |motors: &[AlikeMotor], low_period: bool| {
+    let chosen = |motors: &[AlikeMotor], low_period: bool| -> Vec<f64> {
         let chosen = motors.iter().filter(|motor| motor.cycle.is_low_period() == low_period);
-        median(chosen.map(|motor| motor.oscillation))
+        chosen.map(|motor| motor.oscillation).collect()
     };
-    let pairs = data.alike.motors.each_ref().map(|motors| (middle(motors, false), middle(motors, true)));
-    let words = pairs.iter().map(|(long, low)| format!("{:.3} % and {:.3} %", 100.0 * long, 100.0 * low));
-    Claim::printed_statement(
+    let amplitudes = data.alike.motors.each_ref().map(|motors| (chosen(motors, true), chosen(motors, false)));
+    let more = amplitudes.iter().flat_map(|(low, long)| {
+        long.iter().flat_map(|oscillation| low.iter().map(move |other| other < oscillation))
+    });
+    let words = amplitudes.iter().map(|(low, long)| {
+        let middle = |values: &[f64]| 100.0 * median(values.iter().copied());
+        format!("{:.3} % ({} motors) and {:.3} % ({})", middle(long), long.len(), middle(low), low.len())
+    });
+    Claim::printed_share(
         "section5.oscillation_from_long_period",
-        all(&pairs, |(long, low)| long > low),
+        Agreement::of(more),
         format!(
-            "median standard deviation of the speed in the second half of the transient, as a share of ωΦ, of motors of long and of low period that print \
-             alike, at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}",
+            "of all pairs of motors that print alike at the same A, one of long and one of low period, those agree in which the speed of the former varies more. Median \
+             standard deviation of the speed from its straight line in the second half of the transient, as a share of ωΦ, of motors of long and of low period at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}",
             words.collect::<Vec<_>>().join("; "),
         ),
     )

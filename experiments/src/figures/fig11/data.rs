@@ -26,6 +26,9 @@ const PRELOAD_SEED: u64 = 46_201;
 /// Impacts of the orbit that gives a motor's S(0).
 const BALANCED_IMPACTS: usize = 1_500;
 
+/// Motors above the preloads of the trends for each curve beside those drawn: together at least 200 of them at each frequency.
+const MORE_ABOVE: u32 = 52;
+
 /// The share to which the stator's twist is reduced where a smaller one is looked at.
 const REDUCED_TWIST: f64 = 0.5;
 
@@ -71,6 +74,8 @@ pub(super) struct Curve {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
     pub(super) points: Vec<Point>,
+    /// Further motors above the preloads of the trends, which are not drawn: the statements about them shall rest on enough.
+    pub(super) further: Vec<Point>,
 }
 
 /// One preload.
@@ -146,15 +151,19 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data
     for frequency_hz in frequencies {
         for (amplitude_m, members) in amplitudes.into_iter().zip(members) {
             let case = MotorCase { frequency_hz, amplitude_m, ..motor };
-            let points = preloads(&printed, count, &mut noise)
-                .into_par_iter()
-                .map(|preload| {
-                    let case = MotorCase { preload_acceleration_m_per_s2: preload, ..case };
-                    point(&case, rotor_mass_kg, members, relaunch_perturbation)
-                })
-                .collect::<Vec<Result<Point, ExperimentError>>>();
-            let points = points.into_iter().collect::<Result<_, _>>()?;
-            curves.push(Curve { frequency_hz, amplitude_m, points });
+            let [first, last] = printed.preload_accelerations_m_per_s2;
+            let mut motors = |from: f64, count: u32| {
+                let points = preloads([from, last], count, &mut noise)
+                    .into_par_iter()
+                    .map(|preload| {
+                        let case = MotorCase { preload_acceleration_m_per_s2: preload, ..case };
+                        point(&case, rotor_mass_kg, members, relaunch_perturbation)
+                    })
+                    .collect::<Vec<Result<Point, ExperimentError>>>();
+                points.into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
+            };
+            let (points, further) = (motors(first, count)?, motors(high, quality.choose(8, MORE_ABOVE))?);
+            curves.push(Curve { frequency_hz, amplitude_m, points, further });
             progress.advance(1);
         }
         for preload in three_preloads {
@@ -228,10 +237,9 @@ fn point(
     })
 }
 
-/// Preload accelerations over the printed range: its equal parts, and in each of them one, drawn evenly. Which values the authors took is not printed, and a motor's
+/// Preload accelerations over a range: its equal parts, and in each of them one, drawn evenly. Which values the authors took is not printed, and a motor's
 /// orbit depends on it; a regular grid could meet or miss the preloads at which the motor is on a short cycle.
-fn preloads(printed: &Preloads, count: u32, noise: &mut Noise) -> Vec<f64> {
-    let [first, last] = printed.preload_accelerations_m_per_s2;
+fn preloads([first, last]: [f64; 2], count: u32, noise: &mut Noise) -> Vec<f64> {
     (0..count)
         .map(|index| first + (last - first) * (f64::from(index) + noise.even()) / f64::from(count))
         .collect()

@@ -3,17 +3,14 @@
 use std::f64::consts::FRAC_1_PI;
 
 use super::data::Fig11Data;
-use super::trends::{EXPONENT_WITHIN, OTHER_BOUNDS, Power, SHARP, Trend, together};
-use crate::claim::{Agreement, Claim, all, any};
-use crate::figures::motor_case::{Form, PerturbationEffect};
+use super::trends::{EXPONENT_WITHIN, OTHER_BOUNDS, Power, SHARP, Trend};
+use crate::claim::{Agreement, Claim, all};
+use crate::figures::motor_case::{Form, perturbation_claim};
 use crate::table::{Cell, Table};
 
 const ID: &str = "fig11";
 
 const SECTION: &str = "Sec. V B";
-
-/// A rise of the stall torque above this is nearer to the trend (1) than to a plateau (0).
-const NEARER_TO_TREND: f64 = 0.5;
 
 /// A difference of more than so many standard errors is one.
 const STANDARD_ERRORS: f64 = 3.0;
@@ -117,7 +114,7 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
     let mut claims = vec![
         Claim::printed_share(
             "section5.torque_proportional_to_preload",
-            together(default.iter().map(|trend| trend.torque)),
+            default.iter().map(|trend| trend.torque).sum::<Agreement>(),
             format!(
                 "a motor agrees if its stall torque over preload is within {} % of the middle one of its curve{}; {}",
                 100.0 * SHARP,
@@ -127,7 +124,7 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
         ),
         Claim::printed_share(
             "section5.speed_independent_of_preload",
-            together(default.iter().map(|trend| trend.speed)),
+            default.iter().map(|trend| trend.speed).sum::<Agreement>(),
             format!(
                 "a motor agrees if its steady speed is within {} % of the middle one of its curve{}; {}",
                 100.0 * SHARP,
@@ -135,20 +132,10 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
                 counted(&default, |trend| trend.speed)
             ),
         ),
-        Claim::printed_share(
-            "section5.both_frequencies",
-            together(data.trends.iter().map(|trend| trend.both)),
-            format!(
-                "a motor agrees if both its speed and its torque are on the trend of its curve: at {} kHz {}; at {} kHz {}",
-                data.printed.frequencies_hz[0] / 1e3,
-                counted(&default, |trend| trend.both),
-                data.printed.frequencies_hz[1] / 1e3,
-                counted(&second, |trend| trend.both),
-            ),
-        ),
+        same_trends(data, &default, &second),
         Claim::printed_share(
             "section5.no_sharp_fall",
-            together(default.iter().map(|trend| trend.no_fall)),
+            default.iter().map(|trend| trend.no_fall).sum::<Agreement>(),
             format!(
                 "a motor below or above the preloads of the trends agrees if it is not slower by more than {} % than the middle of those inside: {}; \
                  without the motors on a low-period cycle {}",
@@ -160,7 +147,7 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
         plateau(data, &default),
         Claim::printed_share(
             "section5.no_sharp_rise",
-            together(second.iter().map(|trend| trend.no_rise_above)),
+            second.iter().map(|trend| trend.no_rise_above).sum::<Agreement>(),
             format!(
                 "a motor above the preloads of the trends agrees if it is not faster by more than {} % than the middle of those inside: {}",
                 100.0 * SHARP,
@@ -179,7 +166,11 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
         mirrored(data),
     ];
     for (frequency, table) in data.printed.frequencies_hz.iter().zip(&data.perturbations) {
-        claims.push(perturbation(frequency / 1e3, table, data.relaunch_perturbation));
+        let quantity = format!(
+            "at {} kHz and the middle of the preloads the steady speed does not depend on the size of the relaunch perturbation",
+            frequency / 1e3
+        );
+        claims.push(perturbation_claim(ID, &quantity, table));
     }
     claims
 }
@@ -203,7 +194,7 @@ fn counted(trends: &[&Trend], of: fn(&Trend) -> Agreement) -> String {
 /// How many agree with other bounds than [`SHARP`].
 fn other_bounds(trends: &[&Trend], of: fn(&Trend) -> [Agreement; 2]) -> String {
     let words = OTHER_BOUNDS.iter().enumerate().map(|(index, bound)| {
-        let Agreement { holding, tried } = together(trends.iter().map(|trend| of(trend)[index]));
+        let Agreement { holding, tried } = trends.iter().map(|trend| of(trend)[index]).sum::<Agreement>();
         format!("{holding} of {tried} with {:.0} %", 100.0 * bound)
     });
     format!(" ({})", words.collect::<Vec<_>>().join(", "))
@@ -225,20 +216,46 @@ fn power_words(trends: &[&Trend], of: fn(&Trend) -> Option<Power>) -> String {
     words.collect::<Vec<_>>().join("; ")
 }
 
-/// The stall torque above the preload of the measured plateau.
-fn plateau(data: &Fig11Data, default: &[&Trend]) -> Claim {
-    let slopes = default.iter().map(|trend| {
-        let slope = trend.high_torque_slope.map_or_else(|| "none".to_owned(), |slope| format!("{slope:.2}"));
-        format!("{}: {slope}", trend.name())
+/// That the exponents of speed and torque are the same at both frequencies, amplitude by amplitude.
+fn same_trends(data: &Fig11Data, default: &[&Trend], second: &[&Trend]) -> Claim {
+    let pairs: Vec<(&Trend, &Trend)> = default.iter().copied().zip(second.iter().copied()).collect();
+    let exponents = |trend: &Trend| Some([trend.torque_exponent?, trend.speed_exponent?]);
+    let alike = |one: &Trend, other: &Trend| {
+        exponents(one).zip(exponents(other)).is_some_and(|(one, other)| {
+            one.iter().zip(other).all(|(one, other)| (one - other).abs() <= EXPONENT_WITHIN)
+        })
+    };
+    let words = pairs.iter().flat_map(|(one, other)| [one, other]).map(|trend| {
+        let [torque, speed] = exponents(trend).unwrap_or([f64::NAN; 2]);
+        format!("{} kHz, {}: {torque:+.3} and {speed:+.3}", 1e-3 * trend.frequency_hz, trend.name())
     });
     Claim::printed_statement(
-        "section5.no_plateau",
-        all(default, |trend| trend.high_torque_slope.is_some_and(|slope| slope > NEARER_TO_TREND)),
+        "section5.both_frequencies",
+        all(&pairs, |(one, other)| alike(one, other)),
         format!(
-            "rise of the stall torque above {} mN, 1 on the trend of its curve and 0 on a plateau, the median over all pairs of motors, those on a low-period cycle \
-             among them; above {NEARER_TO_TREND} is nearer to the trend: {}; exponent without the motors on a low-period cycle: {}",
+            "whether the exponents of stall torque and steady speed against preload differ by at most {EXPONENT_WITHIN} between the frequencies at each A; medians over all \
+             pairs of motors inside, those on a low-period cycle among them: {}. Without these: torque {}; speed {}. On the trend of their curve are at {} kHz {}; at {} kHz {}",
+            words.collect::<Vec<_>>().join("; "),
+            power_words(&data.trends.iter().collect::<Vec<_>>(), |trend| trend.torque_power),
+            power_words(&data.trends.iter().collect::<Vec<_>>(), |trend| trend.speed_power),
+            data.printed.frequencies_hz[0] / 1e3,
+            counted(default, |trend| trend.both),
+            data.printed.frequencies_hz[1] / 1e3,
+            counted(second, |trend| trend.both),
+        ),
+    )
+}
+
+/// The stall torque above the preload of the measured plateau.
+fn plateau(data: &Fig11Data, default: &[&Trend]) -> Claim {
+    Claim::printed_share(
+        "section5.no_plateau",
+        default.iter().map(|trend| trend.no_plateau).sum(),
+        format!(
+            "a motor above {} mN agrees if its stall torque is nearer to the trend of its curve, a line through the origin, than to a plateau at what that line has at {0} mN: {}; \
+             exponent without the motors on a low-period cycle: {}",
             1e3 * data.printed.plateau_n,
-            slopes.collect::<Vec<_>>().join("; "),
+            share_words(default, |trend| trend.no_plateau),
             power_words(default, |trend| trend.high_torque_power_without),
         ),
     )
@@ -455,46 +472,4 @@ fn mirrored(data: &Fig11Data) -> Claim {
         ),
     )
     .identity()
-}
-
-/// The size of the perturbation: none, and all that were tried.
-fn perturbation(khz: f64, table: &[PerturbationEffect], default: f64) -> Claim {
-    let is_default = |effect: &&PerturbationEffect| effect.relaunch_perturbation.total_cmp(&default).is_eq();
-    let reference = table.iter().find(is_default).map(|effect| effect.statistics.steady_speed_rad_per_s);
-    let deviation = |effect: &PerturbationEffect| {
-        let speed = effect.statistics.steady_speed_rad_per_s;
-        reference.map(|reference| {
-            let squares = speed.standard_error * speed.standard_error
-                + reference.standard_error * reference.standard_error;
-            (speed.mean - reference.mean) / squares.sqrt()
-        })
-    };
-    let others = || table.iter().filter(|effect| !is_default(effect));
-    let depends = any(others(), |effect| deviation(effect).is_none_or(|by| by.abs() > STANDARD_ERRORS));
-    let words = table.iter().map(|effect| {
-        let speed = effect.statistics.steady_speed_rad_per_s;
-        let stall = effect.statistics.stall_acceleration_rad_per_s2.map_or_else(
-            || "no fit".to_owned(),
-            |stall| format!("{:.2} ± {:.2}", stall.mean, stall.standard_error),
-        );
-        let size = match effect.relaunch_perturbation {
-            size if size > 0.0 => format!("{size:e}"),
-            _ => "none".to_owned(),
-        };
-        format!("{size}: {:.3} ± {:.3}, {stall}", speed.mean, speed.standard_error)
-    });
-    Claim::statement(
-        ID,
-        "our ensemble",
-        format!(
-            "at {khz} kHz and the middle of the preloads the steady speed does not depend on the relaunch perturbation, from none to 0.1 g/ω"
-        ),
-        depends.map(|depends| !depends),
-        format!(
-            "steady speed (rad/s), stall acceleration (rad/s²), with standard errors over members that differ in starting phase and seed, by perturbation (g/ω): {}; a \
-             difference of more than {STANDARD_ERRORS} standard errors from that at {default:e} counts. Without perturbation every member ends on the cycle that the rounding of the \
-             arithmetic chose",
-            words.collect::<Vec<_>>().join("; ")
-        ),
-    )
 }

@@ -52,9 +52,11 @@ pub(super) struct Trend {
     /// Exponents inside without the motors on a low-period cycle.
     pub(super) torque_power: Option<Power>,
     pub(super) speed_power: Option<Power>,
-    /// Above the preload of the measured plateau: how steeply the torque of all motors that have one rises, in units of the middle torque over preload inside.
-    /// The median over all pairs of motors, which a few motors off the trend do not move; 1 on the trend, 0 on a plateau.
-    pub(super) high_torque_slope: Option<f64>,
+    /// How many motors above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
+    pub(super) no_plateau: Agreement,
+    /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
+    pub(super) speed_exponent: Option<f64>,
+    pub(super) torque_exponent: Option<f64>,
     /// The exponent there without the motors on a low-period cycle.
     pub(super) high_torque_power_without: Option<Power>,
     /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
@@ -72,7 +74,8 @@ impl Trend {
         let inside: Vec<&Point> =
             curve.points.iter().filter(|point| (from..=to).contains(&point.preload_mn)).collect();
         let below: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn < from).collect();
-        let above: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn > to).collect();
+        let every = || curve.points.iter().chain(&curve.further);
+        let above: Vec<&Point> = every().filter(|point| point.preload_mn > to).collect();
         let per_preload = |point: &Point| stall(point).map(|stall| stall / point.preload_mn);
         let median_speed = median(inside.iter().map(|point| speed(point)));
         let median_stall = median(inside.iter().filter_map(|point| per_preload(point)));
@@ -94,7 +97,7 @@ impl Trend {
             Agreement::of(points.iter().map(|point| speed(point) <= (1.0 + SHARP) * median_speed))
         };
         let outside = [below, above.clone()].concat();
-        let high: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn > plateau_mn).collect();
+        let high: Vec<&Point> = every().filter(|point| point.preload_mn > plateau_mn).collect();
         let inside_chaotic = chaotic(&inside);
         Self {
             frequency_hz: curve.frequency_hz,
@@ -117,7 +120,13 @@ impl Trend {
             without_torque: inside.iter().filter(|point| stall(point).is_none()).count(),
             torque_power: Power::through(&inside_chaotic, stall),
             speed_power: Power::through(&inside_chaotic, |point| Some(speed(point))),
-            high_torque_slope: median_slope(&high).map(|slope| slope / median_stall),
+            no_plateau: Agreement::of(high.iter().map(|point| {
+                // Halfway between the line through the origin and what the torque is where the plateau begins.
+                let halfway = 0.5 * median_stall * (point.preload_mn + plateau_mn);
+                stall(point).is_some_and(|stall| stall > halfway)
+            })),
+            speed_exponent: median_exponent(&inside, |point| Some(speed(point))),
+            torque_exponent: median_exponent(&inside, stall),
             high_torque_power_without: Power::through(&chaotic(&high), stall),
             no_fall: no_fall(&all(&outside)),
             no_rise_above: no_rise(&all(&above)),
@@ -205,18 +214,21 @@ pub(super) fn speed(point: &Point) -> f64 {
     point.statistics.steady_speed_rad_per_s.mean
 }
 
-/// The median slope of stall acceleration against preload over all pairs of motors that have one (Theil and Sen).
-fn median_slope(points: &[&Point]) -> Option<f64> {
-    let read: Vec<(f64, f64)> =
-        points.iter().filter_map(|point| stall(point).map(|value| (point.preload_mn, value))).collect();
-    let slopes: Vec<f64> = read
+/// The median exponent of what `of` reads against preload over all pairs of motors for which it is positive (Theil and Sen, in logarithms).
+fn median_exponent(points: &[&Point], of: fn(&Point) -> Option<f64>) -> Option<f64> {
+    let read: Vec<(f64, f64)> = points
+        .iter()
+        .filter_map(|point| {
+            of(point).filter(|value| *value > 0.0).map(|value| (ln(point.preload_mn), ln(value)))
+        })
+        .collect();
+    let slopes = read
         .iter()
         .enumerate()
         .flat_map(|(index, one)| read[index + 1..].iter().map(move |other| (one, other)))
         .filter(|(one, other)| (other.0 - one.0).abs() > 0.0)
-        .map(|(one, other)| (other.1 - one.1) / (other.0 - one.0))
-        .collect();
-    (!slopes.is_empty()).then(|| median(slopes.into_iter()))
+        .map(|(one, other)| (other.1 - one.1) / (other.0 - one.0));
+    samples::median(slopes)
 }
 
 /// The middle one; zero of none.
@@ -229,14 +241,6 @@ pub(super) fn extent(values: &[f64]) -> Option<[f64; 2]> {
     let mut values = values.iter().copied();
     let first = values.next()?;
     Some(values.fold([first, first], |[low, high], value| [low.min(value), high.max(value)]))
-}
-
-/// The agreements of several curves together.
-pub(super) fn together(agreements: impl IntoIterator<Item = Agreement>) -> Agreement {
-    agreements.into_iter().fold(Agreement { holding: 0, tried: 0 }, |sum, more| Agreement {
-        holding: sum.holding + more.holding,
-        tried: sum.tried + more.tried,
-    })
 }
 
 #[cfg(test)]
@@ -273,7 +277,7 @@ mod tests {
             .collect();
         points[10] = point(120.0, 3.0, None, 1);
         points[2] = point(40.0, 3.0, None, 1);
-        let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points };
+        let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points, further: Vec::new() };
         let trend = Trend::of(&curve, [80.0, 280.0], 200.0);
         assert_eq!(trend.speed, Agreement { holding: 20, tried: 21 });
         assert_eq!(trend.torque, Agreement { holding: 20, tried: 21 });
@@ -281,8 +285,10 @@ mod tests {
         assert_eq!(trend.no_fall, Agreement { holding: 8, tried: 9 });
         assert_eq!(trend.no_fall_without, Agreement { holding: 8, tried: 8 });
         assert_eq!(trend.no_rise_above, Agreement { holding: 3, tried: 3 });
-        let slope = trend.high_torque_slope.expect("many motors");
-        assert!((slope - 1.0).abs() < 1e-12, "{slope}");
+        let exponent = trend.torque_exponent.expect("many motors");
+        assert!((exponent - 1.0).abs() < 1e-12, "{exponent}");
+        assert!(trend.speed_exponent.is_some_and(|exponent| exponent.abs() < 1e-12), "{trend:?}");
+        assert_eq!(trend.no_plateau, Agreement { holding: 11, tried: 11 });
         let power = trend.torque_power.expect("many motors");
         assert!((power.exponent - 1.0).abs() < 1e-12 && power.motors == 20, "{power:?}");
         let holes = Holes::of(&[curve]);
@@ -299,10 +305,12 @@ mod tests {
             .map(|index| 10.0 * f64::from(index))
             .map(|preload| point(preload, 0.1 * preload, Some(7.0), 30))
             .collect();
-        let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points };
+        let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points, further: Vec::new() };
         let trend = Trend::of(&curve, [80.0, 280.0], 200.0);
         assert!(trend.speed.holding < 10 && trend.torque.holding < 12, "{trend:?}");
-        assert!(trend.high_torque_slope.expect("many motors").abs() < 1e-12);
+        assert!(trend.torque_exponent.expect("many motors").abs() < 1e-12);
+        assert!((trend.speed_exponent.expect("many motors") - 1.0).abs() < 1e-12);
+        assert_eq!(trend.no_plateau.holding, 0, "{:?}", trend.no_plateau);
         assert!(trend.high_torque_power_without.expect("many motors").exponent.abs() < 1e-12);
     }
 }

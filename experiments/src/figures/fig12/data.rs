@@ -24,6 +24,8 @@ pub struct Fig12Data {
     pub(super) perturbations: Vec<PerturbationEffect>,
     /// Motors that print like those of both cases.
     pub(super) alike: [Alike; 2],
+    /// The same draws with μ, ε, A and ωΦ exactly as printed.
+    pub(super) exact_settings: [Alike; 2],
     /// Motors of low period among those that print like the low-period case.
     pub(super) alike_of_low_period: LowPeriod,
 }

@@ -99,10 +99,12 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
         of_case("section5.amplitude_of_long_period", "section5.preload_acceleration_of_long_period")?,
         of_case("section5.amplitude_of_low_period", "section5.preload_acceleration_of_low_period")?,
     ];
-    let [long_like, low_like] = both.map(|inputs| {
+    let drawn = |inputs: PrintedInputs| {
         let motors = alike(&inputs.drawn(count, SEED), LONG_RISES)?;
         Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
-    });
+    };
+    let [long_like, low_like] = both.map(drawn);
+    let [long_exactly, low_exactly] = both.map(|inputs| drawn(inputs.exact_settings()));
     let alike_of_low_period = first_of_low_period(&both[1], count)?;
     progress.advance(1);
     Ok(Fig12Data {
@@ -114,6 +116,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
         low_period_flights: LOW_PERIOD_FLIGHTS,
         perturbations,
         alike: [long_like?, low_like?],
+        exact_settings: [long_exactly?, low_exactly?],
         alike_of_low_period,
     })
 }

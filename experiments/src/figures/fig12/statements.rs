@@ -95,7 +95,8 @@ pub(super) fn claims(data: &Fig12Data) -> Vec<Claim> {
             "section5.long_period_case",
             Agreement::of(long.motors.iter().map(|motor| !motor.cycle.is_low_period())),
             format!("{}. At the printed digits: {}", case(long), readings(data)),
-        ),
+        )
+        .note(exactly(data, 0, |motor| !motor.cycle.is_low_period())),
         Claim::printed_share(
             "section5.low_period_case",
             Agreement::of(low.motors.iter().map(|motor| motor.cycle.is_low_period())),
@@ -107,13 +108,23 @@ pub(super) fn claims(data: &Fig12Data) -> Vec<Claim> {
                 data.low_period.amplitude_offset,
                 data.low_period.cycle.words(),
             ),
-        ),
+        )
+        .note(exactly(data, 1, |motor| motor.cycle.is_low_period())),
         exponential(data),
         linear(data),
         abrupt(data),
         lines(data),
         uncommon(data),
     ]
+}
+
+/// For how many motors of a case it holds if what can be chosen is exactly as printed.
+fn exactly(data: &Fig12Data, case: usize, holds: fn(&AlikeMotor) -> bool) -> String {
+    let motors = data.exact_settings.get(case).map_or(&[][..], |alike| &alike.motors);
+    format!(
+        "with μ, ε, A and ωΦ exactly as printed it holds for {}",
+        Agreement::of(motors.iter().map(holds)).words()
+    )
 }
 
 fn percent(share: Option<f64>) -> String {

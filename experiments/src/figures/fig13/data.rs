@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::claim::Agreement;
+use crate::figures::circular::Concentration;
 use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
 
 /// The data of Fig. 13.
@@ -126,6 +128,9 @@ pub(super) struct ImpulsePhases {
     /// Shares in equal parts of the cycle from τ = −π to π.
     pub(super) shares: Vec<f64>,
     pub(super) share_near_zero: f64,
+    /// Where in the cycle the normal impulse is concentrated, and the collisions that end a flight of more than half a period.
+    pub(super) impulse: Option<Concentration>,
+    pub(super) collisions: Option<Concentration>,
     /// Share that comes in contact and in summed chattering.
     pub(super) contact_share: f64,
 }
@@ -156,8 +161,8 @@ pub(super) struct Prevalence {
     pub(super) share_of_short: f64,
     /// Half of the motors have cycles of no more flights; `None` if that is not known of half of them.
     pub(super) median_flights: Option<usize>,
-    /// Share of motors whose α̇_ss/t_c is above the limit μ a_e g/a_g².
-    pub(super) share_above_limit: f64,
+    /// Of the motors that settle, how many have an α̇_ss/t_c of at most the limit μ a_e g/a_g².
+    pub(super) within_limit: Agreement,
     /// Medians over the motors: steady speed over ωΦ; α̇_ss/t_c over the limit, over those that settle.
     pub(super) median_speed_ratio: f64,
     pub(super) median_stall_over_limit: Option<f64>,

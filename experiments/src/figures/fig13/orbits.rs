@@ -1,6 +1,6 @@
 //! What the orbits do to steady speed and stall torque.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_8, PI};
 
 use bouncing_disk::core::elementary::ln;
 
@@ -8,6 +8,7 @@ use super::data::{Fig13Data, Parameter, Prevalence, SweepPoint};
 use super::reading::{extent, sweep, sweep_points, words};
 use super::statements::ID;
 use crate::claim::{Agreement, Claim, all};
+use crate::figures::circular::Concentration;
 use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
 use crate::figures::regression::StraightLine;
 
@@ -110,53 +111,62 @@ pub(super) fn commonness(data: &Fig13Data) -> [Claim; 2] {
     ]
 }
 
-/// Width of the part of the cycle in which the collisions are said to be concentrated.
-const CONCENTRATED: f64 = FRAC_PI_2;
+/// The mean direction is "at τ = 0" within half of an eighth of the cycle; cos τ changes by less than a thirteenth up to there.
+const AT_ZERO: f64 = FRAC_PI_8;
 
-/// The middle (rad) of the part of this width with the largest share of the impulse, and that share.
-fn densest(shares: &[f64]) -> Option<(f64, f64)> {
-    let parts = shares.len();
-    let wide = (parts as f64 * CONCENTRATED / TAU).round() as usize;
-    let share = |from: usize| (0..wide).map(|part| shares[(from + part) % parts]).sum::<f64>();
-    let from = (0..parts).max_by(|one, other| share(*one).total_cmp(&share(*other)))?;
-    let middle = (from as f64 + 0.5 * wide as f64) / parts as f64 * TAU - PI;
-    Some((if middle > PI { middle - TAU } else { middle }, share(from)))
-}
-
+/// What is said about where in the cycle the collisions fall. A chattering sequence has infinitely many: the collisions that are counted are those
+/// that end a flight of more than half a period; all are weighed by their impulse. The paper's argument is about cos τ, so that the measures are those of
+/// circular statistics, the mean direction and the mean cosine; there is no width to choose.
 pub(super) fn phases_of_impulse(data: &Fig13Data) -> [Claim; 2] {
-    let shares: Vec<f64> = data.impulses.iter().map(|impulse| impulse.share_near_zero).collect();
-    let rows = data.impulses.iter().map(|impulse| {
+    let both: Vec<Option<[Concentration; 2]>> =
+        data.impulses.iter().map(|impulse| Some([impulse.impulse?, impulse.collisions?])).collect();
+    let at_zero = all(&both, |pair| {
+        pair.is_some_and(|pair| pair.iter().all(|of| of.mean_direction_rad.abs() <= AT_ZERO))
+    });
+    let falls = all(both.windows(2), |pair| {
+        pair[0].zip(pair[1]).is_some_and(|(one, other)| {
+            one.iter().zip(other).all(|(one, other)| one.mean_cosine() > other.mean_cosine())
+        })
+    });
+    let rows = data.impulses.iter().zip(&both).map(|(impulse, both)| {
+        let words = both.map_or_else(
+            || "none".to_owned(),
+            |pair| {
+                let [impulse, collisions] = pair.map(|of| {
+                    format!(
+                        "mean direction {:+.3}π, resultant length {:.3}, mean of cos τ {:.3}",
+                        of.mean_direction_rad / PI,
+                        of.resultant_length,
+                        of.mean_cosine()
+                    )
+                });
+                format!("impulse {impulse}; collisions {collisions}")
+            },
+        );
         let parts = impulse.shares.len();
         let peak = impulse.shares.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
         format!(
-            "ε = {}: {:.1} % of the normal impulse within π/4 of τ = 0 (25 % if even), most at τ = {:.2}π, {:.1} % in contact",
+            "ε = {}: {words}; {:.1} % of the impulse within π/4 of τ = 0 (25 % if even), most at τ = {:.2}π, {:.1} % in contact",
             impulse.restitution,
             100.0 * impulse.share_near_zero,
             peak.map_or(f64::NAN, |(part, _)| (2.0 * part as f64 + 1.0) / parts as f64 - 1.0),
             100.0 * impulse.contact_share,
         )
     });
-    let rows = rows.collect::<Vec<_>>().join("; ");
-    let quarters: Vec<(f64, f64)> =
-        data.impulses.iter().filter_map(|impulse| densest(&impulse.shares)).collect();
-    let where_densest = quarters
-        .iter()
-        .map(|(middle, share)| format!("{:.1} % about τ = {:.2}π", 100.0 * share, middle / PI))
-        .collect::<Vec<_>>()
-        .join(", ");
+    let rows = rows.collect::<Vec<_>>().join(". ");
     [
         Claim::printed_statement(
             "section5.collisions_at_zero_phase",
-            all(&quarters, |(middle, _)| middle.abs() <= 0.5 * CONCENTRATED),
+            at_zero,
             format!(
-                "the quarter of the cycle with most of the normal impulse must hold τ = 0: {where_densest}. {rows}. The peak before τ = 0 is \
-                 where the first flight after a rest, of about Γ periods, ends"
+                "whether the mean direction of the normal impulse, and of the collisions that end a flight of more than half a period, is within π/8 of τ = 0. {rows}. At \
+                 small ε the highest peak lies before τ = 0, where the first flight after a rest, of about Γ periods, ends"
             ),
         ),
         Claim::printed_statement(
             "section5.concentration_falls_with_restitution",
-            all(shares.windows(2), |pair| pair[0] > pair[1]),
-            rows,
+            falls,
+            format!("whether the mean of cos τ falls for both. {rows}"),
         ),
     ]
 }

@@ -8,6 +8,7 @@ use bouncing_disk::{ExponentialFit, TransientSettings};
 use super::data::{
     AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sweep, SweepPoint,
 };
+use crate::claim::Agreement;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
 use crate::figures::impulse::Impulses;
@@ -84,6 +85,8 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
                 restitution,
                 shares: impulses.histogram(PARTS),
                 share_near_zero: impulses.share_near_zero(FRAC_PI_4),
+                impulse: impulses.concentration(),
+                collisions: impulses.concentration_of_collisions(),
                 contact_share: contact / impulses.total(),
             })
         })
@@ -248,7 +251,9 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
                 .is_some_and(|periods| periods as f64 / motor.frequency_hz <= SHORT_CYCLE * rises[index])
         }),
         median_flights: flights.get(flights.len() / 2).copied().filter(|flights| *flights < usize::MAX),
-        share_above_limit: share_where(&|_, motor| motor.stall_over_limit.is_some_and(|stall| stall > 1.0)),
+        within_limit: Agreement::of(
+            motors.iter().filter_map(|motor| motor.stall_over_limit).map(|stall| stall <= 1.0),
+        ),
         median_speed_ratio: median(|motor| Some(speed_ratio(motor))).unwrap_or_default(),
         median_stall_over_limit: median(|motor| motor.stall_over_limit),
     }

@@ -230,19 +230,22 @@ pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
     let above = alike
         .prevalence
         .iter()
-        .map(|entry| format!("ε = {:.2}: {:.0} %", entry.restitution, 100.0 * entry.share_above_limit));
+        .map(|entry| format!("ε = {:.2}: {}", entry.restitution, entry.within_limit.words()));
+    let everywhere = Agreement::of(alike.draws.iter().map(|draw| draw.largest_stall_over_limit <= 1.0));
     Claim::printed_share(
         "section5.torque_limit",
-        Agreement::of(alike.draws.iter().map(|draw| draw.largest_stall_over_limit <= 1.0)),
+        alike.prevalence.iter().map(|entry| entry.within_limit).sum(),
         format!(
-            "whether α̇_ss/t_c stays below μ a_e g/a_g² at every ε from 0 to {:.1}, for {} motors that print alike ({}; ε set). Of the motors above it: {}. In the \
-             figure the largest quotient is, two standard errors below the mean, {share:.3} of the limit at {place}. The normal impulse per time is the \
+            "whether α̇_ss/t_c stays below μ a_e g/a_g², for all motors that settle at {} values of ε from 0 to {:.1} and {} draws of the other inputs ({}). By ε: {}. Below it at \
+             every ε: {} of the draws. In the figure the largest quotient is, two standard errors below the mean, {share:.3} of the limit at {place}. The normal impulse per time is the \
              weight, whatever the orbit, so no motor accelerates faster than the limit; but where the speed rises in lines rather than exponentially, at \
              small ε, the fit makes more of α̇_ss/t_c than any acceleration",
+            alike.prevalence.len(),
             alike.prevalence.last().map_or(f64::NAN, |entry| entry.restitution),
             alike.drawn,
             alike.inputs,
-            above.collect::<Vec<_>>().join(", "),
+            above.collect::<Vec<_>>().join("; "),
+            everywhere.words(),
         ),
     )
 }
