@@ -225,7 +225,7 @@ fn speeds(data: &Fig06Data) -> Vec<Claim> {
                 decides.axial_forcing_range.1,
                 at_maximum.len(),
                 at_maximum.first().map_or_else(String::new, |first| format!(
-                    ", the first at Γ = {:.4}, where with θ = {:.4}π and Γ_T = {:e} the mean speed is {:.4} ωΦ",
+                    ", the first at Γ = {:.4}, where with θ = {:.4}π and Γ_T = {:e} the mean speed of a disk that comes to rest on the platform at this speed is {:.4} ωΦ",
                     first.axial_forcing,
                     first.lag_rad / PI,
                     first.angular_forcing,

@@ -171,12 +171,16 @@ pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Pa
         changes.len() == Parameter::ALL.len()
             && changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter))
     };
+    let lacks = |draw: &&Draw| draw.sensitivities.iter().any(|one| of(one).is_none());
+    let incomplete = data.alike.draws.iter().filter(lacks).count();
     Claim::printed_share(
         key,
         Agreement::of(data.alike.draws.iter().map(holds)),
         format!(
-            "whether the named three have the largest changes, for {} motors that print alike and that nothing perturbs; medians: {}. {CHANGE}",
+            "whether the named three have the largest changes, for {} motors that print alike and that nothing perturbs ({} of them lack a value, since too few of their transients are fitted, and count \
+             as not agreeing); medians: {}. {CHANGE}",
             data.alike.drawn,
+            incomplete,
             medians(data, of)
         ),
     )
