@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::claim::Claim;
-use crate::draw::{DrawError, Figure};
 use crate::finite::{self, FiniteError};
 use crate::ledger::{self, LedgerError};
 use crate::measured::{Layout, MeasuredError, Series};
 use crate::progress::Progress;
 use crate::table::{Table, TableError};
+use bouncing_disk_plot::{DrawError, Figure};
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]

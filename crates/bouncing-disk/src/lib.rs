@@ -33,65 +33,44 @@
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 
-mod arc;
-mod brake;
-mod chatter;
-mod contact;
-mod dimensionless;
-mod disk;
-mod engine;
 mod error;
-mod event;
-mod fit;
-mod impact;
-mod ledger;
+mod motion;
 mod motor;
-mod multi_toss;
-mod phase_time;
-mod platform;
-mod rotor;
-mod scales;
-mod spell;
-mod start;
-mod state;
-mod system;
+mod parameters;
 #[cfg(test)]
 mod testing;
 mod toss;
-mod trajectory;
-mod transient;
-mod transients;
-mod transition;
 
 /// The math core: the vertical motion, its impact map and what is done with it.
 pub use bouncing_disk_core as core;
 
-pub use brake::{Braking, friction_from_braking};
-pub use contact::MAX_CONTACT_EVENTS;
-pub use dimensionless::{Dimensionless, DimensionlessParameters, ForcingParameters};
-pub use disk::{Disk, DiskParameters};
-pub use engine::Engine;
 pub use error::Error;
-pub use event::{Event, EventRecord};
-pub use fit::{ExponentialFit, RampFit};
-pub use ledger::EnergyLedger;
-pub use motor::{Ensemble, MAX_MEMBERS, MAX_SPEEDS, Spread, ensemble};
-pub use multi_toss::{
+pub use motion::contact::MAX_CONTACT_EVENTS;
+pub use motion::energy::EnergyLedger;
+pub use motion::engine::Engine;
+pub use motion::event::{Event, EventRecord};
+pub use motion::initial_condition::Start;
+pub use motion::phase_time::{PhaseSpan, PhaseTime};
+pub use motion::segment::Spell;
+pub use motion::si::{SiEnergy, SiState};
+pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
+pub use motion::trajectory::Trajectory;
+pub use motion::transition::{EventKind, ModeKind, Transition};
+pub use motor::brake::{Braking, friction_from_braking};
+pub use motor::ensemble::{Ensemble, MAX_MEMBERS, MAX_SPEEDS, Spread, ensemble};
+pub use motor::fit::{ExponentialFit, RampFit};
+pub use motor::transient::{SpeedCurve, TransientSettings, transient};
+pub use motor::transients::{TransientMember, transients};
+pub use parameters::dimensionless::{Dimensionless, DimensionlessParameters, ForcingParameters};
+pub use parameters::disk::{Disk, DiskParameters};
+pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
+pub use parameters::scales::Scales;
+pub use parameters::system::System;
+pub use toss::multiple::{
     Collision, CollisionEvent, CollisionState, Collisions, MAX_EXAMINED, MultiTossSettings, OrbitClass,
     TossOrbit, multi_toss, period_one_rotary_speed,
 };
-pub use phase_time::{PhaseSpan, PhaseTime};
-pub use platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
-pub use scales::{Scales, SiEnergy, SiState};
-pub use spell::Spell;
-pub use start::Start;
-pub use state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
-pub use system::System;
-pub use toss::{InitialState, TOSS_START, TossPerformance, single_toss, toss_trajectory};
-pub use trajectory::Trajectory;
-pub use transient::{SpeedCurve, TransientSettings, transient};
-pub use transients::{TransientMember, transients};
-pub use transition::{EventKind, ModeKind, Transition};
+pub use toss::single::{InitialState, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

@@ -6,8 +6,8 @@ use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
-use crate::dimensionless::{Dimensionless, DimensionlessParameters};
-use crate::start::Start;
+use crate::motion::initial_condition::Start;
+use crate::parameters::dimensionless::{Dimensionless, DimensionlessParameters};
 use crate::{DiskParameters, PlatformParameters, System};
 
 /// The motor of Table III, at an `amplitude` in m and a load in rad/s^2.

@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 use super::hand_path::HandPath;
 use super::toss_case::TossCase;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, TableOne};
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Phase lag of the motion shown. Table I has 0, for which the path of a point is a mere arc.
 const PHASE_LAG: f64 = -FRAC_PI_4;

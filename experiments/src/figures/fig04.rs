@@ -12,11 +12,11 @@ use bouncing_disk::InitialState;
 pub use self::data::Fig04Data;
 use super::toss_case::{TossCase, maximum};
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
 use crate::printed::PrintedNumber;
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 4.
 #[derive(Debug)]

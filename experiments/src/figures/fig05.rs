@@ -10,12 +10,12 @@ pub use self::data::Fig05Data;
 use self::data::{Column, Dependence, Toss};
 use super::toss_case::TossCase;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
 use crate::printed::PrintedNumber;
 use crate::progress::Progress;
 use crate::table::Table;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 5.
 #[derive(Debug)]

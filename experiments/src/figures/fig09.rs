@@ -14,15 +14,15 @@ use super::motor_case::MotorCase;
 use super::regression::StraightLine;
 use super::synthetic::Noise;
 use crate::claim::{Claim, all};
-use crate::draw::Marker;
-use crate::draw::{
-    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Rect, Rule,
-    Scatter, Ticks,
-};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::paper;
 use crate::progress::Progress;
+use bouncing_disk_plot::Marker;
+use bouncing_disk_plot::{
+    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Rect, Rule,
+    Scatter, Ticks,
+};
 
 /// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.
 const PRELOADS: u32 = 9;

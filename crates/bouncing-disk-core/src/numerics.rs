@@ -1,0 +1,3 @@
+//! Elementary functions with the same bits on every processor.
+
+pub mod elementary;

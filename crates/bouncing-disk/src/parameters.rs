@@ -1,0 +1,7 @@
+//! The parameters in SI units, and the groups without units that decide the motion.
+
+pub(crate) mod dimensionless;
+pub(crate) mod disk;
+pub(crate) mod platform;
+pub(crate) mod scales;
+pub(crate) mod system;

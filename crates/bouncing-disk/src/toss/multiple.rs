@@ -1,0 +1,654 @@
+//! Multiple tosses (Sec. IV): the motion as a sequence of collisions, and what it settles on.
+//!
+//! The paper's next-collision map takes (tau_imp, w_A, w_T) at one impact to the same three numbers at the next.
+//! Its first two do not depend on the third: the derivative of the map is block triangular, and its rotary entry
+//! is 0 for an impact in which the slip ends and 1 for one that slides throughout.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, Phase};
+use serde::Serialize;
+
+use crate::error::{Error, moderate, room_for};
+use crate::motion::engine::Engine;
+use crate::motion::event::{Event, EventRecord};
+use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::motion::initial_condition::Start;
+use crate::motion::phase_time::PhaseTime;
+use crate::parameters::dimensionless::Dimensionless;
+
+/// The state just before a collision: the paper's tau_imp, w_A and w_T.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CollisionState {
+    /// Phase of the impact, tau_imp.
+    pub phase: Phase,
+    /// Relative axial velocity w_A (disk minus platform), <= 0, in units of g/omega.
+    pub axial_impact_velocity: f64,
+    /// Relative angular speed w_T (disk minus platform), in units of g a_e/(a_g^2 omega).
+    pub tangential_impact_velocity: f64,
+}
+
+impl CollisionState {
+    /// The disk's angular speed just before the impact, in units of g a_e/(a_g^2 omega).
+    #[must_use]
+    pub fn angular_speed(&self, system: &Dimensionless) -> f64 {
+        self.tangential_impact_velocity + system.platform_angular_speed(self.phase)
+    }
+
+    /// The vertical part of the state.
+    ///
+    /// # Errors
+    /// An error of the core for a positive or non-finite axial velocity.
+    pub fn vertical(&self) -> Result<ImpactState, Error> {
+        Ok(ImpactState::new(self.phase, self.axial_impact_velocity)?)
+    }
+
+    /// How the motion goes on from this impact: its rebound as a start of an [`Engine`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] or an error of the core for velocities that are no impact.
+    pub fn rebound(&self, system: &Dimensionless) -> Result<Start, Error> {
+        let vertical = self.vertical()?;
+        let slip = moderate("tangential_impact_velocity", self.tangential_impact_velocity)?;
+        let axial = axial_impulse(system.restitution(), vertical.velocity());
+        let rotary = friction_impact(system.friction(), axial, slip);
+        let platform_speed = system.platform_angular_speed(self.phase);
+        let angular_speed =
+            if rotary.capped { platform_speed } else { platform_speed + slip + rotary.impulse };
+        let relative_speed = rebound_velocity(system.restitution(), vertical.velocity());
+        Ok(if relative_speed > 0.0 {
+            Start::Launch { phase: self.phase, relative_speed, angular_speed }
+        } else {
+            Start::Contact { phase: self.phase, angular_speed }
+        })
+    }
+}
+
+/// One collision of an orbit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Collision {
+    /// When.
+    pub time: PhaseTime,
+    /// The state just before.
+    pub state: CollisionState,
+    /// The disk's angular speed just before, in units of g a_e/(a_g^2 omega).
+    pub angular_speed: f64,
+    /// The angle that the disk has turned, in units of g a_e/(a_g omega)^2.
+    pub angle: f64,
+    /// Whether friction ended the slip within the impact.
+    pub capped: bool,
+}
+
+/// What [`Collisions`] reports.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum CollisionEvent {
+    /// An impact.
+    Collision(Collision),
+    /// The chattering has ended and the disk lies on the platform.
+    Attachment {
+        /// When.
+        time: PhaseTime,
+        /// Impacts that the complete policy has summed; none of them is reported by itself.
+        summed_impacts: u64,
+    },
+    /// The platform falls away from the disk.
+    Separation {
+        /// When.
+        time: PhaseTime,
+        /// The disk's angular speed.
+        angular_speed: f64,
+        /// The angle that the disk has turned.
+        angle: f64,
+    },
+}
+
+/// The lazy sequence of the collisions, attachments and separations of a motion.
+///
+/// It ends where the disk stays on the platform for ever, and after an error.
+#[derive(Debug, Clone)]
+pub struct Collisions {
+    engine: Engine,
+    ended: bool,
+}
+
+impl Collisions {
+    /// The collisions of a [`crate::System`] or a [`Dimensionless`] one from a start.
+    ///
+    /// # Errors
+    /// Those of [`Engine::new`].
+    pub fn new(system: impl Into<Dimensionless>, start: Start, policy: ChatterPolicy) -> Result<Self, Error> {
+        let system = system.into();
+        let lies = matches!(start, Start::Contact { .. }) && system.vibration().separation_phase().is_none();
+        Ok(Self { engine: Engine::new(system, start, policy)?, ended: lies })
+    }
+
+    /// The collisions that follow the one in `state`; that one itself is not reported.
+    ///
+    /// # Errors
+    /// Those of [`CollisionState::rebound`] and [`Engine::new`].
+    pub fn after(
+        system: impl Into<Dimensionless>,
+        state: CollisionState,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let system = system.into();
+        Self::new(system, state.rebound(&system)?, policy)
+    }
+
+    /// The system.
+    #[must_use]
+    pub const fn system(&self) -> &Dimensionless {
+        self.engine.system()
+    }
+
+    /// The next event, or `None` after the last one.
+    ///
+    /// # Errors
+    /// Those of [`Engine::advance`].
+    pub fn advance(&mut self) -> Result<Option<CollisionEvent>, Error> {
+        while !self.ended {
+            let Some(record) = self.engine.advance()? else { break };
+            if let Some(event) = collision_event(&record) {
+                let attached = matches!(event, CollisionEvent::Attachment { .. });
+                self.ended = attached && self.system().vibration().separation_phase().is_none();
+                return Ok(Some(event));
+            }
+        }
+        self.ended = true;
+        Ok(None)
+    }
+}
+
+impl Iterator for Collisions {
+    type Item = Result<CollisionEvent, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}
+
+const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
+    let time = record.time;
+    match record.event {
+        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+            Some(CollisionEvent::Collision(Collision {
+                time,
+                state: CollisionState {
+                    phase: time.phase,
+                    axial_impact_velocity,
+                    tangential_impact_velocity,
+                },
+                angular_speed: record.before.angular_speed,
+                angle: record.before.angle,
+                capped,
+            }))
+        }
+        Event::Attachment { impacts, .. } => {
+            Some(CollisionEvent::Attachment { time, summed_impacts: impacts })
+        }
+        Event::Separation => Some(CollisionEvent::Separation {
+            time,
+            angular_speed: record.after.angular_speed,
+            angle: record.after.angle,
+        }),
+        Event::StickToSlip(_) | Event::SlipToStick | Event::SlipReversal(_) => None,
+    }
+}
+
+/// The rotary speed of a period-1 orbit with impacts at `impact_phase`, Eq. 16: the platform's own speed there,
+/// Q cos(tau_imp + theta), in units of g a_e/(a_g^2 omega).
+///
+/// It is largest, Q, for a phase lag theta = -tau_imp.
+#[must_use]
+pub fn period_one_rotary_speed(system: &Dimensionless, impact_phase: Phase) -> f64 {
+    system.platform_angular_speed(impact_phase)
+}
+
+/// Most impacts that [`multi_toss`] looks at.
+pub const MAX_EXAMINED: usize = 10_000_000;
+
+/// How long a motion is followed, and when it counts as periodic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MultiTossSettings {
+    /// What ends a chattering sequence.
+    pub policy: ChatterPolicy,
+    /// Impacts that are not looked at.
+    pub transient_impacts: usize,
+    /// Impacts that are looked at after them, from 2 to [`MAX_EXAMINED`].
+    pub examined_impacts: usize,
+    /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts examined are
+    /// compared.
+    pub longest_period: usize,
+    /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no more
+    /// are the same.
+    pub tolerance: f64,
+}
+
+impl Default for MultiTossSettings {
+    fn default() -> Self {
+        Self {
+            policy: ChatterPolicy::Complete,
+            transient_impacts: 4_000,
+            examined_impacts: 1_024,
+            longest_period: 128,
+            tolerance: 1.0e-9,
+        }
+    }
+}
+
+impl MultiTossSettings {
+    fn check(&self) -> Result<(), Error> {
+        let refuse = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+        if self.examined_impacts < 2 {
+            return refuse("examined_impacts", self.examined_impacts as f64, "at least 2");
+        }
+        if self.longest_period < 1 {
+            return refuse("longest_period", self.longest_period as f64, "at least 1");
+        }
+        if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
+            return refuse("tolerance", self.tolerance, "[0, inf)");
+        }
+        Ok(())
+    }
+}
+
+/// What a motion has settled on, judged from the impacts examined.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum OrbitClass {
+    /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
+    /// the vertical orbit, which attracts.
+    Periodic {
+        /// Impacts in one round.
+        period: usize,
+        /// Periods of the platform in one round.
+        platform_periods: u64,
+        /// The two Floquet multipliers of the vertical motion.
+        vertical: Multipliers,
+        /// The third one: 0 if the slip ends in an impact of the round, 1 if every impact slides.
+        rotary: f64,
+    },
+    /// The disk comes to rest on the platform again and again. It leaves it in the same vertical state each time,
+    /// so the vertical motion is periodic from the first separation on: eventually periodic, as long as the
+    /// arithmetic is. (A long cycle depends on its rounding.)
+    Chattering {
+        /// Impacts from one separation to the next, without those that the complete policy sums.
+        impacts_per_cycle: usize,
+        /// Periods of the platform from one separation to the next.
+        platform_periods: u64,
+        /// Flights of the cycle that last longer than half a period.
+        long_flights: usize,
+    },
+    /// Neither within the impacts examined.
+    ChaoticOrLong {
+        /// Impacts examined.
+        impacts: usize,
+        /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
+        /// impacts examined: an estimate of the largest Lyapunov exponent. `None` if the disk attached on the way.
+        lyapunov_exponent: Option<f64>,
+    },
+    /// The disk rests on the platform for ever.
+    AtRest,
+}
+
+/// A motion after its transient.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TossOrbit {
+    /// What it has settled on.
+    pub class: OrbitClass,
+    /// One round of a periodic orbit, one cycle of a chattering one, else all impacts examined.
+    pub collisions: Vec<Collision>,
+    /// Mean angular speed over those, in units of g a_e/(a_g^2 omega); `None` at rest.
+    pub mean_angular_speed: Option<f64>,
+    /// Whether the angular speed, too, repeats from round to round; `None` where nothing repeats.
+    pub rotation_repeats: Option<bool>,
+}
+
+/// Follows a motion through its transient and says what it has settled on.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts examined or than there is
+/// memory for; those of [`Collisions`].
+pub fn multi_toss(
+    system: impl Into<Dimensionless>,
+    start: Start,
+    settings: MultiTossSettings,
+) -> Result<TossOrbit, Error> {
+    settings.check()?;
+    let system = system.into();
+    let mut collisions = Collisions::new(system, start, settings.policy)?;
+    let mut skipped = 0;
+    let collided = room_for("examined impacts", settings.examined_impacts, MAX_EXAMINED)?;
+    let mut window = Window { collisions: collided, ..Window::default() };
+    while window.collisions.len() < settings.examined_impacts {
+        match collisions.advance()? {
+            Some(event) if skipped < settings.transient_impacts => {
+                skipped += usize::from(matches!(event, CollisionEvent::Collision(_)));
+            }
+            Some(event) => window.push(&event),
+            None => {
+                return Ok(TossOrbit {
+                    class: OrbitClass::AtRest,
+                    collisions: Vec::new(),
+                    mean_angular_speed: None,
+                    rotation_repeats: None,
+                });
+            }
+        }
+    }
+    Ok(window.classified(&system, &settings))
+}
+
+/// A separation, and how many collisions of the window came before it.
+#[derive(Debug, Clone, Copy)]
+struct Leaving {
+    before: usize,
+    time: PhaseTime,
+    angular_speed: f64,
+    angle: f64,
+}
+
+#[derive(Debug, Default)]
+struct Window {
+    collisions: Vec<Collision>,
+    leavings: Vec<Leaving>,
+    attached: bool,
+}
+
+impl Window {
+    fn push(&mut self, event: &CollisionEvent) {
+        match *event {
+            CollisionEvent::Collision(collision) => self.collisions.push(collision),
+            CollisionEvent::Attachment { .. } => self.attached = true,
+            CollisionEvent::Separation { time, angular_speed, angle } => {
+                self.leavings.push(Leaving { before: self.collisions.len(), time, angular_speed, angle });
+            }
+        }
+    }
+
+    fn classified(self, system: &Dimensionless, settings: &MultiTossSettings) -> TossOrbit {
+        if let [.., from, to] = self.leavings[..] {
+            return self.chattering(system, settings, from, to);
+        }
+        let periodic = if self.attached { None } else { self.periodic(system, settings) };
+        periodic.unwrap_or_else(|| self.chaotic(system))
+    }
+
+    fn chattering(
+        self,
+        system: &Dimensionless,
+        settings: &MultiTossSettings,
+        from: Leaving,
+        to: Leaving,
+    ) -> TossOrbit {
+        let cycle = &self.collisions[from.before..to.before];
+        let mut last = from.time;
+        let mut long_flights = 0;
+        for collision in cycle {
+            long_flights += usize::from(collision.time.since(&last).radians() > 0.5 * TAU);
+            last = collision.time;
+        }
+        let change = to.angular_speed - from.angular_speed;
+        TossOrbit {
+            class: OrbitClass::Chattering {
+                impacts_per_cycle: cycle.len(),
+                platform_periods: to.time.since(&from.time).periods,
+                long_flights,
+            },
+            mean_angular_speed: mean_speed((from.time, from.angle), (to.time, to.angle)),
+            rotation_repeats: Some(change.abs() <= settings.tolerance * (1.0 + system.twist_speed())),
+            collisions: cycle.to_vec(),
+        }
+    }
+
+    fn periodic(&self, system: &Dimensionless, settings: &MultiTossSettings) -> Option<TossOrbit> {
+        let last = self.collisions.len() - 1;
+        let longest = settings.longest_period.min(self.collisions.len() / 2).min(MAX_PERIOD);
+        let near = |a: &Collision, b: &Collision| {
+            let apart = (a.time.phase.angle() - b.time.phase.angle()).abs();
+            let velocity = a.state.axial_impact_velocity;
+            apart.min(TAU - apart) <= settings.tolerance
+                && (velocity - b.state.axial_impact_velocity).abs()
+                    <= settings.tolerance * (1.0 + velocity.abs())
+        };
+        let period = (1..=longest).find(|period| {
+            (0..*period)
+                .all(|back| near(&self.collisions[last - back], &self.collisions[last - back - period]))
+        })?;
+        let round = &self.collisions[last + 1 - period..];
+        let states: Vec<ImpactState> =
+            round.iter().map(|collision| collision.state.vertical()).collect::<Result<_, _>>().ok()?;
+        let orbit = system.map().refine(&states).ok()?;
+        let vertical = Multipliers::of(orbit.monodromy);
+        if vertical.spectral_radius() >= 1.0 {
+            return None;
+        }
+        let before = &self.collisions[last - period];
+        let end = &self.collisions[last];
+        let scale = settings.tolerance * (1.0 + system.twist_speed());
+        Some(TossOrbit {
+            class: OrbitClass::Periodic {
+                period,
+                platform_periods: orbit.platform_periods,
+                vertical,
+                rotary: if round.iter().any(|collision| collision.capped) { 0.0 } else { 1.0 },
+            },
+            collisions: round.to_vec(),
+            mean_angular_speed: mean_speed((before.time, before.angle), (end.time, end.angle)),
+            rotation_repeats: Some((end.angular_speed - before.angular_speed).abs() <= scale),
+        })
+    }
+
+    fn chaotic(self, system: &Dimensionless) -> TossOrbit {
+        let (first, last) = (&self.collisions[0], &self.collisions[self.collisions.len() - 1]);
+        let mean = mean_speed((first.time, first.angle), (last.time, last.angle));
+        let lyapunov_exponent =
+            if self.attached { None } else { growth_rate(system.map(), &self.collisions) };
+        TossOrbit {
+            class: OrbitClass::ChaoticOrLong { impacts: self.collisions.len(), lyapunov_exponent },
+            mean_angular_speed: mean,
+            rotation_repeats: None,
+            collisions: self.collisions,
+        }
+    }
+}
+
+/// Angle turned over time taken.
+fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
+    let span = to.0.since(&from.0).radians();
+    (span > 0.0).then(|| (to.1 - from.1) / span)
+}
+
+/// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is unbounded.
+fn growth_rate(map: &ImpactMap, collisions: &[Collision]) -> Option<f64> {
+    let mut tangent = (1.0, 0.0);
+    let mut sum = 0.0;
+    let mut steps = 0;
+    for collision in collisions.split_last()?.1 {
+        let state = collision.state.vertical().ok()?;
+        let impact = map.step(state).ok()?;
+        let jacobian = map.jacobian(state, &impact);
+        let (along, across) = (jacobian.x_axis, jacobian.y_axis);
+        let x = along.x * tangent.0 + across.x * tangent.1;
+        let y = along.y * tangent.0 + across.y * tangent.1;
+        let length = (x * x + y * y).sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        sum += bouncing_disk_core::elementary::ln(length);
+        tangent = (x / length, y / length);
+        steps += 1;
+    }
+    Some(sum / f64::from(steps))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use bouncing_disk_core::Vibration;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::parameters::dimensionless::ForcingParameters;
+
+    fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> Dimensionless {
+        ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: 0.5 }.build().unwrap()
+    }
+
+    fn period_one(system: &Dimensionless, angular_speed: f64) -> Start {
+        let state = system.map().period_one(1).unwrap();
+        let relative_speed = -system.restitution() * state.velocity();
+        Start::Launch { phase: state.phase(), relative_speed, angular_speed }
+    }
+
+    fn from_rest(system: &Dimensionless) -> Start {
+        let phase = Phase::new(1.5 * PI).unwrap();
+        Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) }
+    }
+
+    #[test]
+    fn period_one_tosses_turn_with_the_speed_of_eq_16() {
+        for (forcing, angular_forcing, lag) in
+            [(0.36, 100.0, 0.0), (0.42, 1.0, -0.26 * PI), (0.45, 30.0, 2.0)]
+        {
+            let system = system(forcing, angular_forcing, lag);
+            let orbit = multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default()).unwrap();
+            let OrbitClass::Periodic { period, platform_periods, vertical, rotary } = orbit.class else {
+                panic!("{:?}", orbit.class)
+            };
+            assert_eq!((period, platform_periods), (1, 1));
+            assert!(vertical.spectral_radius() < 1.0);
+            assert!(rotary == 0.0, "the disk turns with the platform at every impact");
+            let expected = period_one_rotary_speed(&system, system.map().period_one(1).unwrap().phase());
+            let speed = orbit.mean_angular_speed.unwrap();
+            assert!((speed - expected).abs() <= 1e-9 * (1.0 + system.twist_speed()), "{speed} {expected}");
+            assert_eq!(orbit.rotation_repeats, Some(true));
+        }
+    }
+
+    #[test]
+    fn a_disk_from_rest_chatters_below_the_merging_of_the_attractors() {
+        for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
+            let system = system(0.48, 1.0, 0.0);
+            let settings = MultiTossSettings { policy, transient_impacts: 100, ..Default::default() };
+            let orbit = multi_toss(system, from_rest(&system), settings).unwrap();
+            let OrbitClass::Chattering { platform_periods, long_flights, .. } = orbit.class else {
+                panic!("{:?}", orbit.class)
+            };
+            assert_eq!((platform_periods, long_flights), (1, 1));
+            assert_eq!(orbit.rotation_repeats, Some(true));
+        }
+    }
+
+    #[test]
+    fn chaos_and_the_gentle_platform_are_told_apart() {
+        let system_of = |forcing| system(forcing, 1.0, 0.0);
+        let chaotic = system_of(0.55);
+        let start =
+            Start::Launch { phase: Phase::new(0.6).unwrap(), relative_speed: 2.1, angular_speed: 0.0 };
+        let orbit = multi_toss(chaotic, start, MultiTossSettings::default()).unwrap();
+        let OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } = orbit.class else {
+            panic!("{:?}", orbit.class)
+        };
+        assert_eq!(impacts, 1_024);
+        let exponent = lyapunov_exponent.unwrap();
+        assert!(exponent > 0.1 && exponent < 1.0, "{exponent}");
+        let gentle = system_of(0.3);
+        let orbit = multi_toss(gentle, from_rest(&gentle), MultiTossSettings::default()).unwrap();
+        assert_eq!(orbit.class, OrbitClass::AtRest);
+        let orbit = multi_toss(gentle, start, MultiTossSettings::default()).unwrap();
+        assert_eq!(orbit.class, OrbitClass::AtRest);
+    }
+
+    #[test]
+    fn bad_settings_and_states_are_refused() {
+        let system = system(0.4, 1.0, 0.0);
+        let start = period_one(&system, 0.0);
+        for settings in [
+            MultiTossSettings { examined_impacts: 1, ..Default::default() },
+            MultiTossSettings { longest_period: 0, ..Default::default() },
+            MultiTossSettings { tolerance: f64::NAN, ..Default::default() },
+        ] {
+            assert!(matches!(multi_toss(system, start, settings), Err(Error::OutOfRange { .. })));
+        }
+        for examined_impacts in [MAX_EXAMINED + 1, usize::MAX] {
+            let settings = MultiTossSettings { examined_impacts, ..Default::default() };
+            let error = multi_toss(system, start, settings).unwrap_err();
+            assert!(error.to_string().contains(&examined_impacts.to_string()), "{error}");
+        }
+        let endless = MultiTossSettings { longest_period: usize::MAX, ..Default::default() };
+        assert_eq!(multi_toss(system, start, endless), multi_toss(system, start, Default::default()));
+        let state = CollisionState {
+            phase: Phase::new(0.0).unwrap(),
+            axial_impact_velocity: 1.0,
+            tangential_impact_velocity: 0.0,
+        };
+        assert!(state.rebound(&system).is_err());
+        let state = CollisionState {
+            axial_impact_velocity: -1.0,
+            tangential_impact_velocity: f64::INFINITY,
+            ..state
+        };
+        assert!(state.rebound(&system).is_err());
+    }
+
+    proptest! {
+        /// The next collision is that of the map, bit for bit, and the rotary derivative is 0 or 1.
+        #[test]
+        fn the_next_collision_map_is_block_triangular(
+            forcing in 0.3_f64..3.0, angular_forcing in 0.0_f64..10.0, lag in -PI..PI,
+            angle in 0.0..TAU, speed in 0.2_f64..5.0, slip in -20.0_f64..20.0,
+        ) {
+            let system = system(forcing, angular_forcing, lag);
+            let state = CollisionState {
+                phase: Phase::new(angle).unwrap(),
+                axial_impact_velocity: -speed,
+                tangential_impact_velocity: slip,
+            };
+            let next = |slip: f64| {
+                let state = CollisionState { tangential_impact_velocity: slip, ..state };
+                let mut collisions = Collisions::after(system, state, ChatterPolicy::Complete).unwrap();
+                match collisions.advance().unwrap() {
+                    Some(CollisionEvent::Collision(collision)) => Some(collision),
+                    _ => None,
+                }
+            };
+            let Some(one) = next(slip) else { return Ok(()) };
+            let impact = system.map().step(state.vertical().unwrap()).unwrap();
+            prop_assert_eq!(one.time.phase.angle().to_bits(), impact.phase.angle().to_bits());
+            prop_assert_eq!(one.state.axial_impact_velocity.to_bits(), impact.velocity.to_bits());
+            let step = 1e-3;
+            let limit = 1.5 * speed;
+            prop_assume!(((slip.abs() - limit).abs() > 2.0 * step) && slip.abs() > 2.0 * step);
+            let other = next(slip + step).unwrap();
+            prop_assert_eq!(other.state.axial_impact_velocity.to_bits(), one.state.axial_impact_velocity.to_bits());
+            let derivative = (other.state.tangential_impact_velocity - one.state.tangential_impact_velocity) / step;
+            let expected = if slip.abs() < limit { 0.0 } else { 1.0 };
+            prop_assert!((derivative - expected).abs() < 1e-8, "{derivative}");
+        }
+    }
+
+    #[test]
+    fn the_growth_rate_of_a_periodic_orbit_is_the_logarithm_of_its_multiplier() {
+        let vibration = Vibration::from_axial_forcing(0.46).unwrap();
+        let map = ImpactMap::new(vibration, 0.5).unwrap();
+        let state = map.period_one(1).unwrap();
+        let collision = Collision {
+            time: PhaseTime::in_first_period(state.phase()),
+            state: CollisionState {
+                phase: state.phase(),
+                axial_impact_velocity: state.velocity(),
+                tangential_impact_velocity: 0.0,
+            },
+            angular_speed: 0.0,
+            angle: 0.0,
+            capped: true,
+        };
+        let rate = growth_rate(&map, &vec![collision; 20_001]).unwrap();
+        let radius = Multipliers::of(map.refine(&[state]).unwrap().monodromy).spectral_radius();
+        let expected = bouncing_disk_core::elementary::ln(radius);
+        assert!((rate - expected).abs() < 1e-3, "{rate} {expected}");
+    }
+}
