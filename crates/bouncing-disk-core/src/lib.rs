@@ -17,10 +17,12 @@ mod testing;
 pub use analysis::basin::{
     ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
 };
-pub use analysis::follow_attractor::{Followed, Following, follow};
-pub use analysis::orbit_batch::Ensemble;
+pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
+pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
-pub use analysis::sweep::{Landing, MAX_RECORDED, SweepEvent, columns, lives, lyapunov_exponents, sweep};
+pub use analysis::sweep::{
+    Landing, MAX_RECORDED, SweepEvent, lyapunov_exponents, orbit_diagram, survival_times, sweep,
+};
 pub use chatter::accumulation::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
 };
@@ -30,7 +32,7 @@ pub use flight::first_impact::{Impact, Launch, MAX_FLIGHT_DURATION};
 pub use flight::reference;
 pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop};
 pub use lockstep::lanes::InstructionSet;
-pub use map::impact_map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
+pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
 pub use numerics::elementary;
 pub use platform::phase::Phase;
 pub use platform::vibration::Vibration;

@@ -1,7 +1,7 @@
 //! A disk that bounces on a platform which vibrates and twists: pizza dough on a hand, the rotor of an ultrasonic
 //! motor on its stator (Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009)).
 //!
-//! Parameters are SI ([`Platform`], [`Disk`], [`System`]); motion is computed without units ([`Dimensionless`],
+//! Parameters are SI ([`Platform`], [`Disk`], [`System`]); motion is computed without units ([`DimensionlessSystem`],
 //! [`Engine`]) and carried back by [`Scales`].
 //!
 //! ```
@@ -49,19 +49,19 @@ pub use motion::contact::MAX_CONTACT_EVENTS;
 pub use motion::energy::EnergyLedger;
 pub use motion::engine::Engine;
 pub use motion::event::{Event, EventRecord};
-pub use motion::initial_condition::Start;
+pub use motion::initial_condition::InitialCondition;
 pub use motion::phase_time::{PhaseSpan, PhaseTime};
-pub use motion::segment::Spell;
+pub use motion::segment::Segment;
 pub use motion::si::{SiEnergy, SiState};
 pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
 pub use motor::brake::{Braking, friction_from_braking};
-pub use motor::ensemble::{Ensemble, MAX_MEMBERS, MAX_SPEEDS, Spread, ensemble};
+pub use motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble};
 pub use motor::fit::{ExponentialFit, RampFit};
 pub use motor::transient::{SpeedCurve, TransientSettings, transient};
 pub use motor::transients::{TransientMember, transients};
-pub use parameters::dimensionless::{Dimensionless, DimensionlessParameters, ForcingParameters};
+pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
 pub use parameters::scales::Scales;
@@ -70,7 +70,7 @@ pub use toss::multiple::{
     Collision, CollisionEvent, CollisionState, Collisions, MAX_EXAMINED, MultiTossSettings, OrbitClass,
     TossOrbit, multi_toss, period_one_rotary_speed,
 };
-pub use toss::single::{InitialState, TOSS_START, TossPerformance, single_toss, toss_trajectory};
+pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

@@ -4,7 +4,7 @@ mod data;
 mod picture;
 mod statements;
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 
 pub use self::data::Fig05Data;
 use self::data::{Column, Dependence, Toss};
@@ -70,7 +70,7 @@ impl Experiment for Fig05 {
         Ok(Fig05Data {
             table_i,
             printed,
-            initial_state: InitialState::AbsoluteRest,
+            initial_state: InitialSpin::AbsoluteRest,
             columns,
             lags,
             firm_grip,

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Braking, DiskParameters, Engine, Event, PlatformParameters, Spread, Start, System, Trajectory,
+    Braking, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System, Trajectory,
     friction_from_braking,
 };
 use serde::{Deserialize, Serialize};
@@ -102,7 +102,7 @@ fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Resul
     let system = still_system(case, preload_n / mass)?;
     let scales = system.scales();
     let phase = Phase::new(0.0).map_err(|error| ExperimentError::model(bouncing_disk::Error::from(error)))?;
-    let start = Start::Contact { phase, angular_speed: first_speed / scales.angular_speed };
+    let start = InitialCondition::Contact { phase, angular_speed: first_speed / scales.angular_speed };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let braked = Trajectory::record(&mut engine, |record| record.event == Event::SlipToStick)
         .map_err(ExperimentError::model)?;

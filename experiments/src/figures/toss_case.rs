@@ -1,7 +1,7 @@
 //! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
 
 use bouncing_disk::core::elementary::acos;
-use bouncing_disk::{DiskParameters, InitialState, Platform, Stroke, System, TossPerformance, single_toss};
+use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
@@ -91,13 +91,13 @@ impl TossCase {
     }
 
     /// The performance of the toss.
-    pub(crate) fn toss(&self, initial: InitialState) -> Result<TossPerformance, ExperimentError> {
+    pub(crate) fn toss(&self, initial: InitialSpin) -> Result<TossPerformance, ExperimentError> {
         single_toss(&self.system()?, initial).map_err(ExperimentError::model)
     }
 
     /// The airborne speed in rad/s; the dough starts at rest.
     pub(crate) fn airborne_speed(&self) -> Result<f64, ExperimentError> {
-        Ok(self.toss(InitialState::AbsoluteRest)?.airborne_speed)
+        Ok(self.toss(InitialSpin::AbsoluteRest)?.airborne_speed)
     }
 }
 
@@ -170,9 +170,9 @@ mod tests {
     #[test]
     fn the_dough_still_leaves_at_the_last_angle() {
         let case = TossCase::from(&crate::paper::table_one().expect("reads"));
-        let last = case.at_angle(case.last_angle()).toss(InitialState::AbsoluteRest).expect("leaves");
+        let last = case.at_angle(case.last_angle()).toss(InitialSpin::AbsoluteRest).expect("leaves");
         let early = std::f64::consts::FRAC_PI_2 - last.separation_phase;
         assert!((0.0..1e-5).contains(&early), "{early}");
-        assert!(case.at_angle(1.000_000_1 * case.largest_angle()).toss(InitialState::AbsoluteRest).is_err());
+        assert!(case.at_angle(1.000_000_1 * case.largest_angle()).toss(InitialSpin::AbsoluteRest).is_err());
     }
 }

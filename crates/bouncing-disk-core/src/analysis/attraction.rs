@@ -120,7 +120,7 @@ impl PeriodicOrbit {
     pub fn catching_radius(&self, map: &ImpactMap) -> Option<f64> {
         let scale = map.vibration().peak_acceleration();
         let ends_here = |start: ImpactState| {
-            let end = map.survivor(start, 100 * self.period(), ChatterPolicy::Complete);
+            let end = map.state_after(start, 100 * self.period(), ChatterPolicy::Complete);
             matches!(end, Ok(Some(end)) if self.distance(end, scale) < CAUGHT)
         };
         first_halving(0.05, |radius| {

@@ -276,7 +276,7 @@ impl ImpactMap {
                         return Ok(label);
                     }
                 }
-                Some(OrbitEvent::Stick(_)) | None => return Ok(ATTACHED),
+                Some(OrbitEvent::Attachment(_)) | None => return Ok(ATTACHED),
             }
         }
         Ok(UNDECIDED)

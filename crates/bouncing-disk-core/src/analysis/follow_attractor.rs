@@ -16,7 +16,7 @@ pub struct Followed {
     pub state: ImpactState,
 }
 
-/// A lazy walk along an attractor: see [`follow`].
+/// A lazy walk along an attractor: see [`follow_attractor`].
 #[derive(Debug, Clone)]
 pub struct Following<Forcings> {
     restitution: f64,
@@ -30,7 +30,7 @@ pub struct Following<Forcings> {
 ///
 /// At each forcing the orbit from the state carried over runs for `transient` impacts. The walk ends before the
 /// forcing at which the disk comes to rest during that transient: the attractor is lost to chattering.
-pub fn follow<Forcings: IntoIterator<Item = f64>>(
+pub fn follow_attractor<Forcings: IntoIterator<Item = f64>>(
     restitution: f64,
     forcings: Forcings,
     start: ImpactState,
@@ -46,7 +46,7 @@ impl<Forcings: Iterator<Item = f64>> Following<Forcings> {
             return Ok(None);
         };
         let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, self.restitution)?;
-        let Some(state) = map.survivor(start, self.transient, self.policy)? else { return Ok(None) };
+        let Some(state) = map.state_after(start, self.transient, self.policy)? else { return Ok(None) };
         self.state = Some(state);
         Ok(Some(Followed { map, axial_forcing, state }))
     }
@@ -65,7 +65,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// Those of [`Vibration::first_impact`].
-    pub fn survivor(
+    pub fn state_after(
         &self,
         start: ImpactState,
         impacts: usize,
@@ -76,7 +76,7 @@ impl ImpactMap {
         for _ in 0..impacts {
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => state = impact.into(),
-                Some(OrbitEvent::Stick(_)) | None => return Ok(None),
+                Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
             }
         }
         Ok(Some(state))
@@ -94,13 +94,13 @@ mod tests {
         };
         let start = at(0.335).period_one(1).expect("exists");
         let forcings = (0..60).map(|i| 0.335 + 0.002 * f64::from(i));
-        for followed in follow(0.5, forcings, start, 2_000, ChatterPolicy::Complete) {
+        for followed in follow_attractor(0.5, forcings, start, 2_000, ChatterPolicy::Complete) {
             let followed = followed.expect("no failure");
             let exact = followed.map.period_one(1).expect("exists");
             assert!((followed.state.phase().angle() - exact.phase().angle()).abs() < 1e-9);
         }
         // Next to its birth the orbit attracts only from very near: the followed state is lost in one large step.
-        let lost = follow(0.5, [0.335, 0.4, 0.32, 0.4], start, 500, ChatterPolicy::Complete);
+        let lost = follow_attractor(0.5, [0.335, 0.4, 0.32, 0.4], start, 500, ChatterPolicy::Complete);
         assert_eq!(lost.count(), 2);
     }
 }

@@ -1,7 +1,7 @@
 //! Independent orbits of impact maps, advanced together.
 
 use crate::error::Error;
-use crate::lockstep::lanes::{Batch, Flyer, InstructionSet, LANES, Purpose};
+use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 
 /// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of
@@ -20,13 +20,13 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Ensemble {
-    flyer: Box<Flyer>,
+pub struct OrbitBatch {
+    flyer: Box<FlightScheduler>,
     batches: Vec<Batch>,
     len: usize,
 }
 
-impl Ensemble {
+impl OrbitBatch {
     /// Orbits that start with the impact in a state of their own, each of its own map, with the best instructions of this
     /// processor.
     pub fn new(starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>) -> Self {
@@ -40,7 +40,7 @@ impl Ensemble {
         set: InstructionSet,
     ) -> Self {
         let mut ensemble =
-            Self { flyer: Box::new(Flyer::new(set, Purpose::Orbits)), batches: Vec::new(), len: 0 };
+            Self { flyer: Box::new(FlightScheduler::new(set, Purpose::Orbits)), batches: Vec::new(), len: 0 };
         for (map, state) in starts {
             let lane = ensemble.len % LANES;
             if lane == 0 {
@@ -138,7 +138,7 @@ mod tests {
                     ImpactState::new(phase, -speed).expect("legal")
                 })
                 .collect();
-            let mut ensemble = Ensemble::new(starts.iter().map(|&start| (map, start)));
+            let mut ensemble = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
             let alone: Vec<_> = starts.iter().map(|&start| map.step(start)).collect();
             let first = alone.iter().find_map(|step| step.as_ref().err().cloned());
             assert_eq!(ensemble.step().err(), first);
@@ -156,7 +156,7 @@ mod tests {
         let count = 1 << 20;
         let starts: Vec<_> = launches(count).collect();
         for set in InstructionSet::available() {
-            let mut ensemble = Ensemble::with_instruction_set(starts.iter().copied(), set);
+            let mut ensemble = OrbitBatch::with_instruction_set(starts.iter().copied(), set);
             for _ in 0..3 {
                 let before: Vec<_> =
                     (0..ensemble.len()).map(|k| ensemble.state(k).expect("exists")).collect();

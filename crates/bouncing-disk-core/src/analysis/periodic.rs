@@ -176,7 +176,7 @@ impl ImpactMap {
         for _ in 0..2 * longest {
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => states.push(impact.into()),
-                Some(OrbitEvent::Stick(_)) | None => return Ok(None),
+                Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
             }
         }
         let near = |a: &ImpactState, b: &ImpactState| {
@@ -292,7 +292,9 @@ impl ImpactMap {
         longest: usize,
         tolerance: f64,
     ) -> Result<Option<PeriodicOrbit>, Error> {
-        let Some(state) = self.survivor(state, transient, ChatterPolicy::Complete)? else { return Ok(None) };
+        let Some(state) = self.state_after(state, transient, ChatterPolicy::Complete)? else {
+            return Ok(None);
+        };
         let Some(period) = self.period_of(state, longest, tolerance)? else { return Ok(None) };
         let mut guess = vec![state];
         while guess.len() < period {

@@ -11,10 +11,10 @@ use serde::Serialize;
 use crate::chatter::accumulation::PAPER_SHORT_FLIGHT;
 use crate::error::Error;
 use crate::flight::first_impact::Impact;
-use crate::map::impact_map::{ImpactState, Orbit, OrbitEvent, Stick};
+use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 use crate::platform::phase::Phase;
 
-pub use measures::{MAX_RECORDED, columns, lives, lyapunov_exponents};
+pub use measures::{MAX_RECORDED, lyapunov_exponents, orbit_diagram, survival_times};
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -23,7 +23,7 @@ pub enum SweepEvent {
     /// The disk hits the platform.
     Impact(Landing),
     /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
-    Stick(Stick),
+    Attachment(Attachment),
 }
 
 /// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
@@ -76,7 +76,7 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
     let from = orbit.launch().map(|(phase, _)| phase);
     Ok(orbit.advance()?.map(|event| match event {
         OrbitEvent::Impact(impact) => SweepEvent::Impact(Landing::of(from, impact)),
-        OrbitEvent::Stick(stick) => SweepEvent::Stick(stick),
+        OrbitEvent::Attachment(stick) => SweepEvent::Attachment(stick),
     }))
 }
 

@@ -117,7 +117,7 @@ mod tests {
         for event in map.orbit(state, ChatterPolicy::Complete).take(5_000) {
             match event.expect("no failure") {
                 OrbitEvent::Impact(impact) => time += impact.duration(),
-                OrbitEvent::Stick(stick) => {
+                OrbitEvent::Attachment(stick) => {
                     time += stick.attachment.duration;
                     return (time <= window * (1.0 + 1.0e-12)).then_some(time);
                 }

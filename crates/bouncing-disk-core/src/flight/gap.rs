@@ -65,7 +65,7 @@ pub(crate) struct Root {
 
 /// The gap and its derivatives at one time; the fourth derivative is -`platform`, the fifth -`third`.
 #[derive(Clone, Copy)]
-pub(crate) struct Jet {
+pub(crate) struct GapTaylor {
     pub(crate) gap: f64,
     pub(crate) slope: f64,
     pub(crate) curvature: f64,
@@ -75,7 +75,7 @@ pub(crate) struct Jet {
     pub(crate) platform: f64,
 }
 
-impl Jet {
+impl GapTaylor {
     /// Whether the gap falls and the series reversal of [`Self::last_step`] reaches the root from here.
     ///
     /// With the Newton step x = gap/slope: |x| (1 + |curvature/slope|) and x^2 (|third| + |platform|)/|slope| are small;
@@ -165,7 +165,7 @@ impl Jet {
 /// A way to evaluate the gap.
 pub(crate) trait GapForm: Copy {
     /// Gap and derivatives at time `t` from the form's reference, with sine and cosine of the phase there.
-    fn jet(&self, t: f64) -> (Jet, (f64, f64));
+    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64));
     /// Relative velocity at `t`, where the phase has this cosine.
     fn velocity(&self, t: f64, cos: f64) -> f64;
     /// Bound on the rounding error of the gap at `t`.
@@ -183,7 +183,7 @@ pub(crate) trait GapForm: Copy {
         loop {
             let (jet, (sin, cos)) = self.jet(t);
             used += 1;
-            let Jet { gap, slope, .. } = jet;
+            let GapTaylor { gap, slope, .. } = jet;
             if jet.is_near_root() {
                 let delta = jet.last_step();
                 let time = t + delta;
@@ -234,7 +234,7 @@ pub(crate) trait GapForm: Copy {
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let mut t = 0.5 * (lo + hi);
         loop {
-            let (Jet { gap, slope, curvature, .. }, _) = self.jet(t);
+            let (GapTaylor { gap, slope, curvature, .. }, _) = self.jet(t);
             *evaluations += 1;
             if gap <= 0.0 {
                 return Some(t);
@@ -287,10 +287,10 @@ impl CrestForm {
 
     /// Gap and derivatives at `t`, where the phase has this pair.
     #[inline(always)]
-    pub(crate) fn jet_of_pair(&self, t: f64, sin: f64, cos: f64) -> Jet {
+    pub(crate) fn jet_of_pair(&self, t: f64, sin: f64, cos: f64) -> GapTaylor {
         let platform = self.peak * sin;
         let third = self.peak * cos;
-        Jet {
+        GapTaylor {
             gap: ((self.peak - platform) - self.depth) + t * (self.speed - 0.5 * t),
             slope: (self.speed - t) - third,
             curvature: platform - 1.0,
@@ -302,7 +302,7 @@ impl CrestForm {
 
 impl GapForm for CrestForm {
     #[inline(always)]
-    fn jet(&self, t: f64) -> (Jet, (f64, f64)) {
+    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64)) {
         let (sin, cos) = sin_cos_bounded(self.angle + t);
         (self.jet_of_pair(t, sin, cos), (sin, cos))
     }
@@ -367,9 +367,9 @@ impl LaunchForm {
 
     /// Gap and derivatives at `t`, with the pair of the phase there, and 1 - cos t and sin t, known.
     #[inline(always)]
-    pub(crate) fn jet_of_pairs(&self, t: f64, (sin, cos): (f64, f64), of_time: (f64, f64)) -> Jet {
+    pub(crate) fn jet_of_pairs(&self, t: f64, (sin, cos): (f64, f64), of_time: (f64, f64)) -> GapTaylor {
         let platform = self.peak * sin;
-        Jet {
+        GapTaylor {
             gap: self.gap_of(t, of_time),
             slope: self.slope_of(t, of_time),
             curvature: platform - 1.0,
@@ -381,7 +381,7 @@ impl LaunchForm {
 
 impl GapForm for LaunchForm {
     #[inline(always)]
-    fn jet(&self, t: f64) -> (Jet, (f64, f64)) {
+    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64)) {
         let pair = sin_cos_bounded(self.angle + t);
         (self.jet_of_pairs(t, pair, Self::versine_and_sine(t)), pair)
     }
@@ -551,7 +551,7 @@ mod tests {
     use crate::testing::spread;
 
     /// Jets of gaps of every size, above platforms of every strength.
-    fn jets() -> impl Iterator<Item = (f64, Jet)> {
+    fn jets() -> impl Iterator<Item = (f64, GapTaylor)> {
         (0..400_000).map(|k| {
             let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0);
             let (sin, cos) = sin_cos_bounded(core::f64::consts::TAU * spread(k, 0.569_840_29));
@@ -559,7 +559,7 @@ mod tests {
             let gap =
                 slope * libm::exp10(-4.0 * spread(k, 0.819_172_513)) * if k % 2 == 0 { 1.0 } else { -1.0 };
             let (platform, third) = (peak * sin, peak * cos);
-            (peak, Jet { gap, slope, curvature: platform - 1.0, third, platform })
+            (peak, GapTaylor { gap, slope, curvature: platform - 1.0, third, platform })
         })
     }
 
@@ -573,7 +573,7 @@ mod tests {
         }
         assert!(near > 100_000 && surely > near - near / 10, "{surely} of {near}");
         // A gap that does not fall has no root ahead, however small it is.
-        let flat = Jet { gap: 0.0, slope: 0.0, curvature: -1.0, third: 0.0, platform: 0.0 };
+        let flat = GapTaylor { gap: 0.0, slope: 0.0, curvature: -1.0, third: 0.0, platform: 0.0 };
         assert!(!flat.is_near_root() && !flat.is_surely_near_root(1.0));
     }
 
@@ -588,7 +588,7 @@ mod tests {
             let (sin, cos) = sin_cos_bounded(0.65 + 0.3 * spread(k, 0.569_840_29));
             let slope = if still { -10.0 } else { -0.2 - 0.3 * spread(k, 0.618_033_99) };
             let (platform, third) = (peak * sin, peak * cos);
-            let jet = |gap: f64| Jet { gap, slope, curvature: platform - 1.0, third, platform };
+            let jet = |gap: f64| GapTaylor { gap, slope, curvature: platform - 1.0, third, platform };
             let (mut accepted, mut refused) = (0.0, 1.0);
             while refused - accepted > 1e-12 * refused {
                 let middle = 0.5 * (accepted + refused);

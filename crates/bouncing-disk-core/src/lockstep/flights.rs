@@ -8,7 +8,7 @@ use crate::chatter::accumulation::surely_bounces_on;
 use crate::error::{Error, room_for};
 use crate::flight::first_impact::Launch;
 use crate::lockstep::lanes::{
-    Batch, Flyer, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
+    Batch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
 };
 use crate::map::impact_map::ImpactState;
 use crate::platform::vibration::Vibration;
@@ -44,7 +44,7 @@ pub trait LaneLoop {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Flights {
-    flyer: Box<Flyer>,
+    flyer: Box<FlightScheduler>,
     batches: Vec<Batch>,
     /// Whether a lane of the batch has been put on a platform.
     placed: Vec<bool>,
@@ -112,7 +112,7 @@ impl Flights {
         batches.resize(count, Batch::new(Vibration::still()));
         let mut placed = room_for("batches of lanes", room.0, room.1)?;
         placed.resize(count, false);
-        Ok(Self { flyer: Box::new(Flyer::new(set, Purpose::Launches)), batches, placed })
+        Ok(Self { flyer: Box::new(FlightScheduler::new(set, Purpose::Launches)), batches, placed })
     }
 
     /// Number of batches.

@@ -25,9 +25,9 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
-use platform::{Below, Platform, Platforms};
+use platform::{Platform, PlatformLanes, Platforms};
 
-pub(crate) use flyer::{Flyer, Purpose};
+pub(crate) use flyer::{FlightScheduler, Purpose};
 pub(crate) use instructions::Dispatch;
 pub use instructions::InstructionSet;
 pub(crate) use subset::{Lanes, lanes_of};

@@ -108,7 +108,7 @@ impl ImpactMap {
     }
 
     /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is followed through ever
-    /// smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::survivor`] end a chatter.
+    /// smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::state_after`] end a chatter.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), and those of
@@ -205,12 +205,12 @@ pub enum OrbitEvent {
     /// The disk hits the platform.
     Impact(Impact),
     /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
-    Stick(Stick),
+    Attachment(Attachment),
 }
 
 /// A spell of contact between the end of a chattering sequence and the next separation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Stick {
+pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Paper`] the last impact itself,
     /// with duration zero and no bound on what was cut off (`error_bound` is infinite unless the speed was 0).
     pub attachment: Accumulation,
@@ -362,7 +362,7 @@ impl Orbit {
                     .separation_phase()
                     .map(|phase| (phase, u64::from(phase.angle() <= attachment.phase.angle())));
                 self.next = separation.map_or(Next::End, |(phase, _)| Next::Launch(phase, 0.0));
-                Ok(Some(OrbitEvent::Stick(Stick { attachment, last_speed, separation })))
+                Ok(Some(OrbitEvent::Attachment(Attachment { attachment, last_speed, separation })))
             }
             Next::End => Ok(None),
         }

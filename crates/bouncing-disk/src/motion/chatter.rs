@@ -5,8 +5,8 @@ use bouncing_disk_core::{ChatterImpact, ChatterSeries, Phase};
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
-use crate::motion::rotary_change::{book_flight_load, flight_turn};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::motion::rotary_change::{flight_turn, record_flight_load};
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 mod summed;
 
@@ -34,7 +34,7 @@ pub(crate) struct Chatter {
 impl Chatter {
     /// The sequence that starts with a launch at `phase` with `speed`, up to `duration` rad later.
     pub(crate) fn new(
-        system: &Dimensionless,
+        system: &DimensionlessSystem,
         phase: Phase,
         speed: f64,
         angular_speed: f64,
@@ -66,7 +66,7 @@ impl Chatter {
     }
 
     /// The impacts up to `duration` one by one.
-    fn go_through(&mut self, system: &Dimensionless, phase: Phase, duration: f64) {
+    fn go_through(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) {
         for impact in system.vibration().chatter_impacts(phase, self.launch_speed, system.restitution()) {
             if impact.time > duration {
                 break;
@@ -75,15 +75,15 @@ impl Chatter {
         }
     }
 
-    fn advance(&mut self, system: &Dimensionless, impact: &ChatterImpact) {
+    fn advance(&mut self, system: &DimensionlessSystem, impact: &ChatterImpact) {
         let turn = flight_turn(system, self.angular_speed, impact.time - self.time);
-        book_flight_load(&mut self.ledger, system, self.angular_speed, &turn);
+        record_flight_load(&mut self.ledger, system, self.angular_speed, &turn);
         let platform_speed = system.angular_speed_at(impact.pair);
         let axial = axial_impulse(system.restitution(), -impact.speed);
         let slip = turn.speed - platform_speed;
         let rotary = friction_impact(system.friction(), axial, slip);
         let after = if rotary.capped { platform_speed } else { turn.speed + rotary.impulse };
-        book_impact(
+        record_impact(
             &mut self.ledger,
             ImpactEnergy {
                 axial,
@@ -95,7 +95,7 @@ impl Chatter {
                 platform_speed,
             },
         );
-        self.ledger.book_rotary_change(turn.speed, after);
+        self.ledger.record_rotary_change(turn.speed, after);
         self.time = impact.time;
         self.pair = impact.pair;
         self.launch_speed = rebound_velocity(system.restitution(), -impact.speed);
@@ -108,7 +108,7 @@ impl Chatter {
     }
 
     /// Axial velocity of the disk just after the last impact.
-    pub(crate) fn launch_velocity(&self, system: &Dimensionless) -> f64 {
+    pub(crate) fn launch_velocity(&self, system: &DimensionlessSystem) -> f64 {
         self.launch_speed + system.peak_acceleration() * self.pair.1
     }
 }
@@ -132,7 +132,7 @@ pub(crate) struct ImpactEnergy {
 }
 
 /// Books the platform's work and the losses of one impact.
-pub(crate) fn book_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
+pub(crate) fn record_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
     let ImpactEnergy {
         axial,
         relative_velocity,
@@ -144,11 +144,11 @@ pub(crate) fn book_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
     } = energy;
     let restitution_loss =
         0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (relative_velocity * relative_velocity);
-    ledger.book_normal(axial * platform_velocity, restitution_loss);
+    ledger.record_normal(axial * platform_velocity, restitution_loss);
     // The friction impulse acts at the mean of the slip speeds before and after.
     let friction_loss = -rotary * (slip + 0.5 * rotary);
     let work = rotary * platform_speed;
-    ledger.book_friction(work, friction_loss, work.abs() + (rotary * slip).abs());
+    ledger.record_friction(work, friction_loss, work.abs() + (rotary * slip).abs());
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::motion::arc::sine_deficit;
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::SlipDirection;
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Relative accuracy to which the end of a slip is located.
 const ROOT_ACCURACY: f64 = 2.0 * f64::EPSILON;
@@ -87,7 +87,7 @@ pub(crate) struct Friction {
 }
 
 impl Friction {
-    pub(crate) fn new(system: &Dimensionless) -> Self {
+    pub(crate) fn new(system: &DimensionlessSystem) -> Self {
         let forward = Slip::new(system, SlipDirection::Forward);
         let backward = Slip::new(system, SlipDirection::Backward);
         let unloaded = system.twist_speed() == 0.0 && system.load() == 0.0;
@@ -159,7 +159,7 @@ impl Friction {
 }
 
 impl Slip {
-    fn new(system: &Dimensionless, direction: SlipDirection) -> Self {
+    fn new(system: &DimensionlessSystem, direction: SlipDirection) -> Self {
         let sign = direction.sign();
         let (twist_cosine, twist_sine) = system.twist_components();
         let decay = system.friction() + sign * system.load();

@@ -6,20 +6,22 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use bouncing_disk_core::{ChatterPolicy, Impact, Orbit, OrbitEvent, Phase, Stick};
+use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Orbit, OrbitEvent, Phase};
 
 use crate::error::{Error, moderate};
-use crate::motion::chatter::{Chatter, ImpactEnergy, book_impact};
+use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
 use crate::motion::contact::{Friction, Spent};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
-use crate::motion::initial_condition::Start;
+use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::{Turn, book_flight_load, contact_ledger, contact_turn, flight_turn};
-use crate::motion::segment::Spell;
+use crate::motion::rotary_change::{
+    RotaryChange, contact_ledger, contact_turn, flight_turn, record_flight_load,
+};
+use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection, Snapshot};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the platform's
 /// largest one, is the platform's: four units in the last place.
@@ -43,7 +45,7 @@ enum Stage {
 /// arguments give the same bits.
 #[derive(Debug, Clone)]
 pub struct Engine {
-    system: Dimensionless,
+    system: DimensionlessSystem,
     friction: Friction,
     /// `None` for a disk that has lain on the platform from the start and never separates.
     orbit: Option<Orbit>,
@@ -54,17 +56,21 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// An engine for a [`crate::System`] or a [`Dimensionless`] one.
+    /// An engine for a [`crate::System`] or a [`DimensionlessSystem`] one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come with
     /// that event, except that a start in the air finds its first impact at once.
-    pub fn new(system: impl Into<Dimensionless>, start: Start, policy: ChatterPolicy) -> Result<Self, Error> {
+    pub fn new(
+        system: impl Into<DimensionlessSystem>,
+        start: InitialCondition,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
         let system = system.into();
         let (phase, speed) = match start {
-            Start::Contact { phase, angular_speed }
-            | Start::Launch { phase, angular_speed, .. }
-            | Start::Flight { phase, angular_speed, .. } => (phase, angular_speed),
+            InitialCondition::Contact { phase, angular_speed }
+            | InitialCondition::Launch { phase, angular_speed, .. }
+            | InitialCondition::Flight { phase, angular_speed, .. } => (phase, angular_speed),
         };
         moderate("angular_speed", speed)?;
         let angle = system.platform_angle(phase);
@@ -84,12 +90,12 @@ impl Engine {
             angle: LongSum::new(angle),
         };
         match start {
-            Start::Contact { .. } => engine.start_in_contact(policy)?,
-            Start::Launch { relative_speed, .. } => {
+            InitialCondition::Contact { .. } => engine.start_in_contact(policy)?,
+            InitialCondition::Launch { relative_speed, .. } => {
                 engine.orbit = Some(system.map().orbit_from_launch(phase, relative_speed, policy)?);
                 engine.state.axial_velocity += relative_speed;
             }
-            Start::Flight { gap, relative_velocity, .. } => {
+            InitialCondition::Flight { gap, relative_velocity, .. } => {
                 engine.orbit = Some(system.map().orbit_from_drop(phase, gap, relative_velocity, policy)?);
                 engine.state.height += gap;
                 engine.state.axial_velocity += relative_velocity;
@@ -124,7 +130,7 @@ impl Engine {
 
     /// The system.
     #[must_use]
-    pub const fn system(&self) -> &Dimensionless {
+    pub const fn system(&self) -> &DimensionlessSystem {
         &self.system
     }
 
@@ -188,7 +194,7 @@ impl Engine {
         let Some(orbit) = &mut self.orbit else { return Ok(None) };
         Ok(match orbit.advance()? {
             Some(OrbitEvent::Impact(impact)) => Some(self.hit(&impact)),
-            Some(OrbitEvent::Stick(stick)) => Some(self.attach(&stick)),
+            Some(OrbitEvent::Attachment(stick)) => Some(self.attach(&stick)),
             Some(_) | None => None,
         })
     }
@@ -225,10 +231,12 @@ impl Engine {
 
         let mut ledger = EnergyLedger::default();
         let start = spell.state;
-        ledger
-            .book_axial_change([start.axial_velocity, before.axial_velocity], [start.height, before.height]);
-        book_flight_load(&mut ledger, system, start.angular_speed, &turn);
-        book_impact(
+        ledger.record_axial_change(
+            [start.axial_velocity, before.axial_velocity],
+            [start.height, before.height],
+        );
+        record_flight_load(&mut ledger, system, start.angular_speed, &turn);
+        record_impact(
             &mut ledger,
             ImpactEnergy {
                 axial,
@@ -242,9 +250,9 @@ impl Engine {
         );
         if cut {
             axial -= rebound;
-            ledger.book_normal(-rebound * platform_velocity, 0.5 * rebound * rebound);
+            ledger.record_normal(-rebound * platform_velocity, 0.5 * rebound * rebound);
         }
-        book_jump(&mut ledger, &before, &after);
+        record_jump(&mut ledger, &before, &after);
 
         let time = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };
         let event = Event::Impact {
@@ -266,7 +274,7 @@ impl Engine {
         }
     }
 
-    fn attach(&mut self, stick: &Stick) -> EventRecord {
+    fn attach(&mut self, stick: &Attachment) -> EventRecord {
         let system = &self.system;
         let accumulation = stick.attachment;
         let from = self.now.phase;
@@ -280,7 +288,7 @@ impl Engine {
         let platform_speed = system.platform_angular_speed(accumulation.phase);
         let platform_velocity = system.vibration().velocity(accumulation.phase);
         let mut ledger = chatter.ledger;
-        book_flight_load(&mut ledger, system, chatter.angular_speed, &turn);
+        record_flight_load(&mut ledger, system, chatter.angular_speed, &turn);
 
         self.angle.add(chatter.angle + turn.angle);
         let start = spell.state;
@@ -291,15 +299,17 @@ impl Engine {
             angle: self.angle.value(),
             angular_speed: turn.speed,
         };
-        ledger
-            .book_axial_change([start.axial_velocity, before.axial_velocity], [start.height, before.height]);
+        ledger.record_axial_change(
+            [start.axial_velocity, before.axial_velocity],
+            [start.height, before.height],
+        );
         let mut axial = chatter.axial_impulse;
         let mut rotary = chatter.angular_impulse;
         let mut angular_speed = turn.speed;
         if cut {
             let speed = stick.last_speed;
             axial -= speed;
-            ledger.book_normal(-speed * platform_velocity, 0.5 * speed * speed);
+            ledger.record_normal(-speed * platform_velocity, 0.5 * speed * speed);
         }
         if chatter.capped {
             // The sequence goes on for ever: what it does after the last impact counted is to follow the platform.
@@ -315,7 +325,7 @@ impl Engine {
                 slip,
                 platform_speed,
             };
-            book_impact(&mut ledger, rest);
+            record_impact(&mut ledger, rest);
         }
         let after = DiskState {
             mode: self.contact_mode(accumulation.phase, angular_speed),
@@ -323,8 +333,8 @@ impl Engine {
             angular_speed,
             ..before
         };
-        book_jump(&mut ledger, &before, &after);
-        ledger.book_rounding(system.peak_acceleration(), platform_velocity);
+        record_jump(&mut ledger, &before, &after);
+        ledger.record_rounding(system.peak_acceleration(), platform_velocity);
 
         let time = PhaseTime { periods: self.now.periods + accumulation.turns, phase: accumulation.phase };
         let separation =
@@ -423,7 +433,7 @@ impl Engine {
     }
 
     /// Books what rounding has left between the disk's speed at the end of a slip and the platform's.
-    fn settle(&self, ledger: &mut EnergyLedger, turn: Turn, platform_speed: f64) {
+    fn settle(&self, ledger: &mut EnergyLedger, turn: RotaryChange, platform_speed: f64) {
         let slip = turn.speed - platform_speed;
         let rest = ImpactEnergy {
             axial: 0.0,
@@ -434,8 +444,8 @@ impl Engine {
             slip,
             platform_speed,
         };
-        book_impact(ledger, rest);
-        ledger.book_rotary_change(turn.speed, platform_speed);
+        record_impact(ledger, rest);
+        ledger.record_rotary_change(turn.speed, platform_speed);
     }
 
     /// The mode of a disk on the platform with this angular speed.
@@ -446,8 +456,8 @@ impl Engine {
             .map_or(Mode::Sticking, Mode::Sliding)
     }
 
-    const fn spell(&self, chatter_speed: Option<f64>) -> Spell {
-        Spell { start: self.now, state: self.state, chatter_speed }
+    const fn spell(&self, chatter_speed: Option<f64>) -> Segment {
+        Segment { start: self.now, state: self.state, chatter_speed }
     }
 
     fn moved_to(&mut self, time: PhaseTime, state: &DiskState) {
@@ -457,9 +467,9 @@ impl Engine {
 }
 
 /// Books a jump of the velocities at one height.
-fn book_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
-    ledger.book_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
-    ledger.book_rotary_change(before.angular_speed, after.angular_speed);
+fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
+    ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
+    ledger.record_rotary_change(before.angular_speed, after.angular_speed);
 }
 
 impl Iterator for Engine {

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::segment::Spell;
+use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, SlipDirection, Snapshot};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -56,7 +56,7 @@ pub struct EventRecord {
     /// Energy balance of the spell and the event.
     pub ledger: EnergyLedger,
     /// The spell since the event before.
-    pub spell: Spell,
+    pub spell: Segment,
     /// Its duration.
     pub span: PhaseSpan,
 }
@@ -64,7 +64,7 @@ pub struct EventRecord {
 impl EventRecord {
     /// Disk and platform during the spell, `fraction` of it in [0, 1] after its start.
     #[must_use]
-    pub fn evaluate(&self, system: &Dimensionless, fraction: f64) -> Snapshot {
+    pub fn evaluate(&self, system: &DimensionlessSystem, fraction: f64) -> Snapshot {
         self.spell.evaluate(system, self.span, fraction)
     }
 }

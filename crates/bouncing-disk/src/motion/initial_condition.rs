@@ -8,14 +8,14 @@ use serde::Serialize;
 /// The disk's angle starts at the platform's own angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
-pub enum Start {
+pub enum InitialCondition {
     /// The disk lies on the platform. An angular speed within rounding of the platform's counts as the platform's.
     /// Where the platform falls away at once (P sin tau >= 1, tau before its end), the disk starts in flight.
     Contact {
         /// Phase of the platform.
         phase: Phase,
         /// Angular speed of the disk; that of the platform is
-        /// [`crate::Dimensionless::platform_angular_speed`].
+        /// [`crate::DimensionlessSystem::platform_angular_speed`].
         angular_speed: f64,
     },
     /// The disk leaves the platform.

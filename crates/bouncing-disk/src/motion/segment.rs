@@ -6,11 +6,11 @@ use crate::motion::chatter::Chatter;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{contact_turn, flight_turn};
 use crate::motion::state::{DiskState, Mode, PlatformState, Snapshot};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// The motion of the disk between two events, open at its end: it holds until the next event.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Spell {
+pub struct Segment {
     /// The instant of the event before.
     pub start: PhaseTime,
     /// The state just after that event.
@@ -19,10 +19,10 @@ pub struct Spell {
     pub chatter_speed: Option<f64>,
 }
 
-impl Spell {
+impl Segment {
     /// Disk and platform `fraction` of `span` after the start, `fraction` in [0, 1].
     #[must_use]
-    pub fn evaluate(&self, system: &Dimensionless, span: PhaseSpan, fraction: f64) -> Snapshot {
+    pub fn evaluate(&self, system: &DimensionlessSystem, span: PhaseSpan, fraction: f64) -> Snapshot {
         if fraction >= 1.0 {
             return self.state_after(system, span);
         }
@@ -32,7 +32,7 @@ impl Spell {
     /// Disk and platform `span` after the start, on the assumption that no event comes before. A chatter speed that starts no
     /// chattering sequence in this system counts as none.
     #[must_use]
-    pub fn state_after(&self, system: &Dimensionless, span: PhaseSpan) -> Snapshot {
+    pub fn state_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> Snapshot {
         let span = span.normalised();
         let time = self.start.after(span);
         let platform = PlatformState::at(system, time.phase);
@@ -59,7 +59,7 @@ impl Spell {
         Snapshot { time, disk, platform }
     }
 
-    fn flown(&self, system: &Dimensionless, span: PhaseSpan) -> DiskState {
+    fn flown(&self, system: &DimensionlessSystem, span: PhaseSpan) -> DiskState {
         let duration = span.radians();
         let turn = flight_turn(system, self.state.angular_speed, duration);
         DiskState {
@@ -71,7 +71,7 @@ impl Spell {
         }
     }
 
-    fn chattered(&self, system: &Dimensionless, speed: f64, span: PhaseSpan) -> DiskState {
+    fn chattered(&self, system: &DimensionlessSystem, speed: f64, span: PhaseSpan) -> DiskState {
         let duration = span.radians();
         let chatter = Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
         let turn = flight_turn(system, chatter.angular_speed, duration - chatter.time);
@@ -95,10 +95,10 @@ mod tests {
 
     use super::*;
     use crate::motion::engine::Engine;
-    use crate::motion::initial_condition::Start;
+    use crate::motion::initial_condition::InitialCondition;
     use crate::parameters::dimensionless::ForcingParameters;
 
-    fn system() -> Dimensionless {
+    fn system() -> DimensionlessSystem {
         ForcingParameters { axial_forcing: 0.48, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 }
             .build()
             .expect("legal")
@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn the_state_after_any_span_is_one() {
         let phase = Phase::new(4.0).expect("finite");
-        let start = Start::Contact { phase, angular_speed: 0.5 };
+        let start = InitialCondition::Contact { phase, angular_speed: 0.5 };
         let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
         let (mut flights, mut chatters, mut contacts) = (0, 0, 0);
         for _ in 0..200 {
@@ -146,12 +146,12 @@ mod tests {
     #[test]
     fn a_chatter_speed_that_starts_no_chatter_counts_as_none() {
         let phase = Phase::new(1.0).expect("finite");
-        let start = Start::Launch { phase, relative_speed: 1.0, angular_speed: 0.0 };
+        let start = InitialCondition::Launch { phase, relative_speed: 1.0, angular_speed: 0.0 };
         let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
         let flight = engine.advance().expect("no failure").expect("lands").spell;
         let span = PhaseSpan { periods: 3, remainder: 1.0 };
         for speed in [f64::NAN, f64::INFINITY, -1.0, 1.0, 1e300] {
-            let spell = Spell { chatter_speed: Some(speed), ..flight };
+            let spell = Segment { chatter_speed: Some(speed), ..flight };
             assert_eq!(spell.state_after(&system(), span), flight.state_after(&system(), span), "{speed}");
         }
     }

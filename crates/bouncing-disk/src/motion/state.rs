@@ -4,7 +4,7 @@ use bouncing_disk_core::Phase;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::phase_time::PhaseTime;
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Which way the disk slips over the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -90,7 +90,7 @@ pub struct PlatformState {
 impl PlatformState {
     /// The platform at `phase`.
     #[must_use]
-    pub fn at(system: &Dimensionless, phase: Phase) -> Self {
+    pub fn at(system: &DimensionlessSystem, phase: Phase) -> Self {
         Self {
             height: system.vibration().height(phase),
             axial_velocity: system.vibration().velocity(phase),

@@ -8,12 +8,12 @@ use crate::motion::engine::Engine;
 use crate::motion::event::EventRecord;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::state::Snapshot;
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// The events of a motion up to some point, and the motion between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    system: Dimensionless,
+    system: DimensionlessSystem,
     start: PhaseTime,
     records: Vec<EventRecord>,
 }
@@ -38,7 +38,7 @@ impl Trajectory {
 
     /// The system.
     #[must_use]
-    pub const fn system(&self) -> &Dimensionless {
+    pub const fn system(&self) -> &DimensionlessSystem {
         &self.system
     }
 
@@ -107,14 +107,14 @@ mod tests {
 
     use super::*;
     use crate::motion::event::Event;
-    use crate::motion::initial_condition::Start;
+    use crate::motion::initial_condition::InitialCondition;
     use crate::motion::state::Mode;
     use crate::parameters::dimensionless::ForcingParameters;
 
     fn recorded() -> Trajectory {
         let system =
             ForcingParameters { axial_forcing: 0.6, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 };
-        let start = Start::Contact { phase: Phase::new(4.0).unwrap(), angular_speed: 0.0 };
+        let start = InitialCondition::Contact { phase: Phase::new(4.0).unwrap(), angular_speed: 0.0 };
         let mut engine = Engine::new(system.build().unwrap(), start, ChatterPolicy::Complete).unwrap();
         let mut attachments = 0;
         Trajectory::record(&mut engine, |record| {

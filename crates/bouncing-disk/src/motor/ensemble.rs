@@ -85,7 +85,7 @@ pub const MAX_SPEEDS: usize = 1 << 26;
 /// One that is read has members, and a fit for each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "UncheckedEnsemble")]
-pub struct Ensemble {
+pub struct TransientEnsemble {
     /// The curve of each member.
     pub curves: Vec<SpeedCurve>,
     /// The fit of each member.
@@ -98,7 +98,7 @@ pub struct Ensemble {
     pub stall_acceleration: Spread,
 }
 
-/// What is read of an [`Ensemble`].
+/// What is read of an [`TransientEnsemble`].
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct UncheckedEnsemble {
@@ -109,7 +109,7 @@ struct UncheckedEnsemble {
     stall_acceleration: Spread,
 }
 
-impl TryFrom<UncheckedEnsemble> for Ensemble {
+impl TryFrom<UncheckedEnsemble> for TransientEnsemble {
     type Error = Error;
 
     fn try_from(unchecked: UncheckedEnsemble) -> Result<Self, Error> {
@@ -131,7 +131,11 @@ impl TryFrom<UncheckedEnsemble> for Ensemble {
 /// # Errors
 /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
 /// [`MAX_SPEEDS`] speeds of all together or than there is memory for; the errors of [`transient`](crate::transient()).
-pub fn ensemble(system: &System, settings: &TransientSettings, members: usize) -> Result<Ensemble, Error> {
+pub fn ensemble(
+    system: &System,
+    settings: &TransientSettings,
+    members: usize,
+) -> Result<TransientEnsemble, Error> {
     settings.check_for(&system.scales())?;
     if members == 0 {
         return Err(Error::OutOfRange { field: "members", value: 0.0, legal: "[1, 1000000]" });
@@ -169,7 +173,7 @@ pub fn ensemble(system: &System, settings: &TransientSettings, members: usize) -
         fits.push(fit);
     }
     let of = |value: fn(&ExponentialFit) -> f64| Spread::of(&fits.iter().map(value).collect::<Vec<_>>());
-    Ok(Ensemble {
+    Ok(TransientEnsemble {
         steady_speed: of(|fit| fit.steady_speed)?,
         time_constant: of(|fit| fit.time_constant)?,
         stall_acceleration: of(ExponentialFit::stall_acceleration)?,
@@ -185,7 +189,7 @@ mod tests {
     use super::*;
     use crate::motor::rotor::{Rotor, RotorStep};
     use crate::testing::motor;
-    use crate::{Engine, Start};
+    use crate::{Engine, InitialCondition};
 
     /// The value is named, not a mean that comes to nothing because of it.
     #[test]
@@ -250,7 +254,7 @@ mod tests {
             let phase = Phase::new(4.0).expect("finite");
             let policy = ChatterPolicy::Complete;
             let mut rotor = Rotor::at_rest(system.dimensionless(), phase, 0.0, policy).expect("legal");
-            let start = Start::Contact { phase, angular_speed: 0.0 };
+            let start = InitialCondition::Contact { phase, angular_speed: 0.0 };
             let mut engine = Engine::new(system, start, policy).expect("legal");
             for _ in 0..3_000 {
                 let record = engine.advance().expect("no failure");
@@ -277,7 +281,7 @@ mod tests {
             let phase = Phase::new(angle).expect("finite");
             let mut rotor = Rotor::at_rest(system.dimensionless(), phase, 0.0, policy).expect("legal");
             while rotor.advance().expect("no failure") != RotorStep::Separation {}
-            let start = Start::Contact { phase, angular_speed: 0.0 };
+            let start = InitialCondition::Contact { phase, angular_speed: 0.0 };
             let mut engine = Engine::new(system, start, policy).expect("legal");
             let record = loop {
                 let record = engine.advance().expect("no failure").expect("it separates");
@@ -385,18 +389,18 @@ mod tests {
         let settings = TransientSettings { duration: 0.01, intervals: 3, ..TransientSettings::default() };
         let own = ensemble(&motor(1e-8, 0.0), &settings, 2).expect("no failure");
         let value = serde_json::to_value(&own).expect("writes");
-        assert_eq!(serde_json::from_value::<Ensemble>(value.clone()).expect("legal"), own);
+        assert_eq!(serde_json::from_value::<TransientEnsemble>(value.clone()).expect("legal"), own);
         let mut lacking = value.clone();
         lacking["fits"].as_array_mut().expect("a list").pop();
-        assert!(serde_json::from_value::<Ensemble>(lacking).is_err());
+        assert!(serde_json::from_value::<TransientEnsemble>(lacking).is_err());
         let mut empty = value.clone();
         empty["curves"] = serde_json::json!([]);
-        assert!(serde_json::from_value::<Ensemble>(empty).is_err());
+        assert!(serde_json::from_value::<TransientEnsemble>(empty).is_err());
         let mut narrower = value.clone();
         narrower["steady_speed"]["deviation"] = serde_json::json!(-1.0);
-        assert!(serde_json::from_value::<Ensemble>(narrower).is_err());
+        assert!(serde_json::from_value::<TransientEnsemble>(narrower).is_err());
         let mut misspelt = value;
         misspelt["steady_sped"] = serde_json::json!(1.0);
-        assert!(serde_json::from_value::<Ensemble>(misspelt).is_err());
+        assert!(serde_json::from_value::<TransientEnsemble>(misspelt).is_err());
     }
 }

@@ -3,7 +3,7 @@
 //! It takes the same decisions as the [`crate::Engine`] from the same functions. Only the sum over a chattering
 //! sequence is shorter where every impact of it slides the same way: then the summed impulse is known in closed form.
 
-use bouncing_disk_core::{ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase, Stick};
+use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
@@ -13,7 +13,7 @@ use crate::motion::impact::{axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::contact_turn;
 use crate::motion::state::{DiskState, Mode, SlipDirection};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// What ended the last step of a [`Rotor`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Bounce {
 /// A disk that is followed for its angular speed only.
 #[derive(Debug, Clone)]
 pub(crate) struct Rotor {
-    system: Dimensionless,
+    system: DimensionlessSystem,
     friction: Friction,
     orbit: Option<Orbit>,
     /// Mode and separation of a disk on the platform; `None` in flight.
@@ -73,7 +73,7 @@ pub(crate) struct Rotor {
 impl Rotor {
     /// A disk that lies on the platform at `phase` with angular `speed`; where the platform falls away it flies.
     pub(crate) fn at_rest(
-        system: &Dimensionless,
+        system: &DimensionlessSystem,
         phase: Phase,
         speed: f64,
         policy: ChatterPolicy,
@@ -122,7 +122,7 @@ impl Rotor {
         self.turned
     }
 
-    pub(crate) const fn system(&self) -> &Dimensionless {
+    pub(crate) const fn system(&self) -> &DimensionlessSystem {
         &self.system
     }
 
@@ -193,7 +193,7 @@ impl Rotor {
                 self.now = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };
                 Ok(RotorStep::Impact)
             }
-            Some(OrbitEvent::Stick(stick)) => {
+            Some(OrbitEvent::Attachment(stick)) => {
                 self.attach(&stick);
                 Ok(RotorStep::Contact)
             }
@@ -201,7 +201,7 @@ impl Rotor {
         }
     }
 
-    fn attach(&mut self, stick: &Stick) {
+    fn attach(&mut self, stick: &Attachment) {
         let at = stick.attachment;
         let start = self.speed;
         if !at.error_bound.is_infinite() && stick.last_speed > 0.0 {
@@ -221,7 +221,7 @@ impl Rotor {
     ///
     /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less the
     /// launch speed: in relative velocity, 0 = w - integral of N + sum.
-    fn slide_throughout(&self, stick: &Stick) -> Option<f64> {
+    fn slide_throughout(&self, stick: &Attachment) -> Option<f64> {
         let duration = stick.attachment.duration;
         let vibration = self.system.vibration();
         let from = self.now.phase;
@@ -244,7 +244,7 @@ impl Rotor {
 
     /// The speed after a chattering sequence, impact by impact.
     #[cold]
-    fn sum_chatter(&self, stick: &Stick) -> f64 {
+    fn sum_chatter(&self, stick: &Attachment) -> f64 {
         let at = stick.attachment;
         let chatter = Chatter::new(&self.system, self.now.phase, stick.last_speed, self.speed, at.duration);
         if chatter.capped {

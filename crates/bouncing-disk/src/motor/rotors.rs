@@ -4,7 +4,7 @@ use bouncing_disk_core::{Flights, LaneImpacts, LaneLoop};
 
 use crate::motor::rotor::Bounce;
 use crate::motor::transient::{Interval, Run, seconds};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 const LANES: usize = Flights::LANES;
 
@@ -72,7 +72,7 @@ impl Rotors {
 
     /// Begins to carry a transient.
     pub(super) fn begin(&mut self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
-        let system: &Dimensionless = run.rotor.system();
+        let system: &DimensionlessSystem = run.rotor.system();
         self.restitution[lane] = system.restitution();
         self.friction[lane] = system.friction();
         self.load[lane] = system.load();
@@ -190,7 +190,7 @@ fn bounce(impacts: &LaneImpacts<'_>, rotors: &mut Rotors) {
     for lane in 0..LANES {
         let bounce = Bounce {
             duration: impacts.duration(lane),
-            // As `Dimensionless::platform_angular_speed`.
+            // As `DimensionlessSystem::platform_angular_speed`.
             platform_speed: rotors.twist_cosine[lane] * impacts.cos[lane]
                 - rotors.twist_sine[lane] * impacts.sin[lane],
             velocity: impacts.velocity[lane],

@@ -36,7 +36,7 @@ impl DimensionlessParameters {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core names the field, its value and its legal range.
-    pub fn build(self) -> Result<Dimensionless, Error> {
+    pub fn build(self) -> Result<DimensionlessSystem, Error> {
         let vibration = Vibration::new(self.peak_acceleration)?;
         let map = ImpactMap::new(vibration, self.restitution)?;
         moderate_not_negative("twist_speed", self.twist_speed)?;
@@ -44,7 +44,7 @@ impl DimensionlessParameters {
         moderate_not_negative("friction", self.friction)?;
         moderate("load", self.load)?;
         let (sin_lag, cos_lag) = sin_cos(self.phase_lag);
-        Ok(Dimensionless {
+        Ok(DimensionlessSystem {
             parameters: self,
             map,
             twist_cosine: self.twist_speed * cos_lag,
@@ -75,7 +75,7 @@ impl ForcingParameters {
     ///
     /// # Errors
     /// As [`DimensionlessParameters::build`].
-    pub fn build(self) -> Result<Dimensionless, Error> {
+    pub fn build(self) -> Result<DimensionlessSystem, Error> {
         let vibration = Vibration::from_axial_forcing(self.axial_forcing)?;
         moderate_not_negative("angular_forcing", self.angular_forcing)?;
         DimensionlessParameters {
@@ -96,7 +96,7 @@ impl ForcingParameters {
 /// f the friction torque in units of m g a_e: d(axial velocity)/d tau = N - 1, d(angular speed)/d tau = f - l.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "DimensionlessParameters", into = "DimensionlessParameters")]
-pub struct Dimensionless {
+pub struct DimensionlessSystem {
     parameters: DimensionlessParameters,
     map: ImpactMap,
     /// Q cos theta and Q sin theta.
@@ -104,7 +104,7 @@ pub struct Dimensionless {
     twist_sine: f64,
 }
 
-impl Dimensionless {
+impl DimensionlessSystem {
     /// The parameters, to be changed and built again.
     #[must_use]
     pub const fn parameters(&self) -> DimensionlessParameters {
@@ -194,7 +194,7 @@ impl Dimensionless {
     }
 }
 
-impl TryFrom<DimensionlessParameters> for Dimensionless {
+impl TryFrom<DimensionlessParameters> for DimensionlessSystem {
     type Error = Error;
 
     fn try_from(parameters: DimensionlessParameters) -> Result<Self, Error> {
@@ -202,8 +202,8 @@ impl TryFrom<DimensionlessParameters> for Dimensionless {
     }
 }
 
-impl From<Dimensionless> for DimensionlessParameters {
-    fn from(system: Dimensionless) -> Self {
+impl From<DimensionlessSystem> for DimensionlessParameters {
+    fn from(system: DimensionlessSystem) -> Self {
         system.parameters
     }
 }

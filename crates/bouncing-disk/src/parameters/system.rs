@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::parameters::dimensionless::{Dimensionless, DimensionlessParameters};
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
@@ -14,7 +14,7 @@ use crate::parameters::scales::Scales;
 pub struct System {
     platform: Platform,
     disk: Disk,
-    dimensionless: Dimensionless,
+    dimensionless: DimensionlessSystem,
 }
 
 impl System {
@@ -54,7 +54,7 @@ impl System {
 
     /// The same system without units.
     #[must_use]
-    pub const fn dimensionless(&self) -> &Dimensionless {
+    pub const fn dimensionless(&self) -> &DimensionlessSystem {
         &self.dimensionless
     }
 
@@ -83,13 +83,13 @@ impl System {
     }
 }
 
-impl From<System> for Dimensionless {
+impl From<System> for DimensionlessSystem {
     fn from(system: System) -> Self {
         system.dimensionless
     }
 }
 
-impl From<&System> for Dimensionless {
+impl From<&System> for DimensionlessSystem {
     fn from(system: &System) -> Self {
         system.dimensionless
     }
@@ -286,7 +286,10 @@ mod tests {
             refused(serde_json::from_str::<System>(&text.replace(key, misspelt)).unwrap_err(), misspelt);
         }
         let text = serde_json::to_string(system().dimensionless()).unwrap();
-        refused(serde_json::from_str::<Dimensionless>(&text.replace("load", "lode")).unwrap_err(), "lode");
+        refused(
+            serde_json::from_str::<DimensionlessSystem>(&text.replace("load", "lode")).unwrap_err(),
+            "lode",
+        );
         let braking = r#"{"angular_acceleration":-1.0,"normal_force":1.0,"mass":1.0,"contact_radius":1.0,"gyration_radius":1.0,"mas":2.0}"#;
         refused(serde_json::from_str::<crate::Braking>(braking).unwrap_err(), "mas");
         let stroke = r#"{"stroke":1.0,"amplitude_angle":0.0,"contact_radius":1.0,"angular_frequency":1.0,"phase_lag":0.0,"lag":1.0}"#;
@@ -310,6 +313,6 @@ mod tests {
         assert!(error.unwrap_err().to_string().contains("restitution = 1.5"));
         let dimensionless = *system().dimensionless();
         let text = serde_json::to_string(&dimensionless).unwrap();
-        assert_eq!(serde_json::from_str::<crate::Dimensionless>(&text).unwrap(), dimensionless);
+        assert_eq!(serde_json::from_str::<crate::DimensionlessSystem>(&text).unwrap(), dimensionless);
     }
 }

@@ -13,9 +13,9 @@ use crate::error::{Error, moderate, room_for};
 use crate::motion::engine::Engine;
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
-use crate::motion::initial_condition::Start;
+use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
-use crate::parameters::dimensionless::Dimensionless;
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// The state just before a collision: the paper's tau_imp, w_A and w_T.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -31,7 +31,7 @@ pub struct CollisionState {
 impl CollisionState {
     /// The disk's angular speed just before the impact, in units of g a_e/(a_g^2 omega).
     #[must_use]
-    pub fn angular_speed(&self, system: &Dimensionless) -> f64 {
+    pub fn angular_speed(&self, system: &DimensionlessSystem) -> f64 {
         self.tangential_impact_velocity + system.platform_angular_speed(self.phase)
     }
 
@@ -47,7 +47,7 @@ impl CollisionState {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for velocities that are no impact.
-    pub fn rebound(&self, system: &Dimensionless) -> Result<Start, Error> {
+    pub fn rebound(&self, system: &DimensionlessSystem) -> Result<InitialCondition, Error> {
         let vertical = self.vertical()?;
         let slip = moderate("tangential_impact_velocity", self.tangential_impact_velocity)?;
         let axial = axial_impulse(system.restitution(), vertical.velocity());
@@ -57,9 +57,9 @@ impl CollisionState {
             if rotary.capped { platform_speed } else { platform_speed + slip + rotary.impulse };
         let relative_speed = rebound_velocity(system.restitution(), vertical.velocity());
         Ok(if relative_speed > 0.0 {
-            Start::Launch { phase: self.phase, relative_speed, angular_speed }
+            InitialCondition::Launch { phase: self.phase, relative_speed, angular_speed }
         } else {
-            Start::Contact { phase: self.phase, angular_speed }
+            InitialCondition::Contact { phase: self.phase, angular_speed }
         })
     }
 }
@@ -113,13 +113,18 @@ pub struct Collisions {
 }
 
 impl Collisions {
-    /// The collisions of a [`crate::System`] or a [`Dimensionless`] one from a start.
+    /// The collisions of a [`crate::System`] or a [`DimensionlessSystem`] one from a start.
     ///
     /// # Errors
     /// Those of [`Engine::new`].
-    pub fn new(system: impl Into<Dimensionless>, start: Start, policy: ChatterPolicy) -> Result<Self, Error> {
+    pub fn new(
+        system: impl Into<DimensionlessSystem>,
+        start: InitialCondition,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
         let system = system.into();
-        let lies = matches!(start, Start::Contact { .. }) && system.vibration().separation_phase().is_none();
+        let lies = matches!(start, InitialCondition::Contact { .. })
+            && system.vibration().separation_phase().is_none();
         Ok(Self { engine: Engine::new(system, start, policy)?, ended: lies })
     }
 
@@ -128,7 +133,7 @@ impl Collisions {
     /// # Errors
     /// Those of [`CollisionState::rebound`] and [`Engine::new`].
     pub fn after(
-        system: impl Into<Dimensionless>,
+        system: impl Into<DimensionlessSystem>,
         state: CollisionState,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
@@ -138,7 +143,7 @@ impl Collisions {
 
     /// The system.
     #[must_use]
-    pub const fn system(&self) -> &Dimensionless {
+    pub const fn system(&self) -> &DimensionlessSystem {
         self.engine.system()
     }
 
@@ -201,7 +206,7 @@ const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
 ///
 /// It is largest, Q, for a phase lag theta = -tau_imp.
 #[must_use]
-pub fn period_one_rotary_speed(system: &Dimensionless, impact_phase: Phase) -> f64 {
+pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase) -> f64 {
     system.platform_angular_speed(impact_phase)
 }
 
@@ -311,8 +316,8 @@ pub struct TossOrbit {
 /// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts examined or than there is
 /// memory for; those of [`Collisions`].
 pub fn multi_toss(
-    system: impl Into<Dimensionless>,
-    start: Start,
+    system: impl Into<DimensionlessSystem>,
+    start: InitialCondition,
     settings: MultiTossSettings,
 ) -> Result<TossOrbit, Error> {
     settings.check()?;
@@ -367,7 +372,7 @@ impl Window {
         }
     }
 
-    fn classified(self, system: &Dimensionless, settings: &MultiTossSettings) -> TossOrbit {
+    fn classified(self, system: &DimensionlessSystem, settings: &MultiTossSettings) -> TossOrbit {
         if let [.., from, to] = self.leavings[..] {
             return self.chattering(system, settings, from, to);
         }
@@ -377,7 +382,7 @@ impl Window {
 
     fn chattering(
         self,
-        system: &Dimensionless,
+        system: &DimensionlessSystem,
         settings: &MultiTossSettings,
         from: Leaving,
         to: Leaving,
@@ -402,7 +407,7 @@ impl Window {
         }
     }
 
-    fn periodic(&self, system: &Dimensionless, settings: &MultiTossSettings) -> Option<TossOrbit> {
+    fn periodic(&self, system: &DimensionlessSystem, settings: &MultiTossSettings) -> Option<TossOrbit> {
         let last = self.collisions.len() - 1;
         let longest = settings.longest_period.min(self.collisions.len() / 2).min(MAX_PERIOD);
         let near = |a: &Collision, b: &Collision| {
@@ -440,7 +445,7 @@ impl Window {
         })
     }
 
-    fn chaotic(self, system: &Dimensionless) -> TossOrbit {
+    fn chaotic(self, system: &DimensionlessSystem) -> TossOrbit {
         let (first, last) = (&self.collisions[0], &self.collisions[self.collisions.len() - 1]);
         let mean = mean_speed((first.time, first.angle), (last.time, last.angle));
         let lyapunov_exponent =
@@ -493,19 +498,19 @@ mod tests {
     use super::*;
     use crate::parameters::dimensionless::ForcingParameters;
 
-    fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> Dimensionless {
+    fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> DimensionlessSystem {
         ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: 0.5 }.build().unwrap()
     }
 
-    fn period_one(system: &Dimensionless, angular_speed: f64) -> Start {
+    fn period_one(system: &DimensionlessSystem, angular_speed: f64) -> InitialCondition {
         let state = system.map().period_one(1).unwrap();
         let relative_speed = -system.restitution() * state.velocity();
-        Start::Launch { phase: state.phase(), relative_speed, angular_speed }
+        InitialCondition::Launch { phase: state.phase(), relative_speed, angular_speed }
     }
 
-    fn from_rest(system: &Dimensionless) -> Start {
+    fn from_rest(system: &DimensionlessSystem) -> InitialCondition {
         let phase = Phase::new(1.5 * PI).unwrap();
-        Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) }
+        InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) }
     }
 
     #[test]
@@ -546,8 +551,11 @@ mod tests {
     fn chaos_and_the_gentle_platform_are_told_apart() {
         let system_of = |forcing| system(forcing, 1.0, 0.0);
         let chaotic = system_of(0.55);
-        let start =
-            Start::Launch { phase: Phase::new(0.6).unwrap(), relative_speed: 2.1, angular_speed: 0.0 };
+        let start = InitialCondition::Launch {
+            phase: Phase::new(0.6).unwrap(),
+            relative_speed: 2.1,
+            angular_speed: 0.0,
+        };
         let orbit = multi_toss(chaotic, start, MultiTossSettings::default()).unwrap();
         let OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } = orbit.class else {
             panic!("{:?}", orbit.class)

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::{Event, EventRecord};
-use crate::motion::initial_condition::Start;
+use crate::motion::initial_condition::InitialCondition;
 use crate::motion::si::SiEnergy;
 use crate::motion::state::Mode;
 use crate::motion::trajectory::Trajectory;
@@ -23,7 +23,7 @@ pub const TOSS_START: f64 = 1.5 * PI;
 /// omega Phi sin theta as the toss starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
-pub enum InitialState {
+pub enum InitialSpin {
     /// It does not turn.
     #[default]
     AbsoluteRest,
@@ -61,7 +61,7 @@ pub struct TossPerformance {
 /// # Errors
 /// [`Error::NeverLeaves`] if the hand never falls away from the dough (phi_L > acos(g/(c omega^2)) for a motion given
 /// by its stroke).
-pub fn single_toss(system: &System, initial: InitialState) -> Result<TossPerformance, Error> {
+pub fn single_toss(system: &System, initial: InitialSpin) -> Result<TossPerformance, Error> {
     let mut ledger = EnergyLedger::default();
     for record in toss_engine(system, initial)? {
         let record = record?;
@@ -77,27 +77,27 @@ pub fn single_toss(system: &System, initial: InitialState) -> Result<TossPerform
 ///
 /// # Errors
 /// As [`single_toss`].
-pub fn toss_trajectory(system: &System, initial: InitialState) -> Result<Trajectory, Error> {
+pub fn toss_trajectory(system: &System, initial: InitialSpin) -> Result<Trajectory, Error> {
     Trajectory::record(&mut toss_engine(system, initial)?, |record| {
         matches!(record.event, Event::Impact { .. })
     })
 }
 
-fn toss_engine(system: &System, initial: InitialState) -> Result<Engine, Error> {
+fn toss_engine(system: &System, initial: InitialSpin) -> Result<Engine, Error> {
     if system.dimensionless().vibration().separation_phase().is_none() {
         return Err(never_leaves(system));
     }
     let phase = Phase::new(TOSS_START)?;
     let angular_speed = match initial {
-        InitialState::AbsoluteRest => 0.0,
-        InitialState::RestRelativeToHand => system.dimensionless().platform_angular_speed(phase),
+        InitialSpin::AbsoluteRest => 0.0,
+        InitialSpin::RestRelativeToHand => system.dimensionless().platform_angular_speed(phase),
     };
-    Engine::new(system, Start::Contact { phase, angular_speed }, ChatterPolicy::Complete)
+    Engine::new(system, InitialCondition::Contact { phase, angular_speed }, ChatterPolicy::Complete)
 }
 
 fn performance(
     system: &System,
-    initial: InitialState,
+    initial: InitialSpin,
     separation: &EventRecord,
     ledger: &EnergyLedger,
 ) -> TossPerformance {
@@ -106,8 +106,8 @@ fn performance(
     let energy = scales.energy(ledger);
     let peak = system.platform().peak_angular_speed();
     let spin = match initial {
-        InitialState::AbsoluteRest => 0.0,
-        InitialState::RestRelativeToHand => {
+        InitialSpin::AbsoluteRest => 0.0,
+        InitialSpin::RestRelativeToHand => {
             let rim_speed = system.disk().gyration_radius() * peak * sin(system.platform().phase_lag());
             0.5 * rim_speed * rim_speed
         }
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn table_i_gives_fourteen_radians_per_second() {
-        let toss = single_toss(&table_i(0.55, 0.0, 0.6), InitialState::AbsoluteRest).unwrap();
+        let toss = single_toss(&table_i(0.55, 0.0, 0.6), InitialSpin::AbsoluteRest).unwrap();
         assert!((toss.airborne_speed - 14.0).abs() < 0.5, "{toss:?}");
         assert!(toss.energy.platform_work() > 0.0 && toss.efficiency > 0.0 && toss.efficiency < 1.0);
         assert!((toss.launch_speed - 3.1).abs() < 0.1, "{toss:?}");
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn the_efficiency_is_the_share_of_the_rotation_in_what_the_hand_has_given() {
         for (lag, friction) in [(0.7, 0.6), (-1.2, 0.6), (0.4, 0.1), (0.3, 50.0), (0.0, 0.6)] {
-            for initial in [InitialState::AbsoluteRest, InitialState::RestRelativeToHand] {
+            for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
                 let system = table_i(0.55, lag, friction);
                 let toss = single_toss(&system, initial).unwrap();
                 let rim_speed = 0.11 * toss.airborne_speed;
@@ -185,30 +185,30 @@ mod tests {
                 let hand = system.platform().peak_angular_speed();
                 assert_eq!(toss.speed_ratio, Some(toss.airborne_speed / hand));
                 let at_start = match initial {
-                    InitialState::AbsoluteRest => 0.0,
+                    InitialSpin::AbsoluteRest => 0.0,
                     // The hand turns at omega Phi cos(3 pi/2 + theta).
-                    InitialState::RestRelativeToHand => 0.11 * hand * sin(lag),
+                    InitialSpin::RestRelativeToHand => 0.11 * hand * sin(lag),
                 };
                 let gain = rotary - 0.5 * at_start * at_start;
                 assert!((toss.rotary_energy_gain - gain).abs() < 1e-12 * rotary, "{lag} {friction} {toss:?}");
             }
         }
         // A hand that does not twist has no speed to compare with.
-        let flat = single_toss(&table_i(0.0, 0.7, 0.6), InitialState::AbsoluteRest).unwrap();
+        let flat = single_toss(&table_i(0.0, 0.7, 0.6), InitialSpin::AbsoluteRest).unwrap();
         assert_eq!((flat.speed_ratio, flat.airborne_speed.abs()), (None, 0.0));
     }
 
     #[test]
     fn a_whole_toss_ends_with_the_first_impact() {
         let system = table_i(0.55, 0.4, 0.6);
-        let whole = toss_trajectory(&system, InitialState::RestRelativeToHand).unwrap();
+        let whole = toss_trajectory(&system, InitialSpin::RestRelativeToHand).unwrap();
         let events: Vec<Event> = whole.records().iter().map(|record| record.event).collect();
         let (last, before) = events.split_last().unwrap();
         assert!(matches!(last, Event::Impact { .. }) && before.last() == Some(&Event::Separation));
         assert!(!before.iter().any(|event| matches!(event, Event::Impact { .. })));
         // The normal force goes to zero: whatever twists slides in the end, and what does not twist never does.
         let slides = |angle| {
-            single_toss(&table_i(angle, 0.3, 0.6), InitialState::RestRelativeToHand)
+            single_toss(&table_i(angle, 0.3, 0.6), InitialSpin::RestRelativeToHand)
                 .unwrap()
                 .sliding_at_separation
         };
@@ -220,7 +220,7 @@ mod tests {
     fn the_fastest_toss_reaches_twenty_two_radians_per_second() {
         let fastest = (0..=450)
             .filter_map(|step| {
-                single_toss(&table_i(1e-3 * PI * f64::from(step), 0.0, 0.6), InitialState::AbsoluteRest).ok()
+                single_toss(&table_i(1e-3 * PI * f64::from(step), 0.0, 0.6), InitialSpin::AbsoluteRest).ok()
             })
             .map(|toss| toss.airborne_speed)
             .fold(0.0, f64::max);
@@ -235,11 +235,11 @@ mod tests {
         fn a_lagging_dough_has_the_closed_form_speed(angle in 0.0..1.5_f64, friction in 0.05..1.0_f64) {
             let system = table_i(angle, 0.0, friction);
             prop_assume!(system.peak_acceleration() > 1.0);
-            let trajectory = toss_trajectory(&system, InitialState::AbsoluteRest).unwrap();
+            let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest).unwrap();
             let first = trajectory.records()[0];
             // One spell of sliding from start to separation.
             prop_assume!(first.event == Event::Separation && matches!(first.before.mode, Mode::Sliding(_)));
-            let toss = single_toss(&system, InitialState::AbsoluteRest).unwrap();
+            let toss = single_toss(&system, InitialSpin::AbsoluteRest).unwrap();
             let leaves = asin(1.0 / system.peak_acceleration());
             let omega = system.platform().angular_frequency();
             let expected = friction * 0.135 / (0.11 * 0.11)
@@ -253,7 +253,7 @@ mod tests {
         fn half_a_period_of_lag_reverses_the_rotation(
             angle in 0.0..1.5_f64, lag in -PI..PI, friction in 0.0..1.0_f64, relative in any::<bool>(),
         ) {
-            let initial = if relative { InitialState::RestRelativeToHand } else { InitialState::AbsoluteRest };
+            let initial = if relative { InitialSpin::RestRelativeToHand } else { InitialSpin::AbsoluteRest };
             let system = table_i(angle, lag, friction);
             prop_assume!(system.peak_acceleration() > 1.0);
             let one = single_toss(&system, initial).unwrap();
@@ -272,11 +272,11 @@ mod tests {
     #[test]
     fn a_flat_stroke_never_leaves_the_hand() {
         let limit = acos(9.8 / (0.25 * 225.0));
-        assert!(single_toss(&table_i(limit - 1e-9, 0.3, 0.6), InitialState::AbsoluteRest).is_ok());
-        let error = single_toss(&table_i(limit + 1e-9, 0.3, 0.6), InitialState::AbsoluteRest).unwrap_err();
+        assert!(single_toss(&table_i(limit - 1e-9, 0.3, 0.6), InitialSpin::AbsoluteRest).is_ok());
+        let error = single_toss(&table_i(limit + 1e-9, 0.3, 0.6), InitialSpin::AbsoluteRest).unwrap_err();
         assert!(matches!(error, Error::NeverLeaves { peak_acceleration } if peak_acceleration < 1.0));
         assert_eq!(
-            toss_trajectory(&table_i(1.5, 0.0, 0.6), InitialState::AbsoluteRest).unwrap_err(),
+            toss_trajectory(&table_i(1.5, 0.0, 0.6), InitialSpin::AbsoluteRest).unwrap_err(),
             never_leaves(&table_i(1.5, 0.0, 0.6))
         );
     }

@@ -6,7 +6,7 @@ use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
 use crate::chatter::accumulation::ChatterPolicy;
 use crate::chatter::rest_proof::RestProof;
 use crate::error::Error;
-use crate::lockstep::lanes::{Batch, Flyer, Impacts, InstructionSet, LANES, Lanes, Purpose};
+use crate::lockstep::lanes::{Batch, FlightScheduler, Impacts, InstructionSet, LANES, Lanes, Purpose};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 
 /// Batches that are computed together: enough of each kind of flight to fill vectors.
@@ -68,7 +68,7 @@ pub(super) struct Lockstep<'a> {
     settings: BasinSettings,
     targets: Vec<Target>,
     proof: RestProof,
-    flyer: Box<Flyer>,
+    flyer: Box<FlightScheduler>,
     batches: Vec<Batch>,
     /// The cell of each lane, and the round before its first flight.
     cell: Vec<Cell>,
@@ -96,7 +96,7 @@ impl<'a> Lockstep<'a> {
             settings,
             targets: targets.collect(),
             proof: RestProof::new(map.vibration(), map.restitution()),
-            flyer: Box::new(Flyer::new(InstructionSet::best(), Purpose::Orbits)),
+            flyer: Box::new(FlightScheduler::new(InstructionSet::best(), Purpose::Orbits)),
             batches: vec![Batch::of_map(map); capacity.div_ceil(LANES)],
             cell: vec![Cell::NONE; capacity],
             begun: vec![0; capacity],
@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn lanes_take_less_than_half_a_megabyte() {
         let (started, share) = ((BATCHES + 1) * LANES, size_of::<Share<'_>>() + 2 * size_of::<usize>());
-        let lanes = (BATCHES + 1) * size_of::<Batch>() + size_of::<Flyer>() + started * share;
+        let lanes = (BATCHES + 1) * size_of::<Batch>() + size_of::<FlightScheduler>() + started * share;
         assert!(lanes < 500_000, "{lanes}");
     }
 

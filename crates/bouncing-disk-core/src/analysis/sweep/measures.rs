@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::elementary::ln;
 
-/// Most impacts that [`columns`] records, of all orbits together.
+/// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
 
 /// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes to rest is followed
@@ -16,7 +16,7 @@ pub const MAX_RECORDED: u64 = 1 << 31;
 ///
 /// # Errors
 /// Those of [`sweep`].
-pub fn lives(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
+pub fn survival_times(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
     if most == 0 {
         return Ok(vec![0; orbits.len()]);
     }
@@ -28,7 +28,7 @@ pub fn lives(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
                 *lived += 1;
                 if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             }
-            SweepEvent::Stick(_) => ControlFlow::Break(()),
+            SweepEvent::Attachment(_) => ControlFlow::Break(()),
         },
     )
 }
@@ -39,7 +39,11 @@ pub fn lives(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
 /// # Errors
 /// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory for; those of
 /// [`sweep`].
-pub fn columns(orbits: &[Orbit], transient: usize, recorded: usize) -> Result<Vec<Vec<ImpactState>>, Error> {
+pub fn orbit_diagram(
+    orbits: &[Orbit],
+    transient: usize,
+    recorded: usize,
+) -> Result<Vec<Vec<ImpactState>>, Error> {
     if recorded == 0 {
         return Ok(vec![Vec::new(); orbits.len()]);
     }
@@ -63,7 +67,7 @@ pub fn columns(orbits: &[Orbit], transient: usize, recorded: usize) -> Result<Ve
                     }
                     states.push(landing.state);
                 }
-                SweepEvent::Stick(_) => {}
+                SweepEvent::Attachment(_) => {}
             }
             if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         },

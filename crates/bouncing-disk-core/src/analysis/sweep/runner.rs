@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{Landing, SweepEvent, advance};
 use crate::error::Error;
-use crate::lockstep::lanes::{Batch, Flyer, InstructionSet, LANES, Purpose};
+use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 use crate::map::impact_map::Orbit;
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
@@ -133,7 +133,7 @@ where
         // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates from rest has no
         // impact that leads to it.
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return };
-        let mut flyer = Box::new(Flyer::new(set, Purpose::Launches));
+        let mut flyer = Box::new(FlightScheduler::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {

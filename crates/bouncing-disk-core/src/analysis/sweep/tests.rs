@@ -42,7 +42,7 @@ fn bits(event: &SweepEvent) -> Vec<u64> {
             bits.extend([landing.state.velocity().to_bits(), landing.turns, landing.duration.to_bits()]);
             bits
         }
-        SweepEvent::Stick(stick) => {
+        SweepEvent::Attachment(stick) => {
             let mut bits = of_phase(stick.attachment.phase).to_vec();
             bits.extend([stick.attachment.duration.to_bits(), stick.last_speed.to_bits()]);
             bits
@@ -120,7 +120,7 @@ fn the_first_failure_is_reported() {
     };
     orbits[200] = fast(1.0e12);
     orbits[100] = fast(2.0e12);
-    let failure = lives(&orbits, 100).expect_err("too long a flight");
+    let failure = survival_times(&orbits, 100).expect_err("too long a flight");
     assert!(
         matches!(failure, Error::FlightTooLong { relative_speed, .. } if relative_speed.total_cmp(&1.0e12).is_eq()),
         "{failure}"
@@ -130,8 +130,8 @@ fn the_first_failure_is_reported() {
 #[test]
 fn lives_and_columns_are_those_of_single_orbits() {
     let orbits = orbits(700);
-    let lives = lives(&orbits, 90).expect("no failure");
-    let columns = columns(&orbits, 30, 20).expect("no failure");
+    let lives = survival_times(&orbits, 90).expect("no failure");
+    let columns = orbit_diagram(&orbits, 30, 20).expect("no failure");
     for (orbit, (lived, column)) in orbits.iter().zip(lives.iter().zip(&columns)) {
         let alone = orbit.clone().take(90).take_while(|event| matches!(event, Ok(OrbitEvent::Impact(_))));
         assert_eq!(*lived, alone.count());
@@ -197,9 +197,9 @@ fn a_sweep_does_not_depend_on_the_number_of_threads() {
 fn more_recorded_impacts_than_there_is_room_for_are_refused() {
     let orbits = orbits(20);
     for recorded in [usize::MAX, 1 << 40] {
-        let error = columns(&orbits, 0, recorded).expect_err("too many");
+        let error = orbit_diagram(&orbits, 0, recorded).expect_err("too many");
         let count = 20_u64.saturating_mul(recorded as u64);
         assert_eq!(error, Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED });
     }
-    assert_eq!(columns(&[], 0, usize::MAX), Ok(Vec::new()));
+    assert_eq!(orbit_diagram(&[], 0, usize::MAX), Ok(Vec::new()));
 }

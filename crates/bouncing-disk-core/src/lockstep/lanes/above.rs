@@ -4,9 +4,9 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::platform::Below;
+use super::platform::PlatformLanes;
 use super::{Arcs, Impacts, LANES, Lanes, Mask, ROW, Row, Width, kept, lanes_of, mask, pairs, scaled_pairs};
-use crate::flight::gap::{CrestForm, Jet};
+use crate::flight::gap::{CrestForm, GapTaylor};
 use crate::numerics::elementary::{
     CREST, impact_phase_of_lane, nearby_wrapped_of_lane, nearest_whole, rotated,
 };
@@ -90,7 +90,7 @@ pub(super) struct Fly<'a, P, W> {
     pub(super) timed: bool,
 }
 
-impl<P: Below, W: Width> WithSimd for Fly<'_, P, W> {
+impl<P: PlatformLanes, W: Width> WithSimd for Fly<'_, P, W> {
     type Output = ();
 
     #[inline(always)]
@@ -122,9 +122,9 @@ impl<P: Below, W: Width> WithSimd for Fly<'_, P, W> {
 /// Gap and derivatives at the height of the crests, with the pair there known: [`jet`] at the time zero, where products
 /// with the time vanish.
 #[inline(always)]
-fn first_jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet {
+fn first_jet<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
     let (platform, third) = (work.platform[k], work.third[k]);
-    Jet {
+    GapTaylor {
         gap: platforms.lane(k).peak - platform,
         slope: arcs.speed[k] - third,
         curvature: platform - 1.0,
@@ -135,12 +135,12 @@ fn first_jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet 
 
 /// Gap and derivatives at the time reached.
 #[inline(always)]
-fn jet<P: Below>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> Jet {
+fn jet<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
     form(platforms, arcs, k).jet_of_pair(work.time[k], work.sin[k], work.cos[k])
 }
 
 #[inline(always)]
-fn form<P: Below>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
+fn form<P: PlatformLanes>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
     CrestForm { peak: platforms.lane(k).peak, angle: arcs.start[k], speed: arcs.speed[k], depth: 0.0 }
 }
 
@@ -155,7 +155,7 @@ fn meets_no_crest(start: f64, time: f64) -> u64 {
 
 /// The step of the model from where the gap is known, given the square roots of its radicands.
 #[inline(always)]
-fn model_step(width: impl Width, work: &mut Work, jet: impl Fn(&Work, usize) -> Jet) {
+fn model_step(width: impl Width, work: &mut Work, jet: impl Fn(&Work, usize) -> GapTaylor) {
     for k in 0..width.lanes() {
         work.quadratic[k] = jet(work, k).quadratic_step(work.root[k]);
     }
@@ -166,7 +166,7 @@ fn model_step(width: impl Width, work: &mut Work, jet: impl Fn(&Work, usize) -> 
 
 /// The first step of the search of one flight; none where the root is near. Whether all lanes are followed.
 #[inline(always)]
-fn first_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
+fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     for k in 0..width.lanes() {
         let jet = first_jet(platforms, arcs, work, k);
         let one_window = !two_windows(platforms, arcs, &jet, k);
@@ -191,14 +191,14 @@ fn first_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut
 
 /// Lanes behind a crest, the platform falling away faster than the disk may fall: two windows.
 #[inline(always)]
-fn two_windows<P: Below>(platforms: P, arcs: &Arcs, jet: &Jet, k: usize) -> u64 {
+fn two_windows<P: PlatformLanes>(platforms: P, arcs: &Arcs, jet: &GapTaylor, k: usize) -> u64 {
     let peak = platforms.lane(k).peak;
     mask(jet.curvature > -CLEAR * (1.0 + peak)) & mask(jet.third < CLEAR * peak) & mask(arcs.speed[k] > -peak)
 }
 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.
 #[inline(always)]
-fn other_first_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
+fn other_first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     let (time, followed) = (work.time, work.followed);
     for k in 0..width.lanes() {
         let jet = first_jet(platforms, arcs, work, k);
@@ -218,7 +218,7 @@ fn other_first_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work
 
 /// The step after the second evaluation, where the root is not near: that of the search if it stays in the window.
 #[inline(always)]
-fn second_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
+fn second_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     work.second = work.time;
     work.stepped = true;
     for k in 0..width.lanes() {
@@ -241,7 +241,12 @@ fn second_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mu
 
 /// Another evaluation, and the Newton step from there. Whether all lanes are near their root.
 #[inline(always)]
-fn evaluate<S: Simd, P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
+fn evaluate<S: Simd, P: PlatformLanes>(
+    width: impl Width,
+    platforms: P,
+    arcs: &Arcs,
+    work: &mut Work,
+) -> bool {
     let Work { time, sin, cos, .. } = &mut *work;
     pairs::<S>(width, sin, cos, |k| arcs.start[k] + time[k]);
     let mut all = u64::MAX;
@@ -259,7 +264,7 @@ fn evaluate<S: Simd, P: Below>(width: impl Width, platforms: P, arcs: &Arcs, wor
 
 /// The last step.
 #[inline(always)]
-fn last_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
+fn last_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     for k in 0..width.lanes() {
         let jet = jet(platforms, arcs, work, k);
         work.step[k] = jet.reverted(work.step[k], work.inverse[k]);
@@ -267,7 +272,7 @@ fn last_step<P: Below>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut 
 }
 
 #[inline(always)]
-fn impact<P: Below, const TIMED: bool>(
+fn impact<P: PlatformLanes, const TIMED: bool>(
     width: impl Width,
     platforms: P,
     arcs: &Arcs,

@@ -3,7 +3,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::platform::Below;
+use super::platform::PlatformLanes;
 use super::{LANES, Mask, Rows, mask};
 use crate::flight::bounds::{arc_speed, may_return_soon};
 use crate::flight::first_impact::FASTEST_ARC;
@@ -34,7 +34,7 @@ pub(super) struct Classify<'a, P, const SET: bool> {
     pub(super) kinds: &'a mut Kinds,
 }
 
-impl<P: Below, const SET: bool> WithSimd for Classify<'_, P, SET> {
+impl<P: PlatformLanes, const SET: bool> WithSimd for Classify<'_, P, SET> {
     type Output = ();
 
     #[inline(always)]

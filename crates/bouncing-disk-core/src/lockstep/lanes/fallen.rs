@@ -14,7 +14,7 @@ use crate::numerics::elementary::{CREST, impact_phase_of_lane, nearby_wrapped_of
 /// Arcs from the height of the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
-pub(super) struct Fallen {
+pub(super) struct AwaitingSearch {
     start: Row,
     speed: Row,
     free_periods: Row,
@@ -22,7 +22,7 @@ pub(super) struct Fallen {
     reached: Row,
 }
 
-impl Forms for Fallen {
+impl Forms for AwaitingSearch {
     #[inline(always)]
     fn evaluate<S: Simd>(&mut self, width: impl Width, times: &mut Times) {
         let Times { time, sin, cos, .. } = &mut *times;
@@ -69,7 +69,7 @@ impl Forms for Fallen {
 /// Where the platform falls away below each arc.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
-pub(super) struct Behind {
+pub(super) struct FallingPlatform {
     peak: Row,
     /// Where the curvature of the gap is negative again, and the platform's speed and depth there.
     retention: Row,
@@ -83,8 +83,8 @@ pub(super) struct Behind {
 /// The windows of arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must be searched.
 pub(super) struct Windows<'a> {
     pub(super) width: Sixteens,
-    pub(super) fallen: &'a Fallen,
-    pub(super) behind: &'a mut Behind,
+    pub(super) fallen: &'a AwaitingSearch,
+    pub(super) behind: &'a mut FallingPlatform,
     pub(super) times: &'a mut Times,
 }
 
@@ -117,7 +117,7 @@ impl WithSimd for Windows<'_> {
     }
 }
 
-impl Fallen {
+impl AwaitingSearch {
     pub(super) const fn new() -> Self {
         Self { start: ROW, speed: ROW, free_periods: ROW, reached: ROW }
     }
@@ -138,7 +138,7 @@ impl Fallen {
     }
 }
 
-impl Behind {
+impl FallingPlatform {
     pub(super) const fn new() -> Self {
         Self {
             peak: ROW,

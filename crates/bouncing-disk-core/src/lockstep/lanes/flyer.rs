@@ -5,9 +5,9 @@ mod stages;
 
 use super::above::{Fly, Work};
 use super::classify::{Classify, Kinds};
-use super::fallen::{Behind, Fallen};
+use super::fallen::{AwaitingSearch, FallingPlatform};
 use super::low::{Low, Verdicts};
-use super::platform::{Below, Platform, Platforms};
+use super::platform::{Platform, PlatformLanes, Platforms};
 use super::search::{Search, Times};
 use super::short::Short;
 use super::{
@@ -29,7 +29,7 @@ pub(crate) enum Purpose {
 
 /// Computes the flights of batches of lanes.
 #[derive(Debug, Clone)]
-pub(crate) struct Flyer {
+pub(crate) struct FlightScheduler {
     dispatch: Dispatch,
     /// Whether the purpose is [`Purpose::Launches`].
     timed: bool,
@@ -39,12 +39,12 @@ pub(crate) struct Flyer {
     low: Queue<Low>,
     dips: Queue<Low>,
     above: Queue<Arcs>,
-    fallen: Queue<Fallen>,
+    fallen: Queue<AwaitingSearch>,
     low_search: Search<Low>,
-    fallen_search: Search<Fallen>,
+    fallen_search: Search<AwaitingSearch>,
     verdicts: Verdicts,
     dip_verdicts: Verdicts,
-    behind: Behind,
+    behind: FallingPlatform,
     /// Windows: flights of one kind are added to another while their own are read.
     low_windows: Times,
     dip_windows: Times,
@@ -59,7 +59,7 @@ pub(crate) struct Flyer {
     hard: Vec<Who>,
 }
 
-impl Flyer {
+impl FlightScheduler {
     /// Flights computed with these instructions.
     pub(crate) fn new(set: InstructionSet, purpose: Purpose) -> Self {
         Self {
@@ -71,12 +71,12 @@ impl Flyer {
             low: Queue::new(Low::new()),
             dips: Queue::new(Low::new()),
             above: Queue::new(Arcs::new()),
-            fallen: Queue::new(Fallen::new()),
+            fallen: Queue::new(AwaitingSearch::new()),
             low_search: Search::new(Low::new()),
-            fallen_search: Search::new(Fallen::new()),
+            fallen_search: Search::new(AwaitingSearch::new()),
             verdicts: Verdicts::new(),
             dip_verdicts: Verdicts::new(),
-            behind: Behind::new(),
+            behind: FallingPlatform::new(),
             low_windows: Times::new(),
             dip_windows: Times::new(),
             fallen_windows: Times::new(),
@@ -241,7 +241,13 @@ impl Flyer {
 }
 
 /// Sorts the launches of a batch; those of `timed` flights are set.
-fn classify<P: Below>(dispatch: Dispatch, platforms: P, rows: Rows<'_>, kinds: &mut Kinds, timed: bool) {
+fn classify<P: PlatformLanes>(
+    dispatch: Dispatch,
+    platforms: P,
+    rows: Rows<'_>,
+    kinds: &mut Kinds,
+    timed: bool,
+) {
     if timed {
         dispatch.run(Classify::<_, true> { platforms, rows, kinds });
     } else {

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::platform::{Below, Platform};
+use super::platform::{Platform, PlatformLanes};
 use super::search::{Forms, Times};
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
 use crate::flight::bounds::{clears, clears_by_tangents};
@@ -101,7 +101,7 @@ pub(super) struct Windows<'a, P> {
     pub(super) verdicts: &'a mut Verdicts,
 }
 
-impl<P: Below> WithSimd for Windows<'_, P> {
+impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
     type Output = ();
 
     #[inline(always)]

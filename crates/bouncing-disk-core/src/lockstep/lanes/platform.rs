@@ -42,18 +42,18 @@ pub(crate) struct Platforms {
 }
 
 /// The platform below a lane. A shared one stays in registers, which is why there are two kinds.
-pub(super) trait Below: Copy {
+pub(super) trait PlatformLanes: Copy {
     fn lane(self, lane: usize) -> Platform;
 }
 
-impl Below for Platform {
+impl PlatformLanes for Platform {
     #[inline(always)]
     fn lane(self, _: usize) -> Platform {
         self
     }
 }
 
-impl Below for &Platforms {
+impl PlatformLanes for &Platforms {
     #[inline(always)]
     fn lane(self, lane: usize) -> Platform {
         Platform {

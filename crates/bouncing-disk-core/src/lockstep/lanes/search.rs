@@ -3,7 +3,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::{Dispatch, Impacts, LANES, Mask, ROW, Row, Sixteens, Who, Width, mask};
-use crate::flight::gap::Jet;
+use crate::flight::gap::GapTaylor;
 use crate::numerics::elementary::rotated;
 
 /// Evaluations before the last step; flights that need more are left to the solver of one flight.
@@ -69,9 +69,9 @@ impl Times {
 
     /// Gap and derivatives at the time evaluated last.
     #[inline(always)]
-    pub(super) fn jet(&self, k: usize) -> Jet {
+    pub(super) fn jet(&self, k: usize) -> GapTaylor {
         let platform = self.peak[k] * self.sin[k];
-        Jet {
+        GapTaylor {
             gap: self.gap[k],
             slope: self.slope[k],
             curvature: platform - 1.0,

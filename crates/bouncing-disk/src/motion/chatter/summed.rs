@@ -5,8 +5,8 @@ use bouncing_disk_core::{ChatterSeries, ImpactRange, Phase, PowerSeries};
 
 use super::Chatter;
 use crate::motion::impact::friction_impact;
-use crate::motion::rotary_change::{Turn, book_flight_load, flight_turn};
-use crate::parameters::dimensionless::Dimensionless;
+use crate::motion::rotary_change::{RotaryChange, flight_turn, record_flight_load};
+use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics.md, section 4). More arise only
 /// where rounding decides at every impact whether friction holds; each of them is then twice as long as the one before.
@@ -17,7 +17,7 @@ const MAX_PIECES: u32 = USUAL_PIECES + 64;
 
 impl Chatter {
     /// The whole sequence up to `duration` at once; returns the number of pieces.
-    pub(super) fn sum(&mut self, system: &Dimensionless, phase: Phase, duration: f64) -> u32 {
+    pub(super) fn sum(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) -> u32 {
         let series = system.vibration().chatter_series(phase, self.launch_speed, system.restitution());
         let end = series.impacts_by(duration);
         if end == Some(0) {
@@ -40,7 +40,7 @@ impl Chatter {
     /// Momentum and energy of the axial motion up to an `angle`.
     fn sum_axial_motion(
         &mut self,
-        system: &Dimensionless,
+        system: &DimensionlessSystem,
         series: &ChatterSeries,
         all: &ImpactRange<'_>,
         angle: f64,
@@ -53,15 +53,15 @@ impl Chatter {
         let start = peak * self.pair.1;
         let squares = all.product(series.impact_speed(), series.impact_speed());
         let loss = 0.5 * ((1.0 - restitution) * (1.0 + restitution)) * squares;
-        self.ledger.book_normal(start * self.axial_impulse - lost, loss);
+        self.ledger.record_normal(start * self.axial_impulse - lost, loss);
         // The phase at the end is rounded as its angle is, and with it the platform's height.
-        self.ledger.book_rounding(angle, start);
+        self.ledger.record_rounding(angle, start);
     }
 }
 
 /// The rotary motion along the sequence.
 struct Rotation<'a> {
-    system: &'a Dimensionless,
+    system: &'a DimensionlessSystem,
     series: &'a ChatterSeries,
     chatter: &'a mut Chatter,
     /// Axial impulse of an impact per 1 - r, and what is still to come of it.
@@ -82,7 +82,7 @@ struct Rotation<'a> {
 }
 
 impl<'a> Rotation<'a> {
-    fn new(system: &'a Dimensionless, series: &'a ChatterSeries, chatter: &'a mut Chatter) -> Self {
+    fn new(system: &'a DimensionlessSystem, series: &'a ChatterSeries, chatter: &'a mut Chatter) -> Self {
         let impulse = series.impact_speed().scaled(1.0 + system.restitution());
         let (sine, cosine) = series.pair_changes();
         let (twist_cosine, twist_sine) = system.twist_components();
@@ -145,8 +145,8 @@ impl<'a> Rotation<'a> {
         let platform_speed = before - self.slip;
         let work = -self.slip * platform_speed;
         let loss = 0.5 * self.slip * self.slip;
-        self.chatter.ledger.book_friction(work, loss, work.abs() + loss);
-        self.chatter.ledger.book_rotary_change(before, platform_speed);
+        self.chatter.ledger.record_friction(work, loss, work.abs() + loss);
+        self.chatter.ledger.record_rotary_change(before, platform_speed);
         self.chatter.angular_impulse -= self.slip;
         self.chatter.angular_speed = platform_speed;
         self.slip = 0.0;
@@ -191,14 +191,14 @@ impl<'a> Rotation<'a> {
         let axial = range.change(&self.impulses);
         let rotary = friction_impact(self.system.friction(), axial, slip);
         let turn = flight_turn(self.system, self.chatter.angular_speed, duration);
-        book_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &turn);
+        record_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &turn);
         let platform_speed = self.platform_speed(Some(self.impacts + 1));
         let after = if rotary.capped { platform_speed } else { turn.speed + rotary.impulse };
         let work = rotary.impulse * platform_speed;
         let loss = -rotary.impulse * (slip + 0.5 * rotary.impulse);
         let ledger = &mut self.chatter.ledger;
-        ledger.book_friction(work, loss, work.abs() + (rotary.impulse * slip).abs());
-        ledger.book_rotary_change(turn.speed, after);
+        ledger.record_friction(work, loss, work.abs() + (rotary.impulse * slip).abs());
+        ledger.record_rotary_change(turn.speed, after);
         self.slip = if rotary.capped { 0.0 } else { slip + rotary.impulse };
         self.chatter.angle += turn.angle;
         self.chatter.angular_impulse += rotary.impulse;
@@ -219,7 +219,7 @@ impl<'a> Rotation<'a> {
         let delay = range.moment(&self.impulse, self.series.remaining());
         let slowed = range.moment(&self.impulse, &self.platform);
         let rotary = -grip * impulse;
-        let turn = Turn {
+        let turn = RotaryChange {
             speed: speed - load * duration + rotary,
             angle: duration * (speed - 0.5 * load * duration) - grip * (impulse * duration - delay),
         };
@@ -227,8 +227,8 @@ impl<'a> Rotation<'a> {
         let loss = [grip * self.slip * impulse, -grip * load * delay, grip * slowed, -0.5 * rotary * rotary];
         let size = work.iter().chain(&loss).map(|term| term.abs()).sum();
         let ledger = &mut self.chatter.ledger;
-        book_flight_load(ledger, self.system, speed, &turn);
-        ledger.book_friction(work.iter().sum(), loss.iter().sum(), size);
+        record_flight_load(ledger, self.system, speed, &turn);
+        ledger.record_friction(work.iter().sum(), loss.iter().sum(), size);
         self.chatter.angle += turn.angle;
         self.chatter.angular_impulse += rotary;
         self.chatter.angular_speed = turn.speed;
@@ -253,13 +253,17 @@ impl<'a> Rotation<'a> {
         // The disk keeps in a flight the platform's speed at the launch.
         let lag = range.moment(&self.flight, &self.platform)
             - range.product(&self.flight, &self.series.per_flight(&self.platform));
-        let turn = Turn {
+        let turn = RotaryChange {
             speed: after,
             angle: (before * duration - lag) - 0.5 * load * range.product(&self.flight, &self.flight),
         };
         let ledger = &mut self.chatter.ledger;
-        book_flight_load(ledger, self.system, before, &turn);
-        ledger.book_friction(work.iter().sum(), loss, work.iter().map(|term| term.abs()).sum::<f64>() + loss);
+        record_flight_load(ledger, self.system, before, &turn);
+        ledger.record_friction(
+            work.iter().sum(),
+            loss,
+            work.iter().map(|term| term.abs()).sum::<f64>() + loss,
+        );
         self.chatter.angle += turn.angle;
         self.chatter.angular_impulse += rotary;
         self.chatter.angular_speed = after;

@@ -13,7 +13,7 @@ const MOST_ROUNDED_PIECES: u32 = 32;
 /// A chatter that the complete policy sums, as it starts.
 #[derive(Debug)]
 struct Case {
-    system: Dimensionless,
+    system: DimensionlessSystem,
     phase: Phase,
     speed: f64,
     spin: f64,
@@ -55,13 +55,13 @@ fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
         slip: -3.0,
         platform_speed: -0.75,
     };
-    book_impact(&mut ledger, energy);
+    record_impact(&mut ledger, energy);
     assert!((ledger.rotary_magnitude - (0.375 + 1.5)).abs() < 1e-15, "{ledger:?}");
     assert!((ledger.friction_loss - 0.5 * 2.75).abs() < 1e-15, "{ledger:?}");
 }
 
 /// Largest launch speed with which the disk attaches; `None` where the platform does not pull back.
-fn largest_speed(system: &Dimensionless, phase: Phase) -> Option<f64> {
+fn largest_speed(system: &DimensionlessSystem, phase: Phase) -> Option<f64> {
     let accepted = |exponent: f64| {
         let speed = pow(10.0, exponent);
         system.vibration().accumulation(phase, speed, system.restitution()).map(|_| speed)

@@ -23,8 +23,8 @@ impl Engine {
 }
 
 /// An engine whose next event is the end of the chatter after this launch, if that is certain.
-fn about_to_attach(system: Dimensionless, phase: Phase, speed: f64, spin: f64) -> Option<Engine> {
-    let start = Start::Launch { phase, relative_speed: speed, angular_speed: spin };
+fn about_to_attach(system: DimensionlessSystem, phase: Phase, speed: f64, spin: f64) -> Option<Engine> {
+    let start = InitialCondition::Launch { phase, relative_speed: speed, angular_speed: spin };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
     let impact = ImpactState::new(phase, -speed / system.restitution()).unwrap();
     let orbit = system.map().orbit(impact, ChatterPolicy::Complete);
@@ -35,7 +35,7 @@ fn about_to_attach(system: Dimensionless, phase: Phase, speed: f64, spin: f64) -
 fn attachments(
     restitution: f64,
     peak_acceleration: f64,
-) -> impl Iterator<Item = (Dimensionless, EventRecord)> {
+) -> impl Iterator<Item = (DimensionlessSystem, EventRecord)> {
     (0..400_u64).filter_map(move |k| {
         let pick = |stride: u64| golden_spread(stride * k + stride / 3);
         let system = DimensionlessParameters {

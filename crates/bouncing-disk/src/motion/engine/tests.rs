@@ -16,13 +16,18 @@ const CLOSURE: f64 = 1.0e-13;
 /// Rounding of states that are computed in two ways, relative to the sizes involved.
 const ROUNDING: f64 = 1.0e-12;
 
-fn records(system: &Dimensionless, start: Start, policy: ChatterPolicy, count: usize) -> Vec<EventRecord> {
+fn records(
+    system: &DimensionlessSystem,
+    start: InitialCondition,
+    policy: ChatterPolicy,
+    count: usize,
+) -> Vec<EventRecord> {
     Engine::new(*system, start, policy)
         .and_then(|engine| engine.take(count).collect())
         .unwrap_or_else(|error| panic!("{error} for {system:?} {start:?}"))
 }
 
-fn slip(system: &Dimensionless, record: &EventRecord, state: &DiskState) -> f64 {
+fn slip(system: &DimensionlessSystem, record: &EventRecord, state: &DiskState) -> f64 {
     state.angular_speed - system.platform_angular_speed(record.time.phase)
 }
 
@@ -59,7 +64,7 @@ fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
                     load: -(friction - excess),
                 };
                 let system = parameters.build().unwrap();
-                let start = Start::Contact { phase, angular_speed: speed };
+                let start = InitialCondition::Contact { phase, angular_speed: speed };
                 let Ok(records) = Engine::new(system, start, ChatterPolicy::Complete)
                     .and_then(|engine| engine.take(4).collect::<Result<Vec<_>, _>>())
                 else {
@@ -169,7 +174,7 @@ proptest! {
         gap in 1e-6..10.0_f64, spin in -5.0..5.0_f64,
     ) {
         let system = DimensionlessParameters { twist_speed: 0.0, load: 0.0, ..system.parameters() }.build().unwrap();
-        let start = Start::Flight { phase, gap, relative_velocity: 0.0, angular_speed: spin };
+        let start = InitialCondition::Flight { phase, gap, relative_velocity: 0.0, angular_speed: spin };
         for record in records(&system, start, policy, 100) {
             let (axial, rotary) = energy(&record.spell.state);
             let (axial_after, rotary_after) = energy(&record.after);
@@ -280,11 +285,11 @@ proptest! {
         (system, start, policy) in testing::motion(), speed in 0.01..3.0_f64, phase in testing::phase(),
     ) {
         let start = match start {
-            Start::Flight { .. } => start,
-            _ => Start::Launch { phase, relative_speed: speed, angular_speed: 0.3 },
+            InitialCondition::Flight { .. } => start,
+            _ => InitialCondition::Launch { phase, relative_speed: speed, angular_speed: 0.3 },
         };
         let mut orbit = match start {
-            Start::Flight { phase, gap, relative_velocity, .. } => {
+            InitialCondition::Flight { phase, gap, relative_velocity, .. } => {
                 system.map().orbit_from_drop(phase, gap, relative_velocity, policy)
             }
             _ => system.map().orbit_from_launch(phase, speed, policy),
@@ -301,7 +306,7 @@ proptest! {
                     prop_assert_eq!(record.span.remainder.to_bits(), impact.remainder.to_bits());
                 }
                 Event::Attachment { .. } => {
-                    let Some(OrbitEvent::Stick(stick)) = orbit.advance().unwrap() else { panic!("{record:?}") };
+                    let Some(OrbitEvent::Attachment(stick)) = orbit.advance().unwrap() else { panic!("{record:?}") };
                     prop_assert_eq!(record.time.phase, stick.attachment.phase);
                     separation = stick.separation;
                 }
@@ -312,7 +317,7 @@ proptest! {
     }
 }
 
-fn lively() -> Dimensionless {
+fn lively() -> DimensionlessSystem {
     ForcingParameters { axial_forcing: 0.6, angular_forcing: 1.0, phase_lag: 0.0, restitution: 0.5 }
         .build()
         .unwrap()
@@ -335,7 +340,7 @@ fn a_drop_on_a_still_platform_comes_to_rest_after_zenos_time() {
             .build()
             .unwrap();
             let phase = Phase::new(0.0).unwrap();
-            let start = Start::Flight { phase, gap, relative_velocity: 0.0, angular_speed: 0.0 };
+            let start = InitialCondition::Flight { phase, gap, relative_velocity: 0.0, angular_speed: 0.0 };
             let last = records(&system, start, ChatterPolicy::Complete, 10_000).pop().unwrap();
             assert!(matches!(last.event, Event::Attachment { .. }));
             assert_eq!(last.after.mode, Mode::Sticking);
@@ -351,7 +356,7 @@ fn a_drop_on_a_still_platform_comes_to_rest_after_zenos_time() {
 fn chatter_sums_agree_with_explicit_bounces() {
     let system = lively();
     let phase = Phase::new(4.0).unwrap();
-    let start = Start::Launch { phase, relative_speed: 0.05, angular_speed: 5.0 };
+    let start = InitialCondition::Launch { phase, relative_speed: 0.05, angular_speed: 5.0 };
     let totals = [ChatterPolicy::Complete, ChatterPolicy::Paper].map(|policy| {
         let mut totals = (0.0, 0.0, 0.0);
         for record in Engine::new(system, start, policy).unwrap() {
@@ -372,7 +377,12 @@ fn chatter_sums_agree_with_explicit_bounces() {
 }
 
 /// Contact motion by brute force: tiny explicit steps of the friction law itself, with no closed form.
-fn brute_force(system: &Dimensionless, phase: Phase, spin: f64, until: f64) -> Vec<(f64, &'static str)> {
+fn brute_force(
+    system: &DimensionlessSystem,
+    phase: Phase,
+    spin: f64,
+    until: f64,
+) -> Vec<(f64, &'static str)> {
     const STEP: f64 = 1.0e-4;
     let law = |tau: f64| {
         let normal = 1.0 - system.peak_acceleration() * sin_cos(tau).0;
@@ -450,7 +460,7 @@ proptest! {
         .unwrap();
         let phase = Phase::new(angle).unwrap();
         let spin = spin.unwrap_or_else(|| system.platform_angular_speed(phase));
-        let engine = Engine::new(system, Start::Contact { phase, angular_speed: spin }, ChatterPolicy::Complete);
+        let engine = Engine::new(system, InitialCondition::Contact { phase, angular_speed: spin }, ChatterPolicy::Complete);
         let engine = engine.unwrap();
         prop_assume!(engine.state().mode != Mode::Flight);
         let until = match system.vibration().separation_phase() {
@@ -501,7 +511,7 @@ fn a_resting_disk_slips_periodically_or_ends() {
         restitution: 0.5,
         load: 0.0,
     };
-    let start = Start::Contact { phase: Phase::new(1.0).unwrap(), angular_speed: 0.0 };
+    let start = InitialCondition::Contact { phase: Phase::new(1.0).unwrap(), angular_speed: 0.0 };
     let slipping = records(&gentle.build().unwrap(), start, ChatterPolicy::Complete, 5000);
     assert_eq!(slipping.len(), 5000);
     assert!(slipping.iter().all(|record| record.before.mode != Mode::Flight));
@@ -524,14 +534,14 @@ fn a_still_platform_brakes_the_disk_uniformly() {
     }
     .build()
     .unwrap();
-    let start = Start::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 7.0e5 };
+    let start = InitialCondition::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 7.0e5 };
     let end = records(&system, start, ChatterPolicy::Complete, 10);
     assert_eq!(end.len(), 1);
     let expected = 7.0e5 / 0.12;
     assert!((end[0].span.radians() - expected).abs() < 1e-15 * expected);
     let turned = 0.5 * 7.0e5 * expected;
     assert!((end[0].after.angle - turned).abs() < 1e-14 * turned);
-    let forever = Start::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 1e9 };
+    let forever = InitialCondition::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 1e9 };
     let error = Engine::new(system, forever, ChatterPolicy::Complete).unwrap().next().unwrap().unwrap_err();
     assert!(matches!(error, Error::SlipTooLong { .. }), "{error}");
 }
@@ -540,7 +550,7 @@ fn a_still_platform_brakes_the_disk_uniformly() {
 #[test]
 fn a_perturbed_launch_flies_with_its_new_speed() {
     let system = lively();
-    let start = Start::Contact { phase: Phase::new(4.0).unwrap(), angular_speed: 0.0 };
+    let start = InitialCondition::Contact { phase: Phase::new(4.0).unwrap(), angular_speed: 0.0 };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
     engine.perturb_launch(0.5).unwrap();
     let resting = system.vibration().velocity(Phase::new(4.0).unwrap());
@@ -561,7 +571,7 @@ fn a_perturbed_launch_flies_with_its_new_speed() {
 /// Where the platform falls away a disk put on it flies at once.
 #[test]
 fn a_platform_that_falls_away_launches_the_disk_at_once() {
-    let start = Start::Contact { phase: Phase::new(FRAC_PI_2).unwrap(), angular_speed: 0.0 };
+    let start = InitialCondition::Contact { phase: Phase::new(FRAC_PI_2).unwrap(), angular_speed: 0.0 };
     let engine = Engine::new(lively(), start, ChatterPolicy::Complete).unwrap();
     assert_eq!(engine.state().mode, Mode::Flight);
     assert!(engine.launches());
@@ -575,7 +585,7 @@ fn motor_flights_close_and_the_angle_does_not_drift() {
     for amplitude in [1e-9, 1e-8, 1e-7] {
         for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
             let system = testing::motor(amplitude, 0.0);
-            let start = Start::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 0.0 };
+            let start = InitialCondition::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 0.0 };
             let mut angle = *Engine::new(system, start, policy).unwrap().state();
             let mut energy_error = 0.0_f64;
             for record in Engine::new(system, start, policy).unwrap().take(20_000) {

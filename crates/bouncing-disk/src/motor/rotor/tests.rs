@@ -2,7 +2,7 @@ use bouncing_disk_core::elementary::pow;
 
 use super::*;
 use crate::motion::engine::Engine;
-use crate::motion::initial_condition::Start;
+use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::testing::golden_spread;
 
@@ -39,7 +39,7 @@ fn a_long_chatter_ends_as_in_the_engine() {
             rotor.contact = None;
             rotor.go_on_after(impact, ChatterPolicy::Complete, 0, spin);
             assert_eq!(rotor.advance().unwrap(), RotorStep::Contact);
-            let start = Start::Launch { phase, relative_speed: speed, angular_speed: spin };
+            let start = InitialCondition::Launch { phase, relative_speed: speed, angular_speed: spin };
             let engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
             let record = engine.attached_after(orbit);
             let scale = system.twist_speed() + spin.abs() + 2.0 * at.duration;

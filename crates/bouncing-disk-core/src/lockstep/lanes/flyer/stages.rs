@@ -1,6 +1,6 @@
 //! The stages of the flights of each kind: computed once their queue is full, and sorted by what became of them.
 
-use super::Flyer;
+use super::FlightScheduler;
 use super::queue::Queue;
 use crate::lockstep::lanes::above::Fly;
 use crate::lockstep::lanes::fallen;
@@ -16,7 +16,7 @@ const AT_ONCE: u8 = 2;
 /// Flights under search are taken further once there are [`LANES`] of them, until so many are left.
 const LEFT: usize = LANES / 2;
 
-impl Flyer {
+impl FlightScheduler {
     pub(super) fn fly_slow(&mut self, batches: &mut [Batch], shared: Option<Platform>) {
         let count = self.slow.len;
         if count == 0 {
