@@ -66,10 +66,9 @@ pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
 pub use parameters::scales::Scales;
 pub use parameters::system::System;
-pub use toss::multiple::{
-    Collision, CollisionEvent, CollisionState, Collisions, MAX_EXAMINED, MultiTossSettings, OrbitClass,
-    TossOrbit, multi_toss, period_one_rotary_speed,
-};
+pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
+pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
+pub use toss::period_one::period_one_rotary_speed;
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the examples of the README.

@@ -1,4 +1,6 @@
 //! Tosses: a single one, and many in a row.
 
+pub(crate) mod collisions;
 pub(crate) mod multiple;
+pub(crate) mod period_one;
 pub(crate) mod single;

@@ -68,7 +68,7 @@ impl Vibration {
         let impact = self.impact_of_drop(phase, gap, relative_velocity);
         #[cfg(debug_assertions)]
         if let Ok(impact) = &impact {
-            self.assert_clock(phase, relative_velocity, impact.into(), impact.duration());
+            self.assert_clock(phase, relative_velocity, (impact.phase, impact.velocity), impact.duration());
         }
         impact
     }

@@ -136,7 +136,7 @@ impl Vibration {
         let impact = self.impact_after_in_place(from, speed);
         #[cfg(debug_assertions)]
         if let Ok(impact) = &impact {
-            self.assert_clock(from, speed, impact.into(), impact.duration());
+            self.assert_clock(from, speed, (impact.phase, impact.velocity), impact.duration());
         }
         impact
     }
@@ -443,21 +443,21 @@ impl Vibration {
         &self,
         from: Phase,
         speed: f64,
-        impact: crate::map::impact_map::ImpactState,
+        (phase, velocity): (Phase, f64),
         duration: f64,
     ) {
         let p = self.peak_acceleration();
-        let lost = speed + p * (from.cos() - impact.phase().cos()) - impact.velocity();
+        let lost = speed + p * (from.cos() - phase.cos()) - velocity;
         // Pairs that have been turned by many short flights are off their angles, which tell the time.
-        let parted = |phase: Phase| {
-            let (sin, cos) = crate::numerics::elementary::sin_cos(phase.angle());
-            (phase.sin() * cos - phase.cos() * sin).abs()
+        let parted = |of: Phase| {
+            let (sin, cos) = crate::numerics::elementary::sin_cos(of.angle());
+            (of.sin() * cos - of.cos() * sin).abs()
         };
         let rounding =
-            CLOCK_ROUNDING * (1.0 + p + speed.abs() + duration) + p * (parted(from) + parted(impact.phase()));
+            CLOCK_ROUNDING * (1.0 + p + speed.abs() + duration) + p * (parted(from) + parted(phase));
         assert!(
-            impact.velocity() >= 0.0 || (lost - duration).abs() <= rounding,
-            "a flight of {duration:e} rad loses {lost:e} of its speed: P = {p:e}, {from:?}, {speed:e}, {impact:?}"
+            velocity >= 0.0 || (lost - duration).abs() <= rounding,
+            "a flight of {duration:e} rad loses {lost:e} of its speed: P = {p:e}, {from:?}, {speed:e}, {phase:?}, {velocity:e}"
         );
     }
 }

@@ -1,214 +1,15 @@
-//! Multiple tosses (Sec. IV): the motion as a sequence of collisions, and what it settles on.
-//!
-//! The paper's next-collision map takes (tau_imp, w_A, w_T) at one impact to the same three numbers at the next.
-//! Its first two do not depend on the third: the derivative of the map is block triangular, and its rotary entry
-//! is 0 for an impact in which the slip ends and 1 for one that slides throughout.
+//! Multiple tosses (Sec. IV): what a motion settles on, and how it is classified.
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, Phase};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers};
 use serde::Serialize;
 
-use crate::error::{Error, moderate, room_for};
-use crate::motion::engine::Engine;
-use crate::motion::event::{Event, EventRecord};
-use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::error::{Error, room_for};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
-
-/// The state just before a collision: the paper's tau_imp, w_A and w_T.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CollisionState {
-    /// Phase of the impact, tau_imp.
-    pub phase: Phase,
-    /// Relative axial velocity w_A (disk minus platform), <= 0, in units of g/omega.
-    pub axial_impact_velocity: f64,
-    /// Relative angular speed w_T (disk minus platform), in units of g a_e/(a_g^2 omega).
-    pub tangential_impact_velocity: f64,
-}
-
-impl CollisionState {
-    /// The disk's angular speed just before the impact, in units of g a_e/(a_g^2 omega).
-    #[must_use]
-    pub fn angular_speed(&self, system: &DimensionlessSystem) -> f64 {
-        self.tangential_impact_velocity + system.platform_angular_speed(self.phase)
-    }
-
-    /// The vertical part of the state.
-    ///
-    /// # Errors
-    /// An error of the core for a positive or non-finite axial velocity.
-    pub fn vertical(&self) -> Result<ImpactState, Error> {
-        Ok(ImpactState::new(self.phase, self.axial_impact_velocity)?)
-    }
-
-    /// How the motion goes on from this impact: its rebound as a start of an [`Engine`].
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] or an error of the core for velocities that are no impact.
-    pub fn rebound(&self, system: &DimensionlessSystem) -> Result<InitialCondition, Error> {
-        let vertical = self.vertical()?;
-        let slip = moderate("tangential_impact_velocity", self.tangential_impact_velocity)?;
-        let axial = axial_impulse(system.restitution(), vertical.velocity());
-        let rotary = friction_impact(system.friction(), axial, slip);
-        let platform_speed = system.platform_angular_speed(self.phase);
-        let angular_speed =
-            if rotary.capped { platform_speed } else { platform_speed + slip + rotary.impulse };
-        let relative_speed = rebound_velocity(system.restitution(), vertical.velocity());
-        Ok(if relative_speed > 0.0 {
-            InitialCondition::Launch { phase: self.phase, relative_speed, angular_speed }
-        } else {
-            InitialCondition::Contact { phase: self.phase, angular_speed }
-        })
-    }
-}
-
-/// One collision of an orbit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Collision {
-    /// When.
-    pub time: PhaseTime,
-    /// The state just before.
-    pub state: CollisionState,
-    /// The disk's angular speed just before, in units of g a_e/(a_g^2 omega).
-    pub angular_speed: f64,
-    /// The angle that the disk has turned, in units of g a_e/(a_g omega)^2.
-    pub angle: f64,
-    /// Whether friction ended the slip within the impact.
-    pub capped: bool,
-}
-
-/// What [`Collisions`] reports.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
-pub enum CollisionEvent {
-    /// An impact.
-    Collision(Collision),
-    /// The chattering has ended and the disk lies on the platform.
-    Attachment {
-        /// When.
-        time: PhaseTime,
-        /// Impacts that the complete policy has summed; none of them is reported by itself.
-        summed_impacts: u64,
-    },
-    /// The platform falls away from the disk.
-    Separation {
-        /// When.
-        time: PhaseTime,
-        /// The disk's angular speed.
-        angular_speed: f64,
-        /// The angle that the disk has turned.
-        angle: f64,
-    },
-}
-
-/// The lazy sequence of the collisions, attachments and separations of a motion.
-///
-/// It ends where the disk stays on the platform for ever, and after an error.
-#[derive(Debug, Clone)]
-pub struct Collisions {
-    engine: Engine,
-    ended: bool,
-}
-
-impl Collisions {
-    /// The collisions of a [`crate::System`] or a [`DimensionlessSystem`] one from a start.
-    ///
-    /// # Errors
-    /// Those of [`Engine::new`].
-    pub fn new(
-        system: impl Into<DimensionlessSystem>,
-        start: InitialCondition,
-        policy: ChatterPolicy,
-    ) -> Result<Self, Error> {
-        let system = system.into();
-        let lies = matches!(start, InitialCondition::Contact { .. })
-            && system.vibration().separation_phase().is_none();
-        Ok(Self { engine: Engine::new(system, start, policy)?, ended: lies })
-    }
-
-    /// The collisions that follow the one in `state`; that one itself is not reported.
-    ///
-    /// # Errors
-    /// Those of [`CollisionState::rebound`] and [`Engine::new`].
-    pub fn after(
-        system: impl Into<DimensionlessSystem>,
-        state: CollisionState,
-        policy: ChatterPolicy,
-    ) -> Result<Self, Error> {
-        let system = system.into();
-        Self::new(system, state.rebound(&system)?, policy)
-    }
-
-    /// The system.
-    #[must_use]
-    pub const fn system(&self) -> &DimensionlessSystem {
-        self.engine.system()
-    }
-
-    /// The next event, or `None` after the last one.
-    ///
-    /// # Errors
-    /// Those of [`Engine::advance`].
-    pub fn advance(&mut self) -> Result<Option<CollisionEvent>, Error> {
-        while !self.ended {
-            let Some(record) = self.engine.advance()? else { break };
-            if let Some(event) = collision_event(&record) {
-                let attached = matches!(event, CollisionEvent::Attachment { .. });
-                self.ended = attached && self.system().vibration().separation_phase().is_none();
-                return Ok(Some(event));
-            }
-        }
-        self.ended = true;
-        Ok(None)
-    }
-}
-
-impl Iterator for Collisions {
-    type Item = Result<CollisionEvent, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.advance().transpose()
-    }
-}
-
-const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
-    let time = record.time;
-    match record.event {
-        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
-            Some(CollisionEvent::Collision(Collision {
-                time,
-                state: CollisionState {
-                    phase: time.phase,
-                    axial_impact_velocity,
-                    tangential_impact_velocity,
-                },
-                angular_speed: record.before.angular_speed,
-                angle: record.before.angle,
-                capped,
-            }))
-        }
-        Event::Attachment { impacts, .. } => {
-            Some(CollisionEvent::Attachment { time, summed_impacts: impacts })
-        }
-        Event::Separation => Some(CollisionEvent::Separation {
-            time,
-            angular_speed: record.after.angular_speed,
-            angle: record.after.angle,
-        }),
-        Event::StickToSlip(_) | Event::SlipToStick | Event::SlipReversal(_) => None,
-    }
-}
-
-/// The rotary speed of a period-1 orbit with impacts at `impact_phase`, Eq. 16: the platform's own speed there,
-/// Q cos(tau_imp + theta), in units of g a_e/(a_g^2 omega).
-///
-/// It is largest, Q, for a phase lag theta = -tau_imp.
-#[must_use]
-pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase) -> f64 {
-    system.platform_angular_speed(impact_phase)
-}
+use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 
 /// Most impacts that [`multi_toss`] looks at.
 pub const MAX_EXAMINED: usize = 10_000_000;
@@ -492,11 +293,13 @@ fn growth_rate(map: &ImpactMap, collisions: &[Collision]) -> Option<f64> {
 mod tests {
     use std::f64::consts::PI;
 
-    use bouncing_disk_core::Vibration;
+    use bouncing_disk_core::{Phase, Vibration};
     use proptest::prelude::*;
 
     use super::*;
     use crate::parameters::dimensionless::ForcingParameters;
+    use crate::toss::collisions::CollisionState;
+    use crate::toss::period_one::period_one_rotary_speed;
 
     fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> DimensionlessSystem {
         ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: 0.5 }.build().unwrap()

@@ -141,7 +141,12 @@ impl FlightScheduler {
             let (turns, known) = (batch.impacts().turns[lane], batch.impacts().duration[lane]);
             let by_phases = turns * core::f64::consts::TAU + (impact.phase().angle() - from.angle());
             let duration = if known >= 0.0 { known } else { by_phases };
-            batch.vibrations[lane].assert_clock(from, batch.speed[lane], impact, duration);
+            batch.vibrations[lane].assert_clock(
+                from,
+                batch.speed[lane],
+                (impact.phase(), impact.velocity()),
+                duration,
+            );
             debug_assert!(
                 (duration - by_phases).abs() <= 1.0e-14 * (1.0 + duration),
                 "{duration} {by_phases}"
