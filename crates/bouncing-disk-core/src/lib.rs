@@ -2,6 +2,35 @@
 //!
 //! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of the
 //! platform is its peak acceleration P = pi Gamma in units of g.
+//!
+//! ```
+//! use std::f64::consts::TAU;
+//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Vibration, orbit_diagram};
+//!
+//! # fn main() -> Result<(), bouncing_disk_core::Error> {
+//! // Gamma = 0.45 and restitution 0.5: a disk on the period-1 orbit lands once in every period.
+//! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+//! let state = map.period_one(1).expect("it exists from Gamma = 1/3 on");
+//! assert!((map.step(state)?.duration() - TAU).abs() < 1e-12);
+//! // One column of the orbit diagram: 50 impacts after 200 that are not looked at.
+//! let column = orbit_diagram(&[map.orbit(state, ChatterPolicy::Complete)], 200, 50)?;
+//! assert_eq!(column[0].len(), 50);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! What there is, by what it is about:
+//!
+//! | about | items |
+//! | --- | --- |
+//! | the platform | [`Phase`], [`Vibration`] |
+//! | one flight | [`Launch`], [`Impact`], [`Vibration::first_impact`], [`Vibration::first_impact_of_drop`], [`mod@reference`] |
+//! | chattering | [`Vibration::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`Vibration::chatters_to_rest`] |
+//! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
+//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
+//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
+//! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
+//! | arithmetic | [`elementary`]: the same bits on every processor |
 
 mod analysis;
 mod chatter;

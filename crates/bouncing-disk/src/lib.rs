@@ -5,7 +5,7 @@
 //! [`Engine`]) and carried back by [`Scales`].
 //!
 //! ```
-//! use bouncing_disk::{DiskParameters, InitialState, Platform, Stroke, System, single_toss};
+//! use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, single_toss};
 //!
 //! # fn main() -> Result<(), bouncing_disk::Error> {
 //! // The single pizza toss of Table I.
@@ -25,11 +25,20 @@
 //!     load_acceleration: 0.0,
 //! };
 //! let system = System::new(platform, dough.build()?)?;
-//! let toss = single_toss(&system, InitialState::AbsoluteRest)?;
+//! let toss = single_toss(&system, InitialSpin::AbsoluteRest)?;
 //! assert_eq!(toss.airborne_speed.round(), 14.0);
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! | about | items |
+//! | --- | --- |
+//! | parameters in SI | [`Platform`], [`Stroke`], [`Disk`], [`System`] |
+//! | without units | [`DimensionlessSystem`], [`ForcingParameters`], [`Scales`] |
+//! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
+//! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
+//! | the motor | [`transient`], [`transients`], [`ensemble()`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
+//! | vertical motion | [`mod@core`] |
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 

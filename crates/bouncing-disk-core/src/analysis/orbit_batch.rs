@@ -14,7 +14,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 /// let starts = (0..100)
 ///     .map(|k| ImpactState::from_normalised(0.8, 1.3 + 1e-9 * f64::from(k)))
 ///     .collect::<Result<Vec<_>, _>>()?;
-/// let mut ensemble = Ensemble::new(starts.iter().map(|&start| (map, start)));
+/// let mut ensemble = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
 /// ensemble.step()?;
 /// assert_eq!(ensemble.state(7), Some(map.step(starts[7])?.into()));
 /// # Ok::<(), bouncing_disk_core::Error>(())
