@@ -8,15 +8,15 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 /// [`ImpactMap::step`], several times faster than one after the other.
 ///
 /// ```
-/// use bouncing_disk_core::{Ensemble, ImpactMap, ImpactState, Vibration};
+/// use bouncing_disk_core::{ImpactMap, ImpactState, OrbitBatch, Vibration};
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
 /// let starts = (0..100)
 ///     .map(|k| ImpactState::from_normalised(0.8, 1.3 + 1e-9 * f64::from(k)))
 ///     .collect::<Result<Vec<_>, _>>()?;
-/// let mut ensemble = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
-/// ensemble.step()?;
-/// assert_eq!(ensemble.state(7), Some(map.step(starts[7])?.into()));
+/// let mut batch = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
+/// batch.step()?;
+/// assert_eq!(batch.state(7), Some(map.step(starts[7])?.into()));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -138,7 +138,7 @@ mod tests {
                     ImpactState::new(phase, -speed).expect("legal")
                 })
                 .collect();
-            let mut ensemble = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
+            let mut batch = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
             let alone: Vec<_> = starts.iter().map(|&start| map.step(start)).collect();
             let first = alone.iter().find_map(|step| step.as_ref().err().cloned());
             assert_eq!(ensemble.step().err(), first);
@@ -156,7 +156,7 @@ mod tests {
         let count = 1 << 20;
         let starts: Vec<_> = launches(count).collect();
         for set in InstructionSet::available() {
-            let mut ensemble = OrbitBatch::with_instruction_set(starts.iter().copied(), set);
+            let mut batch = OrbitBatch::with_instruction_set(starts.iter().copied(), set);
             for _ in 0..3 {
                 let before: Vec<_> =
                     (0..ensemble.len()).map(|k| ensemble.state(k).expect("exists")).collect();
