@@ -5,27 +5,11 @@
 //! [`Engine`]) and carried back by [`Scales`].
 //!
 //! ```
-//! use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, single_toss};
+//! use bouncing_disk::{InitialSpin, System, single_toss};
 //!
 //! # fn main() -> Result<(), bouncing_disk::Error> {
 //! // The single pizza toss of Table I.
-//! let platform = Platform::from_stroke(Stroke {
-//!     stroke: 0.25,
-//!     amplitude_angle: 0.55,
-//!     contact_radius: 0.135,
-//!     angular_frequency: 15.0,
-//!     phase_lag: 0.0,
-//! })?;
-//! let dough = DiskParameters {
-//!     contact_radius: 0.135,
-//!     gyration_radius: 0.11,
-//!     friction: 0.6,
-//!     restitution: 0.0,
-//!     preload_acceleration: 9.8,
-//!     load_acceleration: 0.0,
-//! };
-//! let system = System::new(platform, dough.build()?)?;
-//! let toss = single_toss(&system, InitialSpin::AbsoluteRest)?;
+//! let toss = single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest)?;
 //! assert_eq!(toss.airborne_speed.round(), 14.0);
 //! # Ok(())
 //! # }

@@ -3,5 +3,6 @@
 pub(crate) mod dimensionless;
 pub(crate) mod disk;
 pub(crate) mod platform;
+mod presets;
 pub(crate) mod scales;
 pub(crate) mod system;
