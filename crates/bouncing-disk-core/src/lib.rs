@@ -30,7 +30,7 @@
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
-//! | arithmetic | [`elementary`]: the same bits on every processor |
+//! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
 
 mod analysis;
 mod chatter;
@@ -38,7 +38,7 @@ mod error;
 mod flight;
 mod lockstep;
 mod map;
-mod numerics;
+pub mod numerics;
 mod platform;
 #[cfg(test)]
 mod testing;

@@ -1,3 +1,5 @@
-//! Elementary functions with the same bits on every processor.
+//! Arithmetic that gives the same bits on every processor, minima, and random streams.
 
 pub mod elementary;
+pub mod minimum;
+pub mod random;

@@ -1,6 +1,7 @@
 //! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
 
 use bouncing_disk::core::elementary::acos;
+use bouncing_disk::core::numerics::minimum::golden_section;
 use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 
@@ -128,28 +129,14 @@ pub(crate) fn maximum<E>(
             (best, best_index) = (Maximum { place: sample(index), value }, index);
         }
     }
-    let mut left = sample(best_index.saturating_sub(1));
-    let mut right = sample((best_index + 1).min(intervals));
-    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut inner_left = right - share * (right - left);
-    let mut inner_right = left + share * (right - left);
-    let (mut value_left, mut value_right) = (function(inner_left)?, function(inner_right)?);
-    for _ in 0..GOLDEN_STEPS {
-        if value_left >= value_right {
-            (right, inner_right, value_right) = (inner_right, inner_left, value_left);
-            inner_left = right - share * (right - left);
-            value_left = function(inner_left)?;
-        } else {
-            (left, inner_left, value_left) = (inner_left, inner_right, value_right);
-            inner_right = left + share * (right - left);
-            value_right = function(inner_right)?;
+    let bracket = (sample(best_index.saturating_sub(1)), sample((best_index + 1).min(intervals)));
+    golden_section(bracket.0, bracket.1, GOLDEN_STEPS, |place| {
+        let value = function(place)?;
+        if value > best.value {
+            best = Maximum { place, value };
         }
-        for (place, value) in [(inner_left, value_left), (inner_right, value_right)] {
-            if value > best.value {
-                best = Maximum { place, value };
-            }
-        }
-    }
+        Ok(-value)
+    })?;
     Ok(best)
 }
 

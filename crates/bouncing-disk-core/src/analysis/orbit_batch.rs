@@ -39,21 +39,21 @@ impl OrbitBatch {
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
     ) -> Self {
-        let mut ensemble =
+        let mut batch =
             Self { flyer: Box::new(FlightScheduler::new(set, Purpose::Orbits)), batches: Vec::new(), len: 0 };
         for (map, state) in starts {
-            let lane = ensemble.len % LANES;
+            let lane = batch.len % LANES;
             if lane == 0 {
-                ensemble.batches.push(Batch::new(*map.vibration()));
+                batch.batches.push(Batch::new(*map.vibration()));
             }
-            if let Some(batch) = ensemble.batches.last_mut() {
+            if let Some(batch) = batch.batches.last_mut() {
                 batch.set_platform(lane, *map.vibration());
                 batch.set_impact(lane, state.phase(), state.velocity());
                 batch.set_restitution(lane, map.restitution());
             }
-            ensemble.len += 1;
+            batch.len += 1;
         }
-        ensemble
+        batch
     }
 
     /// Number of orbits.
@@ -141,11 +141,11 @@ mod tests {
             let mut batch = OrbitBatch::new(starts.iter().map(|&start| (map, start)));
             let alone: Vec<_> = starts.iter().map(|&start| map.step(start)).collect();
             let first = alone.iter().find_map(|step| step.as_ref().err().cloned());
-            assert_eq!(ensemble.step().err(), first);
+            assert_eq!(batch.step().err(), first);
             for (lane, (step, start)) in alone.into_iter().zip(&starts).enumerate() {
                 failed += u32::from(step.is_err());
                 let expected = step.map_or(*start, Into::into);
-                assert_eq!(bits(ensemble.state(lane).expect("exists")), bits(expected), "{start:?}");
+                assert_eq!(bits(batch.state(lane).expect("exists")), bits(expected), "{start:?}");
             }
         }
         assert!((100..1_180).contains(&failed), "{failed}");
@@ -159,12 +159,12 @@ mod tests {
             let mut batch = OrbitBatch::with_instruction_set(starts.iter().copied(), set);
             for _ in 0..3 {
                 let before: Vec<_> =
-                    (0..ensemble.len()).map(|k| ensemble.state(k).expect("exists")).collect();
+                    (0..batch.len()).map(|k| batch.state(k).expect("exists")).collect();
                 // Orbits that have come to rest have no next impact.
-                let _ = ensemble.step();
+                let _ = batch.step();
                 for (k, (map, _)) in starts.iter().enumerate() {
                     let expected = map.step(before[k]).map_or(before[k], Into::into);
-                    let got = ensemble.state(k).expect("exists");
+                    let got = batch.state(k).expect("exists");
                     assert_eq!(
                         bits(got),
                         bits(expected),

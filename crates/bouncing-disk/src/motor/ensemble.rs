@@ -8,11 +8,12 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::Phase;
+use bouncing_disk_core::numerics::random::SplitMix64;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, not_negative, room_for, within_limit};
 use crate::motor::fit::{ExponentialFit, largest, scale_for};
-use crate::motor::transient::{SpeedCurve, SplitMix, TransientSettings, mean};
+use crate::motor::transient::{SpeedCurve, TransientSettings, mean};
 use crate::motor::transients::{TransientMember, transients};
 use crate::parameters::system::System;
 
@@ -146,7 +147,7 @@ pub fn ensemble(
     let member = |index: usize| -> Result<TransientMember, Error> {
         // Half a step off zero, so that no member starts on a phase that is special.
         let phase = Phase::new(TAU * (index as f64 + 0.5) / members as f64)?;
-        let seed = SplitMix(settings.seed.wrapping_add(index as u64)).next();
+        let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
         Ok(TransientMember { system: *system, phase, settings: TransientSettings { seed, ..*settings } })
     };
     for index in 0..members {
@@ -226,7 +227,7 @@ mod tests {
         let settings =
             TransientSettings { duration: 0.2, intervals: 20, seed: 40, ..TransientSettings::default() };
         let all = ensemble(&system, &settings, 4).expect("no failure");
-        let seeds = [40, 41, 42, 43].map(|counted| SplitMix(counted).next());
+        let seeds = [40, 41, 42, 43].map(|counted| SplitMix64::new(counted).next_number());
         for (k, curve) in all.curves.iter().enumerate() {
             let phase = Phase::new(TAU / 8.0 * [1.0, 3.0, 5.0, 7.0][k]).expect("finite");
             let own = |seed: u64| {

@@ -1,6 +1,9 @@
 //! Least-squares fits of measured or computed curves.
 
+use std::convert::Infallible;
+
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
+use bouncing_disk_core::numerics::minimum::golden_section;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, not_negative, positive};
@@ -228,31 +231,9 @@ fn scaled_fit(times: &[f64], speeds: &[f64], shape: impl Fn(f64) -> f64) -> (f64
         }
     }
     let centre = low + step * f64::from(best.1);
-    let log = golden_minimum((centre - step).max(low), (centre + step).min(high), cost);
+    let cost = |log: f64| Ok::<_, Infallible>(cost(log));
+    let Ok(log) = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost);
     at(exp(log))
-}
-
-/// The minimum of a function with one minimum in [low, high], by golden section.
-fn golden_minimum(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
-    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut inner = [high - ratio * (high - low), low + ratio * (high - low)];
-    let mut values = [function(inner[0]), function(inner[1])];
-    for _ in 0..GOLDEN_STEPS {
-        if values[0] <= values[1] {
-            high = inner[1];
-            inner[1] = inner[0];
-            values[1] = values[0];
-            inner[0] = high - ratio * (high - low);
-            values[0] = function(inner[0]);
-        } else {
-            low = inner[0];
-            inner[0] = inner[1];
-            values[0] = values[1];
-            inner[1] = low + ratio * (high - low);
-            values[1] = function(inner[1]);
-        }
-    }
-    0.5 * (low + high)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use serde::{Deserialize, Serialize};
 
@@ -177,25 +178,6 @@ impl TryFrom<UncheckedCurve> for SpeedCurve {
     }
 }
 
-/// The splitmix64 generator: a documented, reproducible stream for each seed.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SplitMix(pub(crate) u64);
-
-impl SplitMix {
-    pub(crate) const fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Evenly in [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
-    }
-}
-
 /// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
 ///
 /// # Errors
@@ -216,7 +198,7 @@ pub(crate) struct Run {
     pub(crate) bins: Bins,
     pub(crate) impacts: u64,
     separations: u64,
-    generator: SplitMix,
+    generator: SplitMix64,
     relaunch_perturbation: f64,
     /// Duration (s).
     pub(crate) duration: f64,
@@ -234,7 +216,7 @@ impl Run {
             bins: Bins::new(settings.duration, settings.intervals)?,
             impacts: 0,
             separations: 0,
-            generator: SplitMix(settings.seed),
+            generator: SplitMix64::new(settings.seed),
             relaunch_perturbation: settings.relaunch_perturbation,
             duration: settings.duration,
             start: phase.angle(),
@@ -398,7 +380,7 @@ mod tests {
     /// The published values of the generator for the seed 1234567.
     #[test]
     fn the_generator_is_splitmix64() {
-        let mut generator = SplitMix(1_234_567);
+        let mut generator = SplitMix64::new(1_234_567);
         let published = [
             6_457_827_717_110_365_317,
             3_203_168_211_198_807_973,
@@ -406,9 +388,9 @@ mod tests {
             4_593_380_528_125_082_431,
             16_408_922_859_458_223_821,
         ];
-        assert_eq!(published.map(|_| generator.next()), published);
+        assert_eq!(published.map(|_| generator.next_number()), published);
         // The highest 53 bits, as a share of one.
-        let mut generator = SplitMix(1_234_567);
+        let mut generator = SplitMix64::new(1_234_567);
         for bits in published {
             assert_eq!((generator.unit() * (1_u64 << 53) as f64) as u64, bits >> 11);
         }
