@@ -82,6 +82,9 @@ impl Class {
 /// which it counts as differing.
 pub const AGREED_SHARE: f64 = 0.95;
 
+/// So many inputs are a sample, whose share has a standard error.
+const SAMPLE: usize = 20;
+
 /// For how many of the inputs that print like the paper's a statement holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Agreement {
@@ -123,8 +126,11 @@ impl Agreement {
         }
     }
 
-    /// Whether more draws might move the share across one of the bounds: it is nearer to it than two standard errors.
+    /// Whether more draws might move the share across one of the bounds: it is nearer to it than two standard errors. A handful is no sample.
     fn is_close(self) -> bool {
+        if self.tried < SAMPLE {
+            return false;
+        }
         let near = |share: f64, error: f64| {
             [AGREED_SHARE, 1.0 - AGREED_SHARE].iter().any(|bound| (share - bound).abs() < 2.0 * error)
         };
@@ -590,6 +596,11 @@ mod tests {
         assert_eq!(Agreement::of([true, false, true]), Agreement { holding: 2, tried: 3 });
         assert_eq!(Agreement { holding: 183, tried: 200 }.words(), "183 of 200, 91.5 ± 2.0 %");
         assert_eq!(Agreement { holding: 0, tried: 0 }.words(), "none");
+        let groups = [Agreement { holding: 1, tried: 2 }, Agreement { holding: 3, tried: 5 }];
+        assert_eq!(groups.into_iter().sum::<Agreement>(), Agreement { holding: 4, tried: 7 });
+        // Chosen ones are no sample: their share has no standard error worth a remark.
+        let few = Claim::printed_share("section5.oscillation_grows", Agreement { holding: 2, tried: 6 }, "");
+        assert!(few.remarks().is_empty(), "{}", few.remarks());
         let close = |holding| {
             let agreement = Agreement { holding, tried: 200 };
             Claim::printed_share("section5.oscillation_grows", agreement, "")

@@ -158,8 +158,7 @@ mod tests {
         for set in InstructionSet::available() {
             let mut batch = OrbitBatch::with_instruction_set(starts.iter().copied(), set);
             for _ in 0..3 {
-                let before: Vec<_> =
-                    (0..batch.len()).map(|k| batch.state(k).expect("exists")).collect();
+                let before: Vec<_> = (0..batch.len()).map(|k| batch.state(k).expect("exists")).collect();
                 // Orbits that have come to rest have no next impact.
                 let _ = batch.step();
                 for (k, (map, _)) in starts.iter().enumerate() {

@@ -71,6 +71,8 @@ pub struct Fig06Data {
     pub explored: Explored,
     /// The best phase lag at some Γ.
     pub best_lags: Vec<BestLag>,
+    /// Values of Γ from the crisis on at which one impact gives a disk from rest more than half of its impulse.
+    pub one_impact_decides: OneImpactDecides,
 }
 
 /// A disk from rest that bounces for ever.
@@ -269,6 +271,19 @@ pub struct BestLag {
     pub lag_rad: f64,
     /// Mean speed/(ωΦ) there.
     pub speed: f64,
+}
+
+/// Where one impact of the cycle of a disk from rest has most of the impulse: a motor with the lag that is best for this impact turns at ωΦ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OneImpactDecides {
+    /// Smallest and largest Γ, and how many were tried.
+    pub axial_forcing_range: (f64, f64),
+    /// See `axial_forcing_range`.
+    pub tried: usize,
+    /// Γ_T of the motors that are simulated there.
+    pub angular_forcing: f64,
+    /// Those found: Γ, Γ_T, lag and the mean speed of the simulation.
+    pub found: Vec<BestLag>,
 }
 
 /// Phase lag and angular forcing.

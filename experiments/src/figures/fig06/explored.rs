@@ -3,18 +3,19 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow_attractor, orbit_diagram};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Phase, follow_attractor, orbit_diagram};
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, multi_toss,
 };
 use rayon::prelude::*;
 
 use super::chattering::from_rest;
-use super::data::{BestLag, Column, Explored, Merging, Shadow, Visited};
+use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, Visited};
 use super::merging::starts;
 use super::scan::{Inputs, map, no_orbit, rounded};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::circular::occupied_arc;
+use crate::figures::impulse::Impulses;
 
 /// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
 /// impacts on the mean before it comes to rest for the first time.
@@ -223,6 +224,73 @@ pub(super) fn best_lags(
         })
         .collect()
 }
+
+/// The largest Γ up to which cycles are looked for in which one impact has most of the impulse: where the paper's own motor operates.
+const LARGEST_FORCING: f64 = 3.0;
+/// Γ_T of the motors simulated there: as in a motor, it leaves the speed to change little in one impact.
+const LARGE_ANGULAR_FORCING: f64 = 1.0e4;
+/// Impacts of a cycle from rest, at least.
+const WEIGHED_IMPACTS: usize = 400;
+
+/// The values of Γ beyond `from` at which more than half of the impulse of a disk from rest comes at one phase, and the mean speed of a motor with the lag that is best
+/// for this phase.
+pub(super) fn one_impact_decides(
+    from: f64,
+    restitution: f64,
+    quality: Quality,
+) -> Result<OneImpactDecides, ExperimentError> {
+    let count = quality.choose(300_u32, 2_400);
+    let forcing = |index: u32| from + (LARGEST_FORCING - from) * (f64::from(index) + 0.5) / f64::from(count);
+    let settings = MultiTossSettings {
+        transient_impacts: WEIGHED_IMPACTS,
+        examined_impacts: 10 * WEIGHED_IMPACTS,
+        ..MultiTossSettings::default()
+    };
+    let found = (0..count)
+        .into_par_iter()
+        .map(|index| {
+            let axial_forcing = forcing(index);
+            let impulses = Impulses::of(&map(axial_forcing, restitution)?, WEIGHED_IMPACTS, 0.0)?;
+            let largest = impulses.impacts.iter().max_by(|one, other| one.1.total_cmp(&other.1));
+            let Some(&(phase, _)) = largest else { return Ok(None) };
+            // The median of cos(τ + θ) is 1 where most of the impulse comes at the phase −θ.
+            if impulses.levels(-phase).steady_speed() < AT_MAXIMUM {
+                return Ok(None);
+            }
+            let system = ForcingParameters {
+                axial_forcing,
+                angular_forcing: LARGE_ANGULAR_FORCING,
+                phase_lag: -phase,
+                restitution,
+            }
+            .build()
+            .map_err(ExperimentError::model)?;
+            let angular_speed = system.twist_speed();
+            let start = InitialCondition::Contact {
+                phase: Phase::new(1.5 * PI).map_err(ExperimentError::model)?,
+                angular_speed,
+            };
+            let orbit = multi_toss(system, start, settings).map_err(ExperimentError::model)?;
+            Ok(Some(BestLag {
+                axial_forcing,
+                angular_forcing: LARGE_ANGULAR_FORCING,
+                followed: false,
+                period: None,
+                lag_rad: -phase,
+                speed: orbit.mean_angular_speed.unwrap_or_default() / angular_speed,
+            }))
+        })
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    Ok(OneImpactDecides {
+        axial_forcing_range: (from, LARGEST_FORCING),
+        tried: count as usize,
+        angular_forcing: LARGE_ANGULAR_FORCING,
+        found: found.into_iter().flatten().collect(),
+    })
+}
+
+/// A speed of at least this share of ωΦ is the maximum, as the paper's digits go.
+pub(super) const AT_MAXIMUM: f64 = 0.995;
 
 /// On the followed attractor, or at rest.
 fn start(

@@ -1,5 +1,7 @@
 //! What the paper says about chattering and the merging of the attractors in Fig. 6.
 
+use std::f64::consts::PI;
+
 use super::data::{BestLag, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
 use super::statements::ID;
@@ -174,6 +176,9 @@ fn speeds(data: &Fig06Data) -> Vec<Claim> {
         let judged = claim::all(bests, |of| of.speed < slowest_one);
         judged.filter(|_| !ones.is_empty())
     };
+    let decides = &data.one_impact_decides;
+    let at_maximum: Vec<&BestLag> =
+        decides.found.iter().filter(|of| of.speed >= super::explored::AT_MAXIMUM).collect();
     let slices = super::regimes::chaotic(data);
     let (low_c, high_c) = extent(slices.iter().map(|slice| slice.linear_mean));
     let (low_d, high_d) = extent(slices.iter().map(|slice| slice.semielliptical_mean));
@@ -209,11 +214,23 @@ fn speeds(data: &Fig06Data) -> Vec<Claim> {
         ),
         Claim::printed_statement(
             "section4.merged_below_maximum",
-            slower(&merged),
+            slower(&merged).map(|slower| slower && at_maximum.is_empty()),
             format!(
-                "at the best phase lag the mean speed of a disk from rest is {} from the merging to Γ = {}",
+                "at the best phase lag the mean speed of a disk from rest is {} from the merging to Γ = {}. But where one impact of its cycle has more than half of the impulse, a motor with \
+                 the lag of this impact turns at ωΦ: of {} values of Γ from {:.3} to {} at {}{}",
                 words(&merged),
-                data.axial_forcing_range.1
+                data.axial_forcing_range.1,
+                decides.tried,
+                decides.axial_forcing_range.0,
+                decides.axial_forcing_range.1,
+                at_maximum.len(),
+                at_maximum.first().map_or_else(String::new, |first| format!(
+                    ", the first at Γ = {:.4}, where with θ = {:.4}π and Γ_T = {:e} the mean speed of a disk that comes to rest on the platform at this speed is {:.4} ωΦ",
+                    first.axial_forcing,
+                    first.lag_rad / PI,
+                    first.angular_forcing,
+                    first.speed
+                )),
             ),
         ),
     ]

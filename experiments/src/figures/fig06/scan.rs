@@ -203,6 +203,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
     let lagged: Vec<_> =
         spread(SAMPLED / 4, &states).into_iter().chain(spread(SAMPLED / 4, &chaotic)).collect();
     let best_lags = explored::best_lags(&lagged, &beyond, inputs, lag_settings)?;
+    let one_impact_decides = explored::one_impact_decides(crisis, restitution, quality)?;
     let (period_one_threshold, phase_at_threshold_rad) = period_one::threshold(inputs, first)?;
     let crossings = rotation::branch_crossings(&followed, &doublings);
     let at_doubling = doublings.first().copied().unwrap_or(f64::NAN);
@@ -242,6 +243,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
         motor_share_in_impacts: contact::motor_transfer()?,
         explored,
         best_lags,
+        one_impact_decides,
     })
 }
 

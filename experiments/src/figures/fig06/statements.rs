@@ -254,8 +254,8 @@ fn introduction(data: &Fig06Data) -> Vec<Claim> {
             "section1.no_bouncing",
             claim::all(below(), |contact| !contact.leaves && contact.still_bouncing == 0),
             format!(
-                "at {} values of Γ below 1/π, the nearest {} in units of the last place below it, {} disks at rest leave the platform, and {bouncing} of {thrown} disks thrown up \
-                 still bounce after 10000 impacts",
+                "of a disk at rest it is Eq. (3), and a code check here: at {} values of Γ below 1/π, the nearest {} in units of the last place below it, {} disks at rest leave the platform, and {bouncing} of {thrown} disks thrown up \
+                 still bounce after 10000 impacts at the restitution of the figure (a rotor that bounces already can go on at a larger one: Fig. 11)",
                 below().count(),
                 nearest(-last_below),
                 below().filter(|contact| contact.leaves).count(),

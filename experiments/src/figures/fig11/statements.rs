@@ -12,6 +12,9 @@ const ID: &str = "fig11";
 
 const SECTION: &str = "Sec. V B";
 
+/// An exponent of the stall torque above this is nearer to the trend (1) than to a plateau (0).
+const NEARER_TO_TREND: f64 = 0.5;
+
 /// A difference of more than so many standard errors is one.
 const STANDARD_ERRORS: f64 = 3.0;
 
@@ -246,17 +249,23 @@ fn same_trends(data: &Fig11Data, default: &[&Trend], second: &[&Trend]) -> Claim
     )
 }
 
-/// The stall torque above the preload of the measured plateau.
+/// The stall torque above the preload of the measured plateau. A plateau belongs to a curve and not to a motor: next to its beginning the two differ by less than the scatter.
 fn plateau(data: &Fig11Data, default: &[&Trend]) -> Claim {
-    Claim::printed_share(
+    let exponents = default.iter().map(|trend| {
+        let exponent = trend.high_torque_exponent.unwrap_or(f64::NAN);
+        format!("{}: {exponent:.2}", trend.name())
+    });
+    let nearer = default.iter().map(|trend| trend.no_plateau).sum::<Agreement>();
+    Claim::printed_statement(
         "section5.no_plateau",
-        default.iter().map(|trend| trend.no_plateau).sum(),
+        all(default, |trend| trend.high_torque_exponent.is_some_and(|exponent| exponent > NEARER_TO_TREND)),
         format!(
-            "a motor above {} mN agrees if its stall torque is nearer to the trend of its curve, a line through the origin, than to a plateau at what that line has at {0} mN: {}; \
-             exponent without the motors on a low-period cycle: {}",
+            "exponent of the stall torque above {} mN, 1 on the trend of its curve and 0 on a plateau, the median over all pairs of motors, those on a low-period cycle among them; above \
+             {NEARER_TO_TREND} is nearer to the trend: {}; without these: {}. Motor by motor {} are nearer to the trend of their curve than to a plateau",
             1e3 * data.printed.plateau_n,
-            share_words(default, |trend| trend.no_plateau),
+            exponents.collect::<Vec<_>>().join("; "),
             power_words(default, |trend| trend.high_torque_power_without),
+            nearer.words(),
         ),
     )
 }

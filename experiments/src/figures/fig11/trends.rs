@@ -57,6 +57,8 @@ pub(super) struct Trend {
     /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
     pub(super) speed_exponent: Option<f64>,
     pub(super) torque_exponent: Option<f64>,
+    /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
+    pub(super) high_torque_exponent: Option<f64>,
     /// The exponent there without the motors on a low-period cycle.
     pub(super) high_torque_power_without: Option<Power>,
     /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
@@ -127,6 +129,7 @@ impl Trend {
             })),
             speed_exponent: median_exponent(&inside, |point| Some(speed(point))),
             torque_exponent: median_exponent(&inside, stall),
+            high_torque_exponent: median_exponent(&high, stall),
             high_torque_power_without: Power::through(&chaotic(&high), stall),
             no_fall: no_fall(&all(&outside)),
             no_rise_above: no_rise(&all(&above)),

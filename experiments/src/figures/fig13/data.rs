@@ -143,6 +143,10 @@ pub(super) struct AlikeMotors {
     pub(super) inputs: String,
     /// Motors drawn.
     pub(super) drawn: usize,
+    /// The values of μ, θ and ωΦ that each of them is given, too.
+    pub(super) frictions: Vec<f64>,
+    pub(super) phase_lags_rad: Vec<f64>,
+    pub(super) peak_angular_speeds_rad_per_s: Vec<f64>,
     /// By rising ε.
     pub(super) prevalence: Vec<Prevalence>,
     /// By draw.
@@ -182,9 +186,36 @@ pub(super) struct Draw {
     pub(super) largest_speed_ratio: f64,
     /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
     pub(super) share_of_exponential: f64,
+    /// What each parameter changes, in the order of the panels.
+    pub(super) sensitivities: Vec<Sensitivity>,
+    /// Share of the variance of steady speed and of α̇_ss/t_c over θ that a cosine explains.
+    pub(super) speed_cosine: Option<f64>,
+    pub(super) stall_cosine: Option<f64>,
     /// Exponents of A in both, over the three printed amplitudes at the printed ε.
     pub(super) speed_amplitude_exponent: Option<f64>,
     pub(super) stall_amplitude_exponent: Option<f64>,
+}
+
+/// What a parameter changes in a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative
+/// to the motor as printed.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Sensitivity {
+    pub(super) parameter: Parameter,
+    /// Change of the steady speed and of α̇_ss/t_c from one end of the range to the other.
+    pub(super) speed_change: Option<f64>,
+    pub(super) stall_change: Option<f64>,
+    /// Exponents of both; of θ none.
+    pub(super) speed_exponent: Option<f64>,
+    pub(super) stall_exponent: Option<f64>,
+    /// Share of the variance of α̇_ss/t_c that the line explains.
+    pub(super) stall_explained: Option<f64>,
+}
+
+impl Draw {
+    /// What this parameter changes.
+    pub(super) fn sensitivity(&self, parameter: Parameter) -> Option<&Sensitivity> {
+        self.sensitivities.iter().find(|sensitivity| sensitivity.parameter == parameter)
+    }
 }
 
 /// A motor against the size of the relaunch perturbation.

@@ -1,6 +1,6 @@
 //! Reading off the sweeps of Fig. 13.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::elementary::{cos, ln};
 
 use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
 use crate::figures::regression::StraightLine;
@@ -38,13 +38,25 @@ pub(super) fn low_period_words(data: &Fig13Data, parameter: Parameter) -> String
     format!("{low} of {} motors on a low-period cycle", points.len())
 }
 
-/// The values below which a tenth of the readings lies, and above which a tenth does: isolated motors on a short cycle lie outside.
-pub(super) fn tenths(values: &[f64]) -> Option<(f64, f64)> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
-    let at = |share: f64| sorted[(share * last as f64).round() as usize];
-    Some((at(0.1), at(0.9)))
+/// y = c cos θ by least squares: c, and the share of the variance that it explains. `None` of fewer than three points.
+pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    if points.len() < 3 {
+        return None;
+    }
+    let (mut products, mut squares) = (0.0, 0.0);
+    for (angle, value) in points {
+        products += cos(*angle) * value;
+        squares += cos(*angle) * cos(*angle);
+    }
+    let factor = products / squares;
+    let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64;
+    let (mut rest, mut all) = (0.0, 0.0);
+    for (angle, value) in points {
+        let (off, from_mean) = (value - factor * cos(*angle), value - mean);
+        rest += off * off;
+        all += from_mean * from_mean;
+    }
+    Some((factor, 1.0 - rest / all))
 }
 
 /// Elasticity: the exponent of a power law through all positive points.

@@ -1,13 +1,15 @@
 //! The computation of Fig. 13.
 
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use bouncing_disk::core::elementary::{ln, pow};
 use bouncing_disk::{ExponentialFit, TransientSettings};
 
 use super::data::{
-    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sweep, SweepPoint,
+    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sensitivity, Sweep,
+    SweepPoint,
 };
+use super::reading::cosine_fit;
 use crate::claim::Agreement;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
@@ -33,6 +35,8 @@ const RESTITUTIONS: [f64; 3] = [0.2, 0.5, 0.8];
 const PARTS: usize = 48;
 /// Largest ε of a sweep.
 const LARGEST_RESTITUTION: f64 = 0.9;
+/// Phase lags that each of the motors which print alike is given.
+const LAGS: u32 = 8;
 /// Seed of the inputs that print alike.
 const SEED: u64 = 13;
 /// Numbers of flights for which the share of cycles is counted.
@@ -148,47 +152,117 @@ fn predict(case: &MotorCase, impulses: &Impulses) -> (f64, Option<f64>) {
     (levels.steady_speed(), stall)
 }
 
-/// The motors of Table III, every input but ε anywhere between what still rounds to the printed one.
+/// The motors of Table III, every input but ε anywhere between what still rounds to the printed one; and each of them with other values of one of the others.
 fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
     let inputs = PrintedInputs::table_three()?;
     let count = quality.choose(DRAWN / 5, DRAWN);
     let steps = quality.choose(4, 10);
-    let mut restitutions = Vec::new();
-    let mut motors: Vec<Vec<AlikeMotor>> = Vec::new();
-    for step in 0..steps {
-        let restitution = LARGEST_RESTITUTION * f64::from(step) / f64::from(steps - 1);
-        restitutions.push(restitution);
-        motors.push(alike(&inputs.restitution(restitution).drawn(count, SEED), RISES)?);
-    }
+    let restitutions: Vec<f64> =
+        (0..steps).map(|step| LARGEST_RESTITUTION * f64::from(step) / f64::from(steps - 1)).collect();
     let amplitudes = [
         "section5.smallest_amplitude_of_fig10",
         "section5.middle_amplitude_of_fig10",
         "section5.largest_amplitude_of_fig10",
     ];
-    let by_amplitude = amplitudes
-        .iter()
-        .map(|key| alike(&inputs.amplitude(key)?.drawn(count, SEED), RISES))
-        .collect::<Result<Vec<_>, ExperimentError>>()?;
-    let rise = |motor: &MotorCase| motor.rise_time_s();
-    let rises: Vec<f64> = inputs.drawn(count, SEED).iter().map(rise).collect();
+    let of_amplitude = |key: &&str| Ok::<_, ExperimentError>(inputs.amplitude(key)?.drawn(count, SEED));
+    let by_amplitude = amplitudes.iter().map(of_amplitude).collect::<Result<Vec<_>, ExperimentError>>()?;
+    let default = inputs.drawn(count, SEED);
+    let with = |parameter: Parameter, values: &[f64]| -> Vec<Vec<MotorCase>> {
+        values
+            .iter()
+            .map(|&value| default.iter().map(|motor| parameter.set(motor, value)).collect())
+            .collect()
+    };
+    let frictions = [0.05, 0.1, 0.2, 0.4];
+    let phase_lags: Vec<f64> = (0..LAGS).map(|lag| TAU * f64::from(lag) / f64::from(LAGS) - PI).collect();
+    let peak_angular_speeds = [5.0, 23.0, 41.0, 60.0];
+    let varied = |parameter: Parameter, cases: Vec<Vec<MotorCase>>| -> Result<Varied, ExperimentError> {
+        let motors = cases.iter().map(|cases| alike(cases, RISES)).collect::<Result<_, _>>()?;
+        Ok(Varied { parameter, cases, motors })
+    };
+    let by_restitution = varied(
+        Parameter::Restitution,
+        restitutions.iter().map(|&restitution| inputs.restitution(restitution).drawn(count, SEED)).collect(),
+    )?;
+    let sweeps = [
+        varied(Parameter::Friction, with(Parameter::Friction, &frictions))?,
+        by_restitution,
+        varied(Parameter::PhaseLag, with(Parameter::PhaseLag, &phase_lags))?,
+        varied(Parameter::Amplitude, by_amplitude)?,
+        varied(Parameter::PeakAngularSpeed, with(Parameter::PeakAngularSpeed, &peak_angular_speeds))?,
+    ];
+    let rises: Vec<f64> = default.iter().map(MotorCase::rise_time_s).collect();
     Ok(AlikeMotors {
         inputs: inputs.words(),
         drawn: count,
         prevalence: restitutions
             .iter()
-            .zip(&motors)
+            .zip(&sweeps[1].motors)
             .map(|(&restitution, motors)| prevalence(restitution, motors, &rises))
             .collect(),
-        draws: (0..count)
-            .map(|index| {
-                draw(
-                    &restitutions,
-                    motors.iter().map(|motors| &motors[index]),
-                    by_amplitude.iter().map(|motors| &motors[index]),
-                )
-            })
-            .collect(),
+        draws: (0..count).map(|index| draw(&restitutions, &sweeps, index)).collect(),
+        frictions: frictions.to_vec(),
+        phase_lags_rad: phase_lags,
+        peak_angular_speeds_rad_per_s: peak_angular_speeds.to_vec(),
     })
+}
+
+/// All drawn motors with other values of one parameter.
+struct Varied {
+    parameter: Parameter,
+    /// By value, then by draw.
+    cases: Vec<Vec<MotorCase>>,
+    motors: Vec<Vec<AlikeMotor>>,
+}
+
+impl Varied {
+    /// The values and what is read from one draw.
+    fn read(&self, index: usize, of: fn(&MotorCase, &AlikeMotor) -> Option<f64>) -> Vec<(f64, f64)> {
+        let pairs = self.cases.iter().zip(&self.motors);
+        pairs
+            .filter_map(|(cases, motors)| {
+                Some((self.parameter.of(&cases[index]), of(&cases[index], &motors[index])?))
+            })
+            .collect()
+    }
+
+    fn sensitivity(&self, index: usize, default: (Option<f64>, Option<f64>)) -> Sensitivity {
+        let (speeds, stalls) = (self.read(index, speed), self.read(index, stall));
+        let line = |points: &[(f64, f64)]| {
+            let coordinate = |x: f64| if self.parameter == Parameter::Amplitude { ln(x) } else { x };
+            StraightLine::through(&points.iter().map(|(x, y)| (coordinate(*x), *y)).collect::<Vec<_>>())
+        };
+        let change = |points: &[(f64, f64)], default: Option<f64>| {
+            let (first, last) = (points.first()?, points.last()?);
+            let change = match self.parameter {
+                Parameter::PhaseLag => 2.0 * cosine_fit(points)?.0,
+                Parameter::Amplitude => line(points)?.slope * (ln(last.0) - ln(first.0)),
+                _ => line(points)?.slope * (last.0 - first.0),
+            };
+            Some((change / default?).abs())
+        };
+        let exponent = |points: &[(f64, f64)]| {
+            let positive = points.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
+            let line = StraightLine::through(&positive.map(|(x, y)| (ln(*x), ln(*y))).collect::<Vec<_>>());
+            line.filter(|_| self.parameter != Parameter::PhaseLag).map(|line| line.slope)
+        };
+        Sensitivity {
+            parameter: self.parameter,
+            speed_change: change(&speeds, default.0),
+            stall_change: change(&stalls, default.1),
+            speed_exponent: exponent(&speeds),
+            stall_exponent: exponent(&stalls),
+            stall_explained: line(&stalls).map(|line| line.explained),
+        }
+    }
+}
+
+fn speed(_: &MotorCase, motor: &AlikeMotor) -> Option<f64> {
+    Some(motor.steady_speed_rad_per_s)
+}
+
+fn stall(case: &MotorCase, motor: &AlikeMotor) -> Option<f64> {
+    motor.stall_over_limit.map(|stall| stall * case.largest_acceleration())
 }
 
 /// Steady speed over ωΦ. Each of these motors has the ωΦ that was drawn for it.
@@ -196,37 +270,38 @@ fn speed_ratio(motor: &AlikeMotor) -> f64 {
     motor.steady_speed_rad_per_s / motor.peak_angular_speed_rad_per_s
 }
 
-fn draw<'a>(
-    restitutions: &[f64],
-    motors: impl Iterator<Item = &'a AlikeMotor> + Clone,
-    by_amplitude: impl Iterator<Item = &'a AlikeMotor> + Clone,
-) -> Draw {
+fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
+    let [_, by_restitution, by_lag, by_amplitude, _] = sweeps;
+    let motors = || by_restitution.motors.iter().map(|motors| &motors[index]);
     let line = |of: fn(&AlikeMotor) -> Option<f64>| {
-        let points = restitutions.iter().zip(motors.clone());
+        let points = restitutions.iter().zip(motors());
         let points: Vec<_> = points.filter_map(|(x, motor)| of(motor).map(|y| (*x, y))).collect();
         StraightLine::through(&points)
     };
     let range = restitutions.last().zip(restitutions.first()).map_or(0.0, |(last, first)| last - first);
-    let exponent = |of: fn(&AlikeMotor) -> Option<f64>| {
-        let points = by_amplitude.clone().filter_map(|motor| {
-            of(motor).filter(|value| *value > 0.0).map(|value| (ln(motor.amplitude_m), ln(value)))
-        });
-        StraightLine::through(&points.collect::<Vec<_>>()).map(|line| line.slope)
-    };
     let largest =
-        |of: fn(&AlikeMotor) -> Option<f64>| motors.clone().filter_map(of).fold(f64::NEG_INFINITY, f64::max);
-    let speed = |motor: &AlikeMotor| Some(speed_ratio(motor));
-    let stall = |motor: &AlikeMotor| motor.stall_over_limit;
+        |of: fn(&AlikeMotor) -> Option<f64>| motors().filter_map(of).fold(f64::NEG_INFINITY, f64::max);
+    let ratio = |motor: &AlikeMotor| Some(speed_ratio(motor));
+    let over_limit = |motor: &AlikeMotor| motor.stall_over_limit;
+    // The middle amplitude is the printed one.
+    let printed = (&by_amplitude.cases[1][index], &by_amplitude.motors[1][index]);
+    let default = (speed(printed.0, printed.1), stall(printed.0, printed.1));
+    let sensitivities: Vec<Sensitivity> =
+        sweeps.iter().map(|sweep| sweep.sensitivity(index, default)).collect();
+    let exponents = sensitivities[3];
     Draw {
-        speed_ratio_slope: line(speed).map(|line| line.slope),
-        stall_over_limit_slope: line(stall).map(|line| line.slope),
-        stall_over_limit_rise: line(stall).map(|line| line.slope * range / line.intercept),
-        largest_stall_over_limit: largest(stall),
-        largest_speed_ratio: largest(speed),
-        share_of_exponential: motors.clone().filter(|motor| motor.is_exponential()).count() as f64
+        speed_ratio_slope: line(ratio).map(|line| line.slope),
+        stall_over_limit_slope: line(over_limit).map(|line| line.slope),
+        stall_over_limit_rise: line(over_limit).map(|line| line.slope * range / line.intercept),
+        largest_stall_over_limit: largest(over_limit),
+        largest_speed_ratio: largest(ratio),
+        share_of_exponential: motors().filter(|motor| motor.is_exponential()).count() as f64
             / restitutions.len() as f64,
-        speed_amplitude_exponent: exponent(speed),
-        stall_amplitude_exponent: exponent(stall),
+        speed_cosine: cosine_fit(&by_lag.read(index, speed)).map(|fit| fit.1),
+        stall_cosine: cosine_fit(&by_lag.read(index, stall)).map(|fit| fit.1),
+        speed_amplitude_exponent: exponents.speed_exponent,
+        stall_amplitude_exponent: exponents.stall_exponent,
+        sensitivities,
     }
 }
 

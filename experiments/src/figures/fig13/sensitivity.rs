@@ -2,13 +2,14 @@
 
 use bouncing_disk::core::elementary::cos;
 
-use super::data::{Fig13Data, Parameter, SweepPoint};
+use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::reading::{
-    Reading, elasticity, extent, low_period_words, read, speed, stall, sweep_points, tenths, words,
+    Reading, cosine_fit, elasticity, extent, low_period_words, read, speed, stall, sweep_points, words,
 };
-use crate::claim::{Agreement, Claim, all};
+use crate::claim::{Agreement, Claim};
 use crate::figures::motor_case::relative_range;
 use crate::figures::regression::StraightLine;
+use crate::figures::samples;
 
 /// An exponent below this, with two standard errors, counts as no significant effect: over two decades of A the
 /// quantity then changes by less than a factor 1.6.
@@ -23,44 +24,38 @@ const SIGNIFICANT: f64 = 0.3;
 /// Least share of the variance that a curve explains to be called that curve.
 const EXPLAINED: f64 = 0.95;
 
-/// y = c cos θ by least squares: c, and the share of the variance that it explains.
-fn cosine_fit(points: &[(f64, f64)]) -> (f64, f64) {
-    let (mut products, mut squares) = (0.0, 0.0);
-    for (angle, value) in points {
-        products += cos(*angle) * value;
-        squares += cos(*angle) * cos(*angle);
-    }
-    let factor = products / squares;
-    let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64;
-    let (mut rest, mut all) = (0.0, 0.0);
-    for (angle, value) in points {
-        let (off, from_mean) = (value - factor * cos(*angle), value - mean);
-        rest += off * off;
-        all += from_mean * from_mean;
-    }
-    (factor, 1.0 - rest / all)
-}
-
 pub(super) fn cosine(data: &Fig13Data) -> Claim {
     let top = data.motor.peak_angular_speed_rad_per_s;
     let ratio: Vec<_> = read(data, Parameter::PhaseLag, speed)
         .into_iter()
         .map(|(angle, speed)| (angle, speed / top))
         .collect();
-    let (factor, explained) = cosine_fit(&ratio);
-    let (stall_factor, stall_explained) = cosine_fit(&read(data, Parameter::PhaseLag, stall));
+    let nothing = (f64::NAN, f64::NAN);
+    let (factor, explained) = cosine_fit(&ratio).unwrap_or(nothing);
+    let (stall_factor, stall_explained) =
+        cosine_fit(&read(data, Parameter::PhaseLag, stall)).unwrap_or(nothing);
+    let draws = &data.alike.draws;
+    let is_cosine = |share: Option<f64>| share.is_some_and(|share| share >= EXPLAINED);
+    let speeds = Agreement::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine)));
+    let stalls = Agreement::of(draws.iter().map(|draw| is_cosine(draw.stall_cosine)));
     let off = |point: &&(f64, f64)| (point.1 - factor * cos(point.0)).abs();
     let worst = ratio.iter().max_by(|one, other| off(one).total_cmp(&off(other)));
-    Claim::printed_statement(
+    Claim::printed_share(
         "section5.cosine_of_phase_lag",
-        explained >= EXPLAINED,
+        Agreement::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine) && is_cosine(draw.stall_cosine))),
         format!(
-            "steady speed/(ωΦ) = {factor:.3} cos θ explains {:.2} % of the variance, stall acceleration = {stall_factor:.1} cos θ \
-             {:.2} % of its; {} The curve is not even in θ, since the impulses do not fall evenly about τ = 0",
+            "whether a cosine of θ explains {:.0} % of the variance of steady speed and of α̇_ss/t_c, over {} lags, for {} motors that print alike and that nothing perturbs; of the \
+             speed alone it does for {}, of α̇_ss/t_c for {}. In the figure, means over an ensemble: steady speed/(ωΦ) = {factor:.3} cos θ explains {:.2} % of the variance, stall acceleration = {stall_factor:.1} cos θ \
+             {:.2} % of its. {} The curve is not even in θ, since the impulses do not fall evenly about τ = 0",
+            100.0 * EXPLAINED,
+            data.alike.phase_lags_rad.len(),
+            draws.len(),
+            speeds.words(),
+            stalls.words(),
             100.0 * explained,
             100.0 * stall_explained,
             worst.map_or_else(String::new, |point| format!(
-                "the speed ratio is farthest off at θ = {:.2}π, {:.3} against {:.3}.",
+                "The speed ratio is farthest off at θ = {:.2}π, {:.3} against {:.3}.",
                 point.0 / std::f64::consts::PI,
                 point.1,
                 factor * cos(point.0)
@@ -95,29 +90,46 @@ pub(super) fn amplitude(data: &Fig13Data) -> Claim {
     )
 }
 
+/// The agreement of the motors that print alike on what a parameter changes.
+fn agreement(data: &Fig13Data, parameter: Parameter, holds: impl Fn(&Sensitivity) -> bool) -> Agreement {
+    let draws = data.alike.draws.iter();
+    Agreement::of(draws.map(|draw| draw.sensitivity(parameter).is_some_and(&holds)))
+}
+
 pub(super) fn twist(data: &Fig13Data) -> Claim {
-    let line = elasticity(data, Parameter::PeakAngularSpeed, stall);
-    Claim::printed_statement(
+    Claim::printed_share(
         "section5.torque_independent_of_twist",
-        line.is_some_and(|line| line.slope.abs() + 2.0 * line.slope_error < INSIGNIFICANT),
+        agreement(data, Parameter::PeakAngularSpeed, |of| {
+            of.stall_exponent.is_some_and(|exponent| exponent.abs() < INSIGNIFICANT)
+        }),
         format!(
-            "exponent {}; that of the steady speed {}",
-            words(line),
+            "whether the exponent of ωΦ in α̇_ss/t_c is below {INSIGNIFICANT} from {} to {} rad/s, for {} motors that print alike and that nothing perturbs. In the figure, means over an \
+             ensemble: exponent {}; that of the steady speed {}",
+            data.alike.peak_angular_speeds_rad_per_s.first().copied().unwrap_or(f64::NAN),
+            data.alike.peak_angular_speeds_rad_per_s.last().copied().unwrap_or(f64::NAN),
+            data.alike.drawn,
+            words(elasticity(data, Parameter::PeakAngularSpeed, stall)),
             words(elasticity(data, Parameter::PeakAngularSpeed, speed))
         ),
     )
 }
 
 pub(super) fn friction(data: &Fig13Data) -> Claim {
-    let line = elasticity(data, Parameter::Friction, stall);
     let straight = StraightLine::through(&read(data, Parameter::Friction, stall));
-    Claim::printed_statement(
+    Claim::printed_share(
         "section5.torque_linear_in_friction",
-        line.is_some_and(|line| (line.slope - 1.0).abs() <= PROPORTIONAL_WITHIN)
-            && straight.is_some_and(|line| line.explained >= EXPLAINED),
+        agreement(data, Parameter::Friction, |of| {
+            of.stall_exponent.is_some_and(|exponent| (exponent - 1.0).abs() <= PROPORTIONAL_WITHIN)
+                && of.stall_explained.is_some_and(|explained| explained >= EXPLAINED)
+        }),
         format!(
-            "exponent {}; straight line R² = {:.4}, intercept {:.2} rad/s²; the steady speed has the exponent {}",
-            words(line),
+            "whether the exponent of μ in α̇_ss/t_c is within {PROPORTIONAL_WITHIN} of 1 and a straight line explains {:.0} % of its variance, from μ = {} to {}, for {} motors that print alike and \
+             that nothing perturbs. In the figure, means over an ensemble: exponent {}; straight line R² = {:.4}, intercept {:.2} rad/s²; the steady speed has the exponent {}",
+            100.0 * EXPLAINED,
+            data.alike.frictions.first().copied().unwrap_or(f64::NAN),
+            data.alike.frictions.last().copied().unwrap_or(f64::NAN),
+            data.alike.drawn,
+            words(elasticity(data, Parameter::Friction, stall)),
             straight.map_or(f64::NAN, |line| line.explained),
             straight.map_or(f64::NAN, |line| line.intercept),
             words(elasticity(data, Parameter::Friction, speed)),
@@ -125,77 +137,77 @@ pub(super) fn friction(data: &Fig13Data) -> Claim {
     )
 }
 
-/// The change of a reading over the range of each parameter, relative to the default value; largest first. From the lowest to the highest tenth, with
-/// all motors in: a few of a short cycle, which lie at isolated values, do not make a parameter one that matters.
-fn changes(data: &Fig13Data, of: Reading) -> Vec<(Parameter, f64)> {
-    let default = of(&default_point(data)).unwrap_or(f64::NAN);
-    let mut changes: Vec<(Parameter, f64)> = Parameter::ALL
-        .into_iter()
-        .filter_map(|parameter| {
-            let values: Vec<f64> = read(data, parameter, of).iter().map(|point| point.1).collect();
-            tenths(&values).map(|(low, high)| (parameter, (high - low) / default))
-        })
-        .collect();
-    changes.sort_by(|one, other| other.1.total_cmp(&one.1));
-    changes
+/// What is read off the trend of a parameter.
+type Change = fn(&Sensitivity) -> Option<f64>;
+
+pub(super) fn speed_change(of: &Sensitivity) -> Option<f64> {
+    of.speed_change
 }
+
+pub(super) fn stall_change(of: &Sensitivity) -> Option<f64> {
+    of.stall_change
+}
+
+/// The medians over the motors that print alike of what each parameter changes.
+fn medians(data: &Fig13Data, of: Change) -> String {
+    let words = Parameter::ALL.into_iter().map(|parameter| {
+        let draws = data.alike.draws.iter();
+        let changes = draws.filter_map(|draw| draw.sensitivity(parameter).and_then(of));
+        format!("{} {:.2}", parameter.symbol(), samples::median(changes).unwrap_or(f64::NAN))
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// How much a trend changes, in words.
+const CHANGE: &str = "change along the trend over the range, a straight line (of A in its logarithm, of θ a cosine), relative to the motor as printed; the ranges are ours, those of A the \
+    three printed amplitudes";
 
 /// That the parameters `named` are those with the largest changes.
-pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Reading, named: [Parameter; 3]) -> Claim {
-    let changes = changes(data, of);
-    let ranked = changes.iter().map(|(parameter, change)| {
-        let exponent = if *parameter == Parameter::PhaseLag {
-            String::new()
-        } else {
-            format!(", exponent {}", words(elasticity(data, *parameter, of)))
-        };
-        format!("{} {change:.2}{exponent}", parameter.symbol())
-    });
-    let ranked = ranked.collect::<Vec<_>>().join("; ");
-    Claim::printed_statement(
-        key,
-        all(changes.iter().take(named.len()), |(parameter, _)| named.contains(parameter)),
-        format!(
-            "change over the range drawn, from the lowest to the highest tenth of all motors, relative to the default value: {ranked}. \
-             The ranges are ours"
-        ),
-    )
-}
-
-/// That only θ and ε change both the steady speed, in units of ωΦ or not, and the stall torque.
-pub(super) fn both(data: &Fig13Data) -> Claim {
-    let (speeds, stalls) = (changes(data, speed), changes(data, stall));
-    let significant = |changes: &[(Parameter, f64)], parameter: Parameter| {
-        changes.iter().any(|(other, change)| *other == parameter && *change > SIGNIFICANT)
+pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Parameter; 3]) -> Claim {
+    let holds = |draw: &Draw| {
+        let mut changes: Vec<(Parameter, f64)> =
+            draw.sensitivities.iter().filter_map(|one| Some((one.parameter, of(one)?))).collect();
+        changes.sort_by(|one, other| other.1.total_cmp(&one.1));
+        changes.len() == Parameter::ALL.len()
+            && changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter))
     };
-    let both: Vec<Parameter> = Parameter::ALL
-        .into_iter()
-        .filter(|parameter| significant(&speeds, *parameter) && significant(&stalls, *parameter))
-        .collect();
-    Claim::printed_statement(
-        "section5.both_sensitivity",
-        (!speeds.is_empty() && !stalls.is_empty())
-            .then(|| both == [Parameter::Restitution, Parameter::PhaseLag]),
+    let lacks = |draw: &&Draw| draw.sensitivities.iter().any(|one| of(one).is_none());
+    let incomplete = data.alike.draws.iter().filter(lacks).count();
+    Claim::printed_share(
+        key,
+        Agreement::of(data.alike.draws.iter().map(holds)),
         format!(
-            "changes of more than {SIGNIFICANT} of the default value in both, from the lowest to the highest tenth of all motors: {}",
-            both.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ")
+            "whether the named three have the largest changes, for {} motors that print alike and that nothing perturbs ({} of them lack a value, since too few of their transients are fitted, and count \
+             as not agreeing); medians: {}. {CHANGE}",
+            data.alike.drawn,
+            incomplete,
+            medians(data, of)
         ),
     )
 }
 
-/// The default motor as a point.
-fn default_point(data: &Fig13Data) -> SweepPoint {
-    SweepPoint {
-        value: f64::NAN,
-        peak_angular_speed_rad_per_s: data.motor.peak_angular_speed_rad_per_s,
-        statistics: data.default,
-        broken: data.default,
-        predicted_speed_ratio: f64::NAN,
-        predicted_stall_acceleration_rad_per_s2: None,
-        impulse_share_near_zero: f64::NAN,
-        mean_impact_speed_m_per_s: f64::NAN,
-        mean_impact_interval_s: f64::NAN,
-    }
+/// That only θ and ε change both the steady speed and the stall torque.
+pub(super) fn both(data: &Fig13Data) -> Claim {
+    let significant = |change: Option<f64>| change.is_some_and(|change| change > SIGNIFICANT);
+    let holds = |draw: &Draw| {
+        Parameter::ALL.into_iter().all(|parameter| {
+            let both = draw
+                .sensitivity(parameter)
+                .is_some_and(|of| significant(of.speed_change) && significant(of.stall_change));
+            both == matches!(parameter, Parameter::Restitution | Parameter::PhaseLag)
+        })
+    };
+    Claim::printed_share(
+        "section5.both_sensitivity",
+        Agreement::of(data.alike.draws.iter().map(holds)),
+        format!(
+            "whether θ and ε, and no other, change both by more than {SIGNIFICANT}, for {} motors that print alike and that nothing perturbs; medians of the change of the steady speed: {}; of \
+             α̇_ss/t_c: {}. {CHANGE}",
+            data.alike.drawn,
+            medians(data, speed_change),
+            medians(data, stall_change)
+        ),
+    )
 }
 
 pub(super) fn speed_limit(data: &Fig13Data) -> Claim {

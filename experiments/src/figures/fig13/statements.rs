@@ -1,7 +1,7 @@
 //! What the paper says about Fig. 13.
 
 use super::data::{Fig13Data, Parameter};
-use super::reading::{speed, stall, sweep_points};
+use super::reading::sweep_points;
 use super::{orbits, sensitivity};
 use crate::claim::Claim;
 use crate::figures::motor_case::perturbation_claim;
@@ -113,13 +113,13 @@ pub(super) fn claims(data: &Fig13Data) -> Vec<Claim> {
     claims.push(sensitivity::most_sensitive(
         data,
         "section5.speed_sensitivity",
-        speed,
+        sensitivity::speed_change,
         [Parameter::PhaseLag, Parameter::Restitution, Parameter::PeakAngularSpeed],
     ));
     claims.push(sensitivity::most_sensitive(
         data,
         "section5.torque_sensitivity",
-        stall,
+        sensitivity::stall_change,
         [Parameter::PhaseLag, Parameter::Restitution, Parameter::Friction],
     ));
     for motor in &data.perturbations {
