@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::claim::Claim;
-use crate::draw::{DrawError, Figure};
 use crate::finite::{self, FiniteError};
 use crate::ledger::{self, LedgerError};
 use crate::measured::{Layout, MeasuredError, Series};
 use crate::progress::Progress;
 use crate::table::{Table, TableError};
+use bouncing_disk_plot::{DrawError, Figure};
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -191,7 +191,7 @@ pub trait Experiment: Sync + Send + 'static {
 }
 
 /// An experiment whose data type is erased, so that a registry can hold all of them.
-pub trait Entry: Sync + Send {
+pub trait RegisteredExperiment: Sync + Send {
     /// See [`Experiment::ID`].
     fn id(&self) -> &'static str;
 
@@ -208,18 +208,18 @@ pub trait Entry: Sync + Send {
     /// # Errors
     ///
     /// When the model fails.
-    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError>;
+    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn ErasedData>, ExperimentError>;
 
     /// Reads data that an earlier run stored.
     ///
     /// # Errors
     ///
     /// When another version wrote them and they do not fit.
-    fn read(&self, stored: Value) -> Result<Box<dyn Outcome>, ExperimentError>;
+    fn read(&self, stored: Value) -> Result<Box<dyn ErasedData>, ExperimentError>;
 }
 
 /// The data of one experiment, whatever their type, and what can be made from them.
-pub trait Outcome: Send + Sync {
+pub trait ErasedData: Send + Sync {
     /// See [`Experiment::overlay`].
     ///
     /// # Errors
@@ -258,13 +258,13 @@ pub trait Outcome: Send + Sync {
 }
 
 /// The type-erased form of the experiment `E`, for the registry.
-pub fn entry<E: Experiment>() -> Box<dyn Entry> {
+pub fn entry<E: Experiment>() -> Box<dyn RegisteredExperiment> {
     Box::new(Erased::<E>(std::marker::PhantomData))
 }
 
 struct Erased<E>(std::marker::PhantomData<E>);
 
-impl<E: Experiment> Entry for Erased<E> {
+impl<E: Experiment> RegisteredExperiment for Erased<E> {
     fn id(&self) -> &'static str {
         E::ID
     }
@@ -277,18 +277,18 @@ impl<E: Experiment> Entry for Erased<E> {
         E::MEASUREMENTS
     }
 
-    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError> {
+    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn ErasedData>, ExperimentError> {
         Ok(Box::new(Typed::<E>(E::run(quality, progress)?)))
     }
 
-    fn read(&self, stored: Value) -> Result<Box<dyn Outcome>, ExperimentError> {
+    fn read(&self, stored: Value) -> Result<Box<dyn ErasedData>, ExperimentError> {
         Ok(Box::new(Typed::<E>(serde_json::from_value(stored).map_err(ExperimentError::Stored)?)))
     }
 }
 
 struct Typed<E: Experiment>(E::Data);
 
-impl<E: Experiment> Outcome for Typed<E> {
+impl<E: Experiment> ErasedData for Typed<E> {
     fn overlay(&mut self, series: &Series) -> Result<(), ExperimentError> {
         E::overlay(&mut self.0, series)
     }

@@ -4,7 +4,7 @@
 //! One module of [`figures`] makes one figure or table. It implements [`Experiment`]:
 //!
 //! * `run` computes plain, serialisable data (units in the field names); it knows no picture,
-//! * `draw` turns that data into a [`draw::Figure`]; it computes nothing,
+//! * `draw` turns that data into a [`Figure`](bouncing_disk_plot::Figure); it computes nothing,
 //! * `claims` compares every number the paper prints with the computed one ([`Claim`]); what is printed stands in the
 //!   [`ledger`] alone.
 //!
@@ -13,7 +13,6 @@
 
 pub mod claim;
 pub mod count;
-pub mod draw;
 pub mod errata;
 pub mod experiment;
 pub mod figures;

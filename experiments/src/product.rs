@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::experiment::{Entry, ExperimentError, Outcome, Quality, chain};
+use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
 use crate::json;
 use crate::measured::Measurements;
 use crate::progress::Progress;
@@ -28,7 +28,7 @@ struct Record {
 /// Data that an earlier run stored.
 pub struct Stored {
     /// The data.
-    pub outcome: Box<dyn Outcome>,
+    pub outcome: Box<dyn ErasedData>,
     /// The quality they were made in.
     pub quality: Quality,
     /// Faults of the user's measurements that are therefore not shown.
@@ -49,7 +49,7 @@ impl std::fmt::Debug for Stored {
 ///
 /// When the model fails, a number is not finite, a claim has no data to be judged by, or the figure cannot be drawn.
 pub fn make(
-    entry: &dyn Entry,
+    entry: &dyn RegisteredExperiment,
     quality: Quality,
     measurements: &Measurements,
     progress: &dyn Progress,
@@ -89,7 +89,7 @@ pub fn make(
 /// # Errors
 ///
 /// When another version wrote them and they do not fit.
-pub fn read(entry: &dyn Entry, bytes: &[u8]) -> Result<Stored, ExperimentError> {
+pub fn read(entry: &dyn RegisteredExperiment, bytes: &[u8]) -> Result<Stored, ExperimentError> {
     let record: Record = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
     Ok(Stored { outcome: entry.read(record.data)?, quality: record.quality, warnings: record.warnings })
 }

@@ -1,6 +1,6 @@
 //! The list of all experiments.
 
-use crate::experiment::{Entry, entry};
+use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
     fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3,
@@ -8,7 +8,7 @@ use crate::figures::{
 use crate::measured::Layout;
 
 /// All experiments, in the order of the paper.
-pub fn all() -> Vec<Box<dyn Entry>> {
+pub fn all() -> Vec<Box<dyn RegisteredExperiment>> {
     // One line per module of `figures`: `entry::<fig06::Fig06>(),`
     vec![
         entry::<fig01::Fig01>(),
@@ -32,7 +32,7 @@ pub fn all() -> Vec<Box<dyn Entry>> {
 }
 
 /// The files of measurements that all experiments together can show.
-pub fn measurements(entries: &[Box<dyn Entry>]) -> Vec<Layout> {
+pub fn measurements(entries: &[Box<dyn RegisteredExperiment>]) -> Vec<Layout> {
     entries.iter().flat_map(|entry| entry.measurements().iter().copied()).collect()
 }
 
@@ -51,7 +51,10 @@ pub struct UnknownId {
 /// # Errors
 ///
 /// When an identifier is unknown; the error lists the known ones.
-pub fn select<'a>(entries: &'a [Box<dyn Entry>], ids: &[String]) -> Result<Vec<&'a dyn Entry>, UnknownId> {
+pub fn select<'a>(
+    entries: &'a [Box<dyn RegisteredExperiment>],
+    ids: &[String],
+) -> Result<Vec<&'a dyn RegisteredExperiment>, UnknownId> {
     if let Some(given) = ids.iter().find(|given| !entries.iter().any(|entry| entry.id() == **given)) {
         return Err(UnknownId {
             given: given.clone(),
@@ -70,7 +73,10 @@ pub fn select<'a>(entries: &'a [Box<dyn Entry>], ids: &[String]) -> Result<Vec<&
 /// # Errors
 ///
 /// When it is unknown; the error lists the known ones.
-pub fn find<'a>(entries: &'a [Box<dyn Entry>], id: &str) -> Result<&'a dyn Entry, UnknownId> {
+pub fn find<'a>(
+    entries: &'a [Box<dyn RegisteredExperiment>],
+    id: &str,
+) -> Result<&'a dyn RegisteredExperiment, UnknownId> {
     let found = entries.iter().map(|entry| &**entry).find(|entry| entry.id() == id);
     found.ok_or_else(|| UnknownId {
         given: id.to_owned(),

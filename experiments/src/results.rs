@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::count::Counts;
 use crate::errata::{self, ERRATA_FILE, ErrataError};
-use crate::experiment::{Entry, ExperimentError, Outcome, Quality, chain};
+use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
 use crate::output::{OutputError, OutputFolder};
 use crate::page::{ClaimTexts, class_words, like, name, verdict_words};
 use crate::product;
@@ -106,13 +106,17 @@ pub fn digest(bytes: &[u8]) -> String {
 
 /// A figure as it lies in an output folder.
 struct Made {
-    outcome: Box<dyn Outcome>,
+    outcome: Box<dyn ErasedData>,
     digest: String,
     section: String,
 }
 
 /// The page shows no measurements: what was made with some, or in another quality by a run since, is not taken for it.
-fn made(entry: &dyn Entry, folder: &OutputFolder, quality: Quality) -> Result<Made, ResultsError> {
+fn made(
+    entry: &dyn RegisteredExperiment,
+    folder: &OutputFolder,
+    quality: Quality,
+) -> Result<Made, ResultsError> {
     let id = entry.id();
     let missing = || ResultsError::Missing { id: id.to_owned() };
     let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
@@ -140,7 +144,7 @@ fn made(entry: &dyn Entry, folder: &OutputFolder, quality: Quality) -> Result<Ma
 /// When a figure is missing in one of them or cannot be drawn, the errata refer to what is not there, or the system refuses.
 pub fn write(
     errata: &str,
-    entries: &[Box<dyn Entry>],
+    entries: &[Box<dyn RegisteredExperiment>],
     paper: &OutputFolder,
     draft: &OutputFolder,
     docs: &OutputFolder,
@@ -195,7 +199,7 @@ pub fn write(
 /// When a file exists and cannot be read.
 pub fn outdated(
     errata: &str,
-    entries: &[&dyn Entry],
+    entries: &[&dyn RegisteredExperiment],
     quality: Quality,
     folder: &OutputFolder,
     docs: &OutputFolder,
@@ -281,7 +285,7 @@ fn head(claims: &[(&str, Vec<Claim>)]) -> String {
 }
 
 /// The section of one figure.
-fn section(entry: &dyn Entry, outcome: &dyn Outcome) -> Result<String, ResultsError> {
+fn section(entry: &dyn RegisteredExperiment, outcome: &dyn ErasedData) -> Result<String, ResultsError> {
     let (id, title, claims) = (entry.id(), entry.title(), outcome.claims());
     let reading = reading(id, outcome.reading(), &claims)?;
     let mut text = format!(
@@ -362,7 +366,7 @@ mod tests {
         docs: OutputFolder,
     }
 
-    fn folders(test: &str) -> (Folders, Vec<Box<dyn Entry>>) {
+    fn folders(test: &str) -> (Folders, Vec<Box<dyn RegisteredExperiment>>) {
         let path = std::env::temp_dir().join(format!("bouncing-disk-results-{test}-{}", std::process::id()));
         let create = |name: &str| OutputFolder::create(path.join(name)).expect("writable");
         let folders = Folders { paper: create("paper"), draft: create("draft"), docs: create("docs") };
@@ -376,12 +380,12 @@ mod tests {
         (folders, entries)
     }
 
-    fn check(folders: &Folders, entries: &[Box<dyn Entry>], quality: Quality) -> Vec<String> {
+    fn check(folders: &Folders, entries: &[Box<dyn RegisteredExperiment>], quality: Quality) -> Vec<String> {
         let folder = match quality {
             Quality::Draft => &folders.draft,
             Quality::Paper => &folders.paper,
         };
-        let entries: Vec<&dyn Entry> = entries.iter().map(|entry| &**entry).collect();
+        let entries: Vec<&dyn RegisteredExperiment> = entries.iter().map(|entry| &**entry).collect();
         outdated(ERRATA, &entries, quality, folder, &folders.docs).expect("readable")
     }
 
@@ -421,7 +425,7 @@ mod tests {
         let picture = "figures/demo.png".to_owned();
         folders.docs.write(ERRATA_FILE, b"edited").expect("writable");
         assert_eq!(check(&folders, &entries, Quality::Draft), [ERRATA_FILE.to_owned()]);
-        let references: Vec<&dyn Entry> = entries.iter().map(|entry| &**entry).collect();
+        let references: Vec<&dyn RegisteredExperiment> = entries.iter().map(|entry| &**entry).collect();
         write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
         let other = outdated("Another text.", &references, Quality::Draft, &folders.draft, &folders.docs);
         assert_eq!(other.expect("readable"), [ERRATA_FILE.to_owned()]);

@@ -2,7 +2,7 @@
 
 use crate::claim::Claim;
 use crate::count::Counts;
-use crate::experiment::{self, Entry};
+use crate::experiment::{self, RegisteredExperiment};
 use crate::measured::Measurements;
 use crate::output::{LockedFolder, OutputError, OutputFolder};
 use crate::page::{self, Section};
@@ -36,7 +36,7 @@ impl Summary {
     ///
     /// When a file exists and cannot be read.
     pub fn of(
-        entries: &[Box<dyn Entry>],
+        entries: &[Box<dyn RegisteredExperiment>],
         folder: &OutputFolder,
         measurements: &Measurements,
     ) -> Result<Self, OutputError> {
@@ -99,7 +99,7 @@ impl Summary {
     ///
     /// When a file exists and cannot be read, or the system refuses.
     pub fn update(
-        entries: &[Box<dyn Entry>],
+        entries: &[Box<dyn RegisteredExperiment>],
         folder: &OutputFolder,
         measurements: &Measurements,
     ) -> Result<Self, OutputError> {

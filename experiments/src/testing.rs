@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::claim::Claim;
-use crate::draw::{Axis, DensePoints, Figure, Line, Panel, Rect};
-use crate::experiment::{Entry, Experiment, ExperimentError, Quality, entry};
+use crate::experiment::{Experiment, ExperimentError, Quality, RegisteredExperiment, entry};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
+use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 
 /// A small experiment that works.
 pub(crate) struct Demo;
@@ -125,6 +125,6 @@ impl Experiment for Broken {
 }
 
 /// A registry of the two.
-pub(crate) fn demo_entries() -> Vec<Box<dyn Entry>> {
+pub(crate) fn demo_entries() -> Vec<Box<dyn RegisteredExperiment>> {
     vec![entry::<Demo>(), entry::<Broken>()]
 }

@@ -12,7 +12,7 @@
 
 use std::collections::BTreeMap;
 
-use bouncing_disk_experiments::experiment::{Entry, Quality, chain};
+use bouncing_disk_experiments::experiment::{Quality, RegisteredExperiment, chain};
 use bouncing_disk_experiments::{Silent, ledger, registry};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
@@ -48,12 +48,12 @@ const LONGEST_LIST: usize = 40;
 /// Texts of more bytes than this are held as a digest.
 const LONGEST_TEXT: usize = 4000;
 
-fn entries() -> Vec<Box<dyn Entry>> {
+fn entries() -> Vec<Box<dyn RegisteredExperiment>> {
     registry::all()
 }
 
 /// All that an experiment makes, except for pictures.
-fn product(entry: &dyn Entry) -> Map<String, Value> {
+fn product(entry: &dyn RegisteredExperiment) -> Map<String, Value> {
     let made = || {
         let outcome = entry.run(Quality::Draft, &Silent)?;
         let table = outcome.table().map(|table| table.to_csv()).transpose()?;

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use anyhow::Context as _;
 use bouncing_disk_experiments::count::Counts;
 use bouncing_disk_experiments::errata;
-use bouncing_disk_experiments::experiment::Entry;
+use bouncing_disk_experiments::experiment::RegisteredExperiment;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
@@ -168,8 +168,8 @@ fn is_same_folder(one: &Path, other: &Path) -> bool {
 /// What is to be made.
 struct Run<'a> {
     options: &'a Options,
-    entries: &'a [Box<dyn Entry>],
-    selected: &'a [&'a dyn Entry],
+    entries: &'a [Box<dyn RegisteredExperiment>],
+    selected: &'a [&'a dyn RegisteredExperiment],
 }
 
 /// Makes everything in both qualities and the documentation from it. A user's measurements are not shown there.
@@ -200,7 +200,11 @@ fn threads(options: &Options) -> usize {
     options.threads.map_or_else(available_threads, usize::from)
 }
 
-fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements) -> anyhow::Result<ExitCode> {
+fn list(
+    options: &Options,
+    selected: &[&dyn RegisteredExperiment],
+    measurements: &Measurements,
+) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
     let widest = selected.iter().map(|entry| entry.title().chars().count()).max().unwrap_or_default();
     for entry in selected {
@@ -215,7 +219,7 @@ fn list(options: &Options, selected: &[&dyn Entry], measurements: &Measurements)
 
 /// Whether a figure is up to date with the sources and the measurements.
 fn state(
-    entry: &dyn Entry,
+    entry: &dyn RegisteredExperiment,
     quality: Quality,
     folder: &OutputFolder,
     measurements: &Measurements,
@@ -226,7 +230,7 @@ fn state(
 /// What is wrong with the measurements for the selected figures, and with files that no figure reads.
 fn faults(
     options: &Options,
-    selected: &[&dyn Entry],
+    selected: &[&dyn RegisteredExperiment],
     measurements: &Measurements,
     summary: &Summary,
 ) -> Vec<String> {
@@ -249,8 +253,8 @@ fn faults(
 
 fn check(
     options: &Options,
-    entries: &[Box<dyn Entry>],
-    selected: &[&dyn Entry],
+    entries: &[Box<dyn RegisteredExperiment>],
+    selected: &[&dyn RegisteredExperiment],
     measurements: &Measurements,
 ) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
@@ -273,7 +277,7 @@ fn check(
     let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
     // A figure with a user's measurements is not the one of the documentation.
     let none = Measurements::none();
-    let comparable: Vec<&dyn Entry> = selected
+    let comparable: Vec<&dyn RegisteredExperiment> = selected
         .iter()
         .copied()
         .filter(|entry| measurements.digest(entry.measurements()) == none.digest(entry.measurements()))

@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
-use bouncing_disk_experiments::experiment::Entry;
+use bouncing_disk_experiments::experiment::RegisteredExperiment;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::product;
 use bouncing_disk_experiments::{Measurements, Quality};
@@ -28,7 +28,7 @@ pub(crate) struct Finished {
 /// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run time
 /// would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and 7 do.)
 pub(crate) fn make_all(
-    entries: &[&dyn Entry],
+    entries: &[&dyn RegisteredExperiment],
     quality: Quality,
     measurements: &Measurements,
     folder: &OutputFolder,
@@ -57,7 +57,7 @@ pub(crate) fn make_all(
 }
 
 fn make(
-    entry: &dyn Entry,
+    entry: &dyn RegisteredExperiment,
     quality: Quality,
     measurements: &Measurements,
     folder: &OutputFolder,
@@ -89,7 +89,7 @@ fn message(payload: &(dyn std::any::Any + Send)) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_experiments::experiment::{ExperimentError, Outcome};
+    use bouncing_disk_experiments::experiment::{ErasedData, ExperimentError};
     use bouncing_disk_experiments::{FiniteError, Progress};
 
     use super::*;
@@ -100,7 +100,7 @@ mod tests {
         panics: bool,
     }
 
-    impl Entry for Failing {
+    impl RegisteredExperiment for Failing {
         fn id(&self) -> &'static str {
             self.id
         }
@@ -109,7 +109,7 @@ mod tests {
             "fails"
         }
 
-        fn run(&self, _: Quality, progress: &dyn Progress) -> Result<Box<dyn Outcome>, ExperimentError> {
+        fn run(&self, _: Quality, progress: &dyn Progress) -> Result<Box<dyn ErasedData>, ExperimentError> {
             progress.start(2, "steps");
             progress.advance(1);
             assert!(!self.panics, "index {} out of range", 7);
@@ -117,7 +117,7 @@ mod tests {
             Err(ExperimentError::Data(FiniteError::NotFinite { place, number: f64::NAN }))
         }
 
-        fn read(&self, _: serde_json::Value) -> Result<Box<dyn Outcome>, ExperimentError> {
+        fn read(&self, _: serde_json::Value) -> Result<Box<dyn ErasedData>, ExperimentError> {
             unreachable!("nothing is stored")
         }
     }
@@ -131,7 +131,8 @@ mod tests {
             Failing { id: "b", panics: false },
             Failing { id: "c", panics: true },
         ];
-        let entries: Vec<&dyn Entry> = entries.iter().map(|entry| entry as &dyn Entry).collect();
+        let entries: Vec<&dyn RegisteredExperiment> =
+            entries.iter().map(|entry| entry as &dyn RegisteredExperiment).collect();
         let mut finished =
             make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::silent());
         finished.sort_by_key(|figure| figure.id);

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk_core::{
-    ChatterPolicy, Ensemble, ImpactMap, ImpactState, InstructionSet, Launch, OrbitEvent, Phase, Vibration,
+    ChatterPolicy, ImpactMap, ImpactState, InstructionSet, Launch, OrbitBatch, OrbitEvent, Phase, Vibration,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -67,7 +67,7 @@ fn w1(c: &mut Criterion) {
         .collect();
     group.throughput(Throughput::Elements(states.len() as u64));
     for set in InstructionSet::available() {
-        let mut ensemble = Ensemble::with_instruction_set(states.iter().copied(), set);
+        let mut ensemble = OrbitBatch::with_instruction_set(states.iter().copied(), set);
         group.bench_function(format!("lanes/{set:?}"), |bencher| {
             bencher.iter(|| black_box(ensemble.step()));
         });

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Vibration, columns, lives,
+    ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Vibration, orbit_diagram, survival_times,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -48,7 +48,9 @@ fn diagrams(c: &mut Criterion) {
         for threads in [1, 2] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
             group.bench_function(format!("sweep_threads_{threads}"), |bencher| {
-                bencher.iter(|| pool.install(|| black_box(columns(&orbits, IMPACTS - RECORDED, RECORDED))));
+                bencher.iter(|| {
+                    pool.install(|| black_box(orbit_diagram(&orbits, IMPACTS - RECORDED, RECORDED)))
+                });
             });
         }
         group.bench_function("one_by_one", |bencher| bencher.iter(|| black_box(one_by_one(&orbits))));
@@ -63,7 +65,7 @@ fn crisis(c: &mut Criterion) {
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         group.bench_function(format!("sweep_threads_{threads}"), |bencher| {
-            bencher.iter(|| pool.install(|| black_box(lives(&orbits, 10_000))));
+            bencher.iter(|| pool.install(|| black_box(survival_times(&orbits, 10_000))));
         });
     }
     group.bench_function("one_by_one", |bencher| {

@@ -2,46 +2,66 @@
 //!
 //! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of the
 //! platform is its peak acceleration P = pi Gamma in units of g.
+//!
+//! ```
+//! use std::f64::consts::TAU;
+//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Vibration, orbit_diagram};
+//!
+//! # fn main() -> Result<(), bouncing_disk_core::Error> {
+//! // Gamma = 0.45 and restitution 0.5: a disk on the period-1 orbit lands once in every period.
+//! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+//! let state = map.period_one(1).expect("it exists from Gamma = 1/3 on");
+//! assert!((map.step(state)?.duration() - TAU).abs() < 1e-12);
+//! // One column of the orbit diagram: 50 impacts after 200 that are not looked at.
+//! let column = orbit_diagram(&[map.orbit(state, ChatterPolicy::Complete)], 200, 50)?;
+//! assert_eq!(column[0].len(), 50);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! What there is, by what it is about:
+//!
+//! | about | items |
+//! | --- | --- |
+//! | the platform | [`Phase`], [`Vibration`] |
+//! | one flight | [`Launch`], [`Impact`], [`Vibration::first_impact`], [`Vibration::first_impact_of_drop`], [`mod@reference`] |
+//! | chattering | [`Vibration::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`Vibration::chatters_to_rest`] |
+//! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
+//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
+//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
+//! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
+//! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
 
-mod basin;
-mod catching;
+mod analysis;
 mod chatter;
-mod drop;
-pub mod elementary;
-mod ensemble;
 mod error;
 mod flight;
-mod flights;
-mod follow;
-mod gap;
-mod lanes;
+mod lockstep;
 mod map;
-mod margin;
-mod periodic;
-mod phase;
-pub mod reference;
-mod rest;
-mod shortcuts;
-mod sweep;
+pub mod numerics;
+mod platform;
 #[cfg(test)]
 mod testing;
-mod vibration;
 
-pub use basin::{
+pub use analysis::basin::{
     ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
 };
-pub use chatter::{
-    Accumulation, ChatterImpact, ChatterPolicy, ChatterSeries, ImpactRange, PAPER_SHORT_FLIGHT,
-    PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED, PowerSeries,
+pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
+pub use analysis::orbit_batch::OrbitBatch;
+pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
+pub use analysis::sweep::{
+    Landing, MAX_RECORDED, SweepEvent, lyapunov_exponents, orbit_diagram, survival_times, sweep,
 };
-pub use ensemble::Ensemble;
+pub use chatter::accumulation::{
+    Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
+};
+pub use chatter::series::{ChatterSeries, ImpactRange, PowerSeries};
 pub use error::Error;
-pub use flight::{Impact, Launch, MAX_FLIGHT_DURATION};
-pub use flights::{Flights, LaneImpacts, LaneLoop};
-pub use follow::{Followed, Following, follow};
-pub use lanes::InstructionSet;
-pub use map::{ImpactMap, ImpactState, Orbit, OrbitEvent, Stick};
-pub use periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
-pub use phase::Phase;
-pub use sweep::{Landing, MAX_RECORDED, SweepEvent, columns, lives, lyapunov_exponents, sweep};
-pub use vibration::Vibration;
+pub use flight::first_impact::{Impact, Launch, MAX_FLIGHT_DURATION};
+pub use flight::reference;
+pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop};
+pub use lockstep::lanes::InstructionSet;
+pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
+pub use numerics::elementary;
+pub use platform::phase::Phase;
+pub use platform::vibration::Vibration;

@@ -1,7 +1,7 @@
 //! Numbers for tests that must meet every kind of case.
 
-use crate::phase::Phase;
-use crate::vibration::Vibration;
+use crate::platform::phase::Phase;
+use crate::platform::vibration::Vibration;
 
 /// Well spread numbers in [0, 1): multiples of a `stride` without short periods, less their whole parts.
 pub(crate) fn spread(k: u32, stride: f64) -> f64 {

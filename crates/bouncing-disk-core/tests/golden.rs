@@ -6,8 +6,8 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Ensemble, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit,
-    Label, OrbitEvent, Phase, Vibration, elementary,
+    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit, Label,
+    OrbitBatch, OrbitEvent, Phase, Vibration, elementary,
 };
 
 /// Half: dividing a launch speed by it, to get the impact before, loses nothing.
@@ -146,7 +146,7 @@ fn prepared(regime: Regime) -> Vec<(ImpactMap, ImpactState)> {
 }
 
 /// Digests of the flights of these launches (durations) and of the impacts that end them. A launch without impact leaves
-/// its state as it is, as in an [`Ensemble`].
+/// its state as it is, as in an [`OrbitBatch`].
 fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
     let (mut flights, mut impacts) = (Digest::new(), Digest::new());
     for &(map, state) in launches {
@@ -165,7 +165,7 @@ fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
 
 /// The digest of the same impacts, computed in lockstep.
 fn together(launches: &[(ImpactMap, ImpactState)], set: InstructionSet) -> u64 {
-    let mut ensemble = Ensemble::with_instruction_set(launches.iter().copied(), set);
+    let mut ensemble = OrbitBatch::with_instruction_set(launches.iter().copied(), set);
     // A launch from rest where the platform does not fall away has no impact; it stays where it is.
     let _ = ensemble.step();
     let mut impacts = Digest::new();
@@ -242,7 +242,7 @@ fn orbits_with_chatter() {
             for event in map.orbit(start, policy).take(1_000) {
                 match event.expect("no failure") {
                     OrbitEvent::Impact(impact) => digest.state(impact.into()),
-                    OrbitEvent::Stick(stick) => {
+                    OrbitEvent::Attachment(stick) => {
                         digest.number(stick.attachment.phase.angle());
                         digest.number(stick.last_speed);
                     }

@@ -218,7 +218,7 @@ fn still_platform_returns_restitution_squared_of_every_height() {
                     assert!((rebound - apex).abs() <= 1e-13 * apex, "{rebound} {apex}");
                     time += impact.duration();
                 }
-                OrbitEvent::Stick(stick) => {
+                OrbitEvent::Attachment(stick) => {
                     time += stick.attachment.duration;
                     assert!(stick.separation.is_none(), "a still platform never throws the disk");
                 }
@@ -467,7 +467,7 @@ fn a_disk_next_to_weightlessness_comes_to_rest() {
         for event in map.orbit(state, ChatterPolicy::Complete) {
             match event.unwrap() {
                 OrbitEvent::Impact(_) => impacts += 1,
-                OrbitEvent::Stick(stick) => {
+                OrbitEvent::Attachment(stick) => {
                     assert!(stick.attachment.error_bound <= 1.0e-16, "{stick:?}");
                     break;
                 }
@@ -486,7 +486,7 @@ fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
             map(0.2, restitution).orbit(state(3.0, -2.0), ChatterPolicy::Paper).find_map(|event| match event
                 .expect("no failure")
             {
-                OrbitEvent::Stick(stick) => Some(stick.attachment.error_bound),
+                OrbitEvent::Attachment(stick) => Some(stick.attachment.error_bound),
                 _ => None,
             });
         assert_eq!(attached, Some(bound), "{restitution}");

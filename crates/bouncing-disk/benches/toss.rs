@@ -6,7 +6,7 @@ mod reference;
 
 use std::hint::black_box;
 
-use bouncing_disk::{DiskParameters, InitialState, Platform, Stroke, System, single_toss, toss_trajectory};
+use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, single_toss, toss_trajectory};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn toss(c: &mut Criterion) {
@@ -29,10 +29,10 @@ fn toss(c: &mut Criterion) {
     let system = System::new(platform, dough.build().expect("legal dough")).expect("legal system");
     let mut group = c.benchmark_group("toss");
     group.bench_function("performance", |bencher| {
-        bencher.iter(|| single_toss(black_box(&system), InitialState::AbsoluteRest));
+        bencher.iter(|| single_toss(black_box(&system), InitialSpin::AbsoluteRest));
     });
     group.bench_function("trajectory", |bencher| {
-        bencher.iter(|| toss_trajectory(black_box(&system), InitialState::AbsoluteRest));
+        bencher.iter(|| toss_trajectory(black_box(&system), InitialSpin::AbsoluteRest));
     });
     group.finish();
 }

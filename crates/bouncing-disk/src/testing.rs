@@ -6,8 +6,8 @@ use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
-use crate::dimensionless::{Dimensionless, DimensionlessParameters};
-use crate::start::Start;
+use crate::motion::initial_condition::InitialCondition;
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::{DiskParameters, PlatformParameters, System};
 
 /// The motor of Table III, at an `amplitude` in m and a load in rad/s^2.
@@ -50,7 +50,7 @@ pub(crate) fn policy() -> impl Strategy<Value = ChatterPolicy> {
 }
 
 /// Systems of every kind: still, gentle, lively, violent; without twist, friction, rebound or load.
-pub(crate) fn system() -> impl Strategy<Value = Dimensionless> {
+pub(crate) fn system() -> impl Strategy<Value = DimensionlessSystem> {
     let peak = prop_oneof![
         1 => Just(0.0),
         1 => Just(1.0),
@@ -62,7 +62,7 @@ pub(crate) fn system() -> impl Strategy<Value = Dimensionless> {
     system_with(peak.boxed())
 }
 
-pub(crate) fn system_with(peak: BoxedStrategy<f64>) -> impl Strategy<Value = Dimensionless> {
+pub(crate) fn system_with(peak: BoxedStrategy<f64>) -> impl Strategy<Value = DimensionlessSystem> {
     let twist = prop_oneof![1 => Just(0.0), 3 => 0.0..2.0_f64, 2 => log_uniform(1e-6, 1e6)];
     let friction = prop_oneof![1 => Just(0.0), 5 => 0.01..1.5_f64];
     let restitution = prop_oneof![1 => Just(0.0), 5 => 0.0..0.95_f64];
@@ -77,7 +77,7 @@ pub(crate) fn system_with(peak: BoxedStrategy<f64>) -> impl Strategy<Value = Dim
 }
 
 /// Starts of every kind, with speeds in proportion to the platform's.
-pub(crate) fn start(system: Dimensionless) -> impl Strategy<Value = Start> {
+pub(crate) fn start(system: DimensionlessSystem) -> impl Strategy<Value = InitialCondition> {
     let peak = system.peak_acceleration() + 1.0;
     let twist = system.twist_speed() + 1.0;
     let spin = prop_oneof![Just(None), (-2.0..2.0_f64).prop_map(Some)];
@@ -86,9 +86,9 @@ pub(crate) fn start(system: Dimensionless) -> impl Strategy<Value = Start> {
             let angular_speed =
                 spin.map_or_else(|| system.platform_angular_speed(phase), |spin| spin * twist);
             match kind {
-                0 | 1 => Start::Contact { phase, angular_speed },
-                2 => Start::Launch { phase, relative_speed: size * peak, angular_speed },
-                _ => Start::Flight {
+                0 | 1 => InitialCondition::Contact { phase, angular_speed },
+                2 => InitialCondition::Launch { phase, relative_speed: size * peak, angular_speed },
+                _ => InitialCondition::Flight {
                     phase,
                     gap: size * peak,
                     relative_velocity: velocity * peak,
@@ -100,7 +100,7 @@ pub(crate) fn start(system: Dimensionless) -> impl Strategy<Value = Start> {
 }
 
 /// A system, a start and a policy.
-pub(crate) fn motion() -> impl Strategy<Value = (Dimensionless, Start, ChatterPolicy)> {
+pub(crate) fn motion() -> impl Strategy<Value = (DimensionlessSystem, InitialCondition, ChatterPolicy)> {
     (system(), policy()).prop_flat_map(|(system, policy)| {
         // The paper's cut has no rule for a disk that hits hard and does not rebound: the core reports NoLiftOff.
         (Just(system), start(system), Just(policy))

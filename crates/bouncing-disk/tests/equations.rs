@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use bouncing_disk::core::elementary::{asin, cos, sin, tan};
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    DiskParameters, Engine, Event, EventRecord, Mode, Platform, PlatformParameters, Start, Stroke, System,
-    period_one_rotary_speed,
+    DiskParameters, Engine, Event, EventRecord, InitialCondition, Mode, Platform, PlatformParameters, Stroke,
+    System, period_one_rotary_speed,
 };
 
 const OMEGA: f64 = 20.0;
@@ -43,7 +43,7 @@ fn phase(angle: f64) -> Phase {
 
 /// The first `count` events of a disk that starts on the platform at phase 4 without turning.
 fn events(system: &System, count: usize) -> Vec<EventRecord> {
-    let start = Start::Contact { phase: phase(4.0), angular_speed: 0.0 };
+    let start = InitialCondition::Contact { phase: phase(4.0), angular_speed: 0.0 };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
     (0..count).map(|_| engine.advance().unwrap().unwrap()).collect()
 }
@@ -112,7 +112,7 @@ fn equation_4_static_friction_holds_within_its_envelope() {
     for (share, slides) in [(0.99, false), (1.01, true)] {
         let twist_amplitude = share * envelope / (OMEGA * OMEGA);
         let system = system(0.0, twist_amplitude, FRAC_PI_2);
-        let start = Start::Contact {
+        let start = InitialCondition::Contact {
             phase: phase(FRAC_PI_2),
             angular_speed: system.dimensionless().platform_angular_speed(phase(FRAC_PI_2)),
         };
@@ -265,7 +265,7 @@ fn equation_16_period_one_turns_with_the_platform_at_impact() {
     let at = |lag: f64| {
         let system = system(0.3, 0.4, lag);
         let orbit = system.dimensionless().map().period_one(1).unwrap();
-        let start = Start::Launch {
+        let start = InitialCondition::Launch {
             phase: orbit.phase(),
             relative_speed: -RESTITUTION * orbit.velocity(),
             angular_speed: 0.0,

@@ -17,8 +17,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Error as CoreError, Phase};
 use bouncing_disk::{
-    Dimensionless, DimensionlessParameters, DiskParameters, Engine, Error, Event, EventRecord, Mode,
-    PlatformParameters, Start, System, TransientMember, TransientSettings, transient, transients,
+    DimensionlessParameters, DimensionlessSystem, DiskParameters, Engine, Error, Event, EventRecord,
+    InitialCondition, Mode, PlatformParameters, System, TransientMember, TransientSettings, transient,
+    transients,
 };
 
 use launches::SplitMix;
@@ -34,7 +35,7 @@ const LARGEST_PARTING: f64 = 2.0e-12;
 /// Bound on what the rounding of two phases and four speeds leaves between two durations, relative to those.
 const CLOCK: f64 = 4.0e-14;
 
-fn system(random: &mut SplitMix) -> Dimensionless {
+fn system(random: &mut SplitMix) -> DimensionlessSystem {
     let restitution = one_of(random, &seams::RESTITUTIONS);
     let friction = match random.next() % 4 {
         0 => 0.0,
@@ -71,7 +72,7 @@ fn system(random: &mut SplitMix) -> Dimensionless {
     .unwrap()
 }
 
-fn start(random: &mut SplitMix, system: &Dimensionless) -> Start {
+fn start(random: &mut SplitMix, system: &DimensionlessSystem) -> InitialCondition {
     let peak = system.peak_acceleration();
     let phase = Phase::new(angle(random, peak)).unwrap();
     let angular_speed = match random.next() % 4 {
@@ -81,15 +82,15 @@ fn start(random: &mut SplitMix, system: &Dimensionless) -> Start {
         _ => random.sign() * random.decades(-9.0, 3.0),
     };
     match random.next() % 3 {
-        0 => Start::Contact { phase, angular_speed },
+        0 => InitialCondition::Contact { phase, angular_speed },
         1 => {
             let case = seams::launch(random, 1.0e4, 400.0);
             let relative_speed = case.speed.min(100.0 * (1.0 + peak));
-            Start::Launch { phase, relative_speed, angular_speed }
+            InitialCondition::Launch { phase, relative_speed, angular_speed }
         }
         _ => {
             let (case, gap) = seams::drop(random, 1.0e4);
-            Start::Flight {
+            InitialCondition::Flight {
                 phase,
                 gap: gap.min(1.0e8),
                 relative_velocity: case.speed.clamp(-1e6, 1e6),
@@ -106,7 +107,7 @@ fn parting(phase: Phase) -> f64 {
 }
 
 /// What the record of one event contradicts, if anything.
-fn contradiction(system: &Dimensionless, record: &EventRecord) -> Option<String> {
+fn contradiction(system: &DimensionlessSystem, record: &EventRecord) -> Option<String> {
     let ledger = &record.ledger;
     // A height is that of a phase, whose rounding may exceed that of small energies.
     // The phase of separation, asin(1/P), is known to the rounding of 1/P over its cosine.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::elementary::{acos, atan2, sin_cos};
 use glam::DVec3;
 
-use crate::draw::{Camera, Colour, Dash, Drawing, Path, Stroke};
+use bouncing_disk_plot::{Camera, Colour, Dash, Drawing, Path, Stroke};
 
 const CIRCLE_POINTS: u32 = 120;
 

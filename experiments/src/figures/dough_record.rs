@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::draw::{Colour, Dash, Layer, Line, Marker, Scatter};
 use crate::experiment::ExperimentError;
 use crate::figures::regression::StraightLine;
 use crate::measured::{Column, Layout, Range, SMALLEST, Series};
+use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 
 /// Diameters against time.
 pub const DIAMETERS: Layout = Layout {

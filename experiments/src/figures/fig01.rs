@@ -5,16 +5,16 @@ mod picture;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
 use bouncing_disk::core::elementary::sin;
-use bouncing_disk::{Event, InitialState, Platform, toss_trajectory};
+use bouncing_disk::{Event, InitialSpin, Platform, toss_trajectory};
 use serde::{Deserialize, Serialize};
 
 use super::hand_path::HandPath;
 use super::toss_case::TossCase;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, TableOne};
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Phase lag of the motion shown. Table I has 0, for which the path of a point is a mere arc.
 const PHASE_LAG: f64 = -FRAC_PI_4;
@@ -98,7 +98,7 @@ impl Experiment for Fig01 {
         let system = case.system()?;
         let scales = system.scales();
         let trajectory =
-            toss_trajectory(&system, InitialState::AbsoluteRest).map_err(ExperimentError::model)?;
+            toss_trajectory(&system, InitialSpin::AbsoluteRest).map_err(ExperimentError::model)?;
         let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
         let Some(flight) = flight else {
             let peak_acceleration = system.peak_acceleration();

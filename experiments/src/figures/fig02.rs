@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 
 use super::hand_path::HandPath;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// The shape of a path does not depend on its size: the contact radius is 1 m here, the stroke this many of it.
 const CONTACT_RADIUS: f64 = 1.0;

@@ -14,10 +14,10 @@ use self::census::Census;
 use self::cycle::Cycle;
 use self::sprung::Sprung;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
+use bouncing_disk_plot::Figure;
 
 /// Fig. 3.
 #[derive(Debug)]

@@ -7,16 +7,16 @@ mod picture;
 mod statements;
 mod sweep;
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 
 pub use self::data::Fig04Data;
 use super::toss_case::{TossCase, maximum};
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
 use crate::printed::PrintedNumber;
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 4.
 #[derive(Debug)]
@@ -52,7 +52,7 @@ impl Experiment for Fig04 {
         let printed = paper::section_three()?;
         let table = TossCase::from(&table_i);
         let angles = sweep::angles(&table, count);
-        let rest = InitialState::AbsoluteRest;
+        let rest = InitialSpin::AbsoluteRest;
         let families = sweep::INITIAL_STATES
             .into_iter()
             .map(|initial| sweep::family(&table, initial, &angles))

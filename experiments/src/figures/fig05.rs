@@ -4,18 +4,18 @@ mod data;
 mod picture;
 mod statements;
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 
 pub use self::data::Fig05Data;
 use self::data::{Column, Dependence, Toss};
 use super::toss_case::TossCase;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
 use crate::printed::PrintedNumber;
 use crate::progress::Progress;
 use crate::table::Table;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 5.
 #[derive(Debug)]
@@ -70,7 +70,7 @@ impl Experiment for Fig05 {
         Ok(Fig05Data {
             table_i,
             printed,
-            initial_state: InitialState::AbsoluteRest,
+            initial_state: InitialSpin::AbsoluteRest,
             columns,
             lags,
             firm_grip,

@@ -16,9 +16,9 @@ mod statements;
 pub use self::data::Fig06Data;
 pub(super) use self::scan::FORCING_RANGE;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 6.
 #[derive(Debug)]

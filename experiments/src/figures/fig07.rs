@@ -12,10 +12,10 @@ use rayon::prelude::*;
 
 pub use self::data::Fig07Data;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper;
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
 /// both fractions that it prints come out (see [`windows`]).

@@ -7,10 +7,10 @@ use bouncing_disk::core::elementary::asin;
 use serde::{Deserialize, Serialize};
 
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, STEEL_DENSITY, TableThree};
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Carbon and stainless steels lie between these densities (kg/m³; handbook values, not in the paper).
 const STEEL_DENSITIES: [f64; 2] = [7700.0, 8000.0];

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Braking, DiskParameters, Engine, Event, PlatformParameters, Spread, Start, System, Trajectory,
+    Braking, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System, Trajectory,
     friction_from_braking,
 };
 use serde::{Deserialize, Serialize};
@@ -14,15 +14,15 @@ use super::motor_case::MotorCase;
 use super::regression::StraightLine;
 use super::synthetic::Noise;
 use crate::claim::{Claim, all};
-use crate::draw::Marker;
-use crate::draw::{
-    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Rect, Rule,
-    Scatter, Ticks,
-};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::paper;
 use crate::progress::Progress;
+use bouncing_disk_plot::Marker;
+use bouncing_disk_plot::{
+    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Rect, Rule,
+    Scatter, Ticks,
+};
 
 /// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.
 const PRELOADS: u32 = 9;
@@ -102,7 +102,7 @@ fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Resul
     let system = still_system(case, preload_n / mass)?;
     let scales = system.scales();
     let phase = Phase::new(0.0).map_err(|error| ExperimentError::model(bouncing_disk::Error::from(error)))?;
-    let start = Start::Contact { phase, angular_speed: first_speed / scales.angular_speed };
+    let start = InitialCondition::Contact { phase, angular_speed: first_speed / scales.angular_speed };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let braked = Trajectory::record(&mut engine, |record| record.event == Event::SlipToStick)
         .map_err(ExperimentError::model)?;

@@ -8,10 +8,10 @@ mod statements;
 
 pub use self::data::Fig10Data;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 10.
 #[derive(Debug)]

@@ -9,11 +9,11 @@ mod trends;
 
 pub use self::data::Fig11Data;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 use crate::table::Table;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 11.
 #[derive(Debug)]

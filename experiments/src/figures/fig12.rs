@@ -7,9 +7,9 @@ mod statements;
 
 pub use self::data::Fig12Data;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 12.
 #[derive(Debug)]

@@ -10,10 +10,10 @@ mod statements;
 
 pub use self::data::Fig13Data;
 use crate::claim::Claim;
-use crate::draw::Figure;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::Table;
+use bouncing_disk_plot::Figure;
 
 /// Fig. 13.
 #[derive(Debug)]

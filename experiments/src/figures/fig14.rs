@@ -7,14 +7,14 @@ use super::regression::StraightLine;
 use super::synthetic::Noise;
 use super::toss_case::TossCase;
 use crate::claim::Claim;
-use crate::draw::{
-    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Panel, SINGLE_COLUMN,
-    Scatter, Text, Ticks,
-};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::paper;
 use crate::progress::Progress;
+use bouncing_disk_plot::{
+    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Panel, SINGLE_COLUMN,
+    Scatter, Text, Ticks,
+};
 
 /// Frames per second of the synthetic record, and the standard deviation of its relative diameters: made up.
 const FRAMES_PER_S: f64 = 25.0;

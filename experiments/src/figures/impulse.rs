@@ -64,7 +64,7 @@ impl Impulses {
                         .impacts
                         .push((impact.phase.angle(), -(1.0 + map.restitution()) * impact.velocity));
                 }
-                OrbitEvent::Stick(stick) => {
+                OrbitEvent::Attachment(stick) => {
                     let Some((leaves, turns)) = stick.separation else { break };
                     let attached = stick.attachment;
                     let from = impulses.impacts.last().map_or(phase.angle(), |impact| impact.0);

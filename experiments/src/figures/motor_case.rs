@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    DiskParameters, Ensemble, ExponentialFit, MultiTossSettings, OrbitClass, PlatformParameters, RampFit,
-    Spread, Start, System, TransientSettings, ensemble, multi_toss,
+    DiskParameters, ExponentialFit, InitialCondition, MultiTossSettings, OrbitClass, PlatformParameters,
+    RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble, multi_toss,
 };
 use serde::{Deserialize, Serialize};
 
@@ -106,7 +106,7 @@ impl MotorCase {
             examined_impacts: EXAMINED_IMPACTS,
             ..MultiTossSettings::default()
         };
-        let start = Start::Contact {
+        let start = InitialCondition::Contact {
             phase: Phase::new(1.5 * std::f64::consts::PI).map_err(core_error)?,
             angular_speed: 0.0,
         };
@@ -241,7 +241,12 @@ pub(crate) struct MotorStatistics {
 }
 
 impl MotorStatistics {
-    fn of(runs: &Ensemble, cycle: Cycle, frequency_hz: f64, duration: f64) -> Result<Self, ExperimentError> {
+    fn of(
+        runs: &TransientEnsemble,
+        cycle: Cycle,
+        frequency_hz: f64,
+        duration: f64,
+    ) -> Result<Self, ExperimentError> {
         let ramps = runs
             .curves
             .iter()

@@ -204,7 +204,7 @@ fn kicks(
                     impulse: -(1.0 + map.restitution()) * impact.velocity,
                 });
             }
-            OrbitEvent::Stick(stick) => {
+            OrbitEvent::Attachment(stick) => {
                 let Some((leaves, turns)) = stick.separation else { break };
                 let (at, from) = (stick.attachment, stick.attachment.phase.angle());
                 // Impulse is change of velocity plus weight times time.
@@ -262,7 +262,7 @@ fn stall_share(kicks: &[Kick], grip: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk::{Engine, Event, Start, System};
+    use bouncing_disk::{Engine, Event, InitialCondition, System};
 
     use super::*;
     use crate::paper;
@@ -285,8 +285,11 @@ mod tests {
         let speeds = (0..4).map(|member| {
             let mut noise = Noise::new(100 + member);
             let phase = without_units.vibration().separation_phase().expect("bounces");
-            let start =
-                Start::Launch { phase, relative_speed: PERTURBATION * noise.even(), angular_speed: 0.0 };
+            let start = InitialCondition::Launch {
+                phase,
+                relative_speed: PERTURBATION * noise.even(),
+                angular_speed: 0.0,
+            };
             let mut engine = Engine::new(system, start, ChatterPolicy::Complete).expect("legal");
             let (mut elapsed, mut first) = (0.0, None);
             loop {

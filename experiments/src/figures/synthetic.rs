@@ -2,23 +2,20 @@
 //! synthetic), and inputs that print alike.
 
 use bouncing_disk::core::elementary::{exp, ln};
+use bouncing_disk::core::numerics::random::SplitMix64;
 
 /// A documented, reproducible stream of numbers for each seed (splitmix64).
 #[derive(Clone, Debug)]
-pub(crate) struct Noise(u64);
+pub(crate) struct Noise(SplitMix64);
 
 impl Noise {
     pub(crate) const fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     /// Evenly in [0, 1).
     pub(crate) fn even(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+        self.0.unit()
     }
 
     /// Bell-shaped with mean 0 and standard deviation 1, within ±6: the sum of twelve even numbers less 6.

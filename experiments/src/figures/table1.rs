@@ -7,10 +7,10 @@ mod statements;
 pub use data::Table1Data;
 
 use crate::claim::Claim;
-use crate::draw::{Figure, Label, ruled_table};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
+use bouncing_disk_plot::{Figure, Label, ruled_table};
 
 /// Table I.
 #[derive(Debug)]

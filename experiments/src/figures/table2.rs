@@ -7,11 +7,11 @@ use super::printed_inputs::{DRAWN, agreement, tosses};
 use super::toss_case::TossCase;
 use super::uncertainty::Propagated;
 use crate::claim::{self, Agreement, Claim, Verdict};
-use crate::draw::{Figure, Label, ruled_table};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
+use bouncing_disk_plot::{Figure, Label, ruled_table};
 
 /// Table II.
 #[derive(Debug)]

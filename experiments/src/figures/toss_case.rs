@@ -1,7 +1,8 @@
 //! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
 
 use bouncing_disk::core::elementary::acos;
-use bouncing_disk::{DiskParameters, InitialState, Platform, Stroke, System, TossPerformance, single_toss};
+use bouncing_disk::core::numerics::minimum::golden_section;
+use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
@@ -91,13 +92,13 @@ impl TossCase {
     }
 
     /// The performance of the toss.
-    pub(crate) fn toss(&self, initial: InitialState) -> Result<TossPerformance, ExperimentError> {
+    pub(crate) fn toss(&self, initial: InitialSpin) -> Result<TossPerformance, ExperimentError> {
         single_toss(&self.system()?, initial).map_err(ExperimentError::model)
     }
 
     /// The airborne speed in rad/s; the dough starts at rest.
     pub(crate) fn airborne_speed(&self) -> Result<f64, ExperimentError> {
-        Ok(self.toss(InitialState::AbsoluteRest)?.airborne_speed)
+        Ok(self.toss(InitialSpin::AbsoluteRest)?.airborne_speed)
     }
 }
 
@@ -128,28 +129,14 @@ pub(crate) fn maximum<E>(
             (best, best_index) = (Maximum { place: sample(index), value }, index);
         }
     }
-    let mut left = sample(best_index.saturating_sub(1));
-    let mut right = sample((best_index + 1).min(intervals));
-    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut inner_left = right - share * (right - left);
-    let mut inner_right = left + share * (right - left);
-    let (mut value_left, mut value_right) = (function(inner_left)?, function(inner_right)?);
-    for _ in 0..GOLDEN_STEPS {
-        if value_left >= value_right {
-            (right, inner_right, value_right) = (inner_right, inner_left, value_left);
-            inner_left = right - share * (right - left);
-            value_left = function(inner_left)?;
-        } else {
-            (left, inner_left, value_left) = (inner_left, inner_right, value_right);
-            inner_right = left + share * (right - left);
-            value_right = function(inner_right)?;
+    let bracket = (sample(best_index.saturating_sub(1)), sample((best_index + 1).min(intervals)));
+    golden_section(bracket.0, bracket.1, GOLDEN_STEPS, |place| {
+        let value = function(place)?;
+        if value > best.value {
+            best = Maximum { place, value };
         }
-        for (place, value) in [(inner_left, value_left), (inner_right, value_right)] {
-            if value > best.value {
-                best = Maximum { place, value };
-            }
-        }
-    }
+        Ok(-value)
+    })?;
     Ok(best)
 }
 
@@ -170,9 +157,9 @@ mod tests {
     #[test]
     fn the_dough_still_leaves_at_the_last_angle() {
         let case = TossCase::from(&crate::paper::table_one().expect("reads"));
-        let last = case.at_angle(case.last_angle()).toss(InitialState::AbsoluteRest).expect("leaves");
+        let last = case.at_angle(case.last_angle()).toss(InitialSpin::AbsoluteRest).expect("leaves");
         let early = std::f64::consts::FRAC_PI_2 - last.separation_phase;
         assert!((0.0..1e-5).contains(&early), "{early}");
-        assert!(case.at_angle(1.000_000_1 * case.largest_angle()).toss(InitialState::AbsoluteRest).is_err());
+        assert!(case.at_angle(1.000_000_1 * case.largest_angle()).toss(InitialSpin::AbsoluteRest).is_err());
     }
 }

@@ -5,11 +5,11 @@
 //! A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
 //! coefficients and the sums that do not cancel are derived in docs/numerics.md.
 
-use crate::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
-use crate::phase::Phase;
-use crate::vibration::Vibration;
+use crate::numerics::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
+use crate::platform::phase::Phase;
+use crate::platform::vibration::Vibration;
 
-use super::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
+use super::accumulation::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
 
 /// Order of the power series. The longest chatter is 0.01 rad: what is left out of a sine is below 1e-17 of it.
 const ORDER: usize = 6;

@@ -391,7 +391,7 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
                             impact.turns,
                         ));
                     }
-                    Ok(Some(OrbitEvent::Stick(stick))) => {
+                    Ok(Some(OrbitEvent::Attachment(stick))) => {
                         assert!(stick.attachment.duration.is_finite() && stick.attachment.duration >= 0.0);
                         events.push((stick.attachment.phase.angle().to_bits(), 0, stick.attachment.turns));
                     }
@@ -418,7 +418,7 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
                         let (phase, velocity) = (landing.state.phase(), landing.state.velocity());
                         events.push((phase.angle().to_bits(), velocity.to_bits(), landing.turns));
                     }
-                    SweepEvent::Stick(stick) => {
+                    SweepEvent::Attachment(stick) => {
                         events.push((stick.attachment.phase.angle().to_bits(), 0, stick.attachment.turns));
                     }
                     _ => {}

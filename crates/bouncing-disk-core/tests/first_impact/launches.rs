@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use bouncing_disk_core::numerics::random::SplitMix64;
+
 /// One launch. Its numbers are exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Case {
@@ -16,20 +18,16 @@ pub struct Case {
     pub separation: bool,
 }
 
-/// Sebastiano Vigna's splitmix64.
-pub struct SplitMix(u64);
+/// Random launches of a seed.
+pub struct SplitMix(SplitMix64);
 
 impl SplitMix {
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.next_number()
     }
 
     /// In [0, 1).

@@ -6,8 +6,8 @@ use bouncing_disk::core::elementary::{atan2, sin, sin_cos};
 use glam::DVec3;
 
 use super::Fig01Data;
-use crate::draw::{Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke};
 use crate::figures::cylinder::{Cylinder, Look, arc, circle, curve, faint, polar};
+use bouncing_disk_plot::{Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke};
 
 const WIDTH: f64 = DOUBLE_COLUMN;
 const HEIGHT: f64 = 236.0;

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::{Fig02Data, Trajectory};
-use crate::draw::{Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke};
 use crate::figures::cylinder::{Cylinder, Look, curve, faint, polar};
+use bouncing_disk_plot::{Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke};
 
 const WIDTH: f64 = 340.0;
 const HEIGHT: f64 = 306.0;

@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Dimensionless, DimensionlessParameters, Engine, Error, EventKind, EventRecord, Start, Transition,
+    DimensionlessParameters, DimensionlessSystem, Engine, Error, EventKind, EventRecord, InitialCondition,
+    Transition,
 };
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +56,7 @@ pub(super) struct Attachments {
 }
 
 impl Attachments {
-    fn count(&mut self, impact: &EventRecord, next: &EventRecord, system: &Dimensionless) {
+    fn count(&mut self, impact: &EventRecord, next: &EventRecord, system: &DimensionlessSystem) {
         let pressed = 1.0 - system.peak_acceleration() * impact.time.phase.sin() > 0.0;
         let attached = next.event.kind() == EventKind::Attachment && next.span.radians() <= 0.0;
         *match (pressed, attached) {
@@ -74,16 +75,21 @@ pub(super) struct Counted {
     pub(super) number: u64,
 }
 
-fn starts(system: &Dimensionless) -> Result<[Start; 2], ExperimentError> {
+fn starts(system: &DimensionlessSystem) -> Result<[InitialCondition; 2], ExperimentError> {
     let phase = |angle| Phase::new(angle).map_err(|error| ExperimentError::model(Error::from(error)));
     let height = 1.0 + system.peak_acceleration();
     Ok([
-        Start::Contact { phase: phase(1.5 * PI)?, angular_speed: 0.0 },
-        Start::Flight { phase: phase(1.0)?, gap: height, relative_velocity: 0.0, angular_speed: 0.3 },
+        InitialCondition::Contact { phase: phase(1.5 * PI)?, angular_speed: 0.0 },
+        InitialCondition::Flight {
+            phase: phase(1.0)?,
+            gap: height,
+            relative_velocity: 0.0,
+            angular_speed: 0.3,
+        },
     ])
 }
 
-fn systems() -> Result<Vec<Dimensionless>, ExperimentError> {
+fn systems() -> Result<Vec<DimensionlessSystem>, ExperimentError> {
     let mut systems = Vec::new();
     for peak_acceleration in PEAK_ACCELERATIONS {
         for twist_speed in TWIST_SPEEDS {

@@ -5,7 +5,7 @@ use bouncing_disk::{EventKind, ModeKind, Transition};
 use super::Fig03Data;
 use super::census::Census;
 use super::cycle::Cycle;
-use crate::draw::{
+use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
     Stroke, Text, Ticks,
 };

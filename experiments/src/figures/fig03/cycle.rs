@@ -2,7 +2,8 @@
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Engine, Error, EventKind, EventRecord, ForcingParameters, PhaseTime, Start, TOSS_START, Trajectory,
+    Engine, Error, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START,
+    Trajectory,
 };
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +41,8 @@ pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
     let system =
         ForcingParameters { axial_forcing: AXIAL_FORCING, angular_forcing: 1.0, phase_lag: 0.0, restitution };
     let system = system.build().map_err(ExperimentError::model)?;
-    let start = Start::Contact { phase: Phase::new(TOSS_START).map_err(model)?, angular_speed: 0.0 };
+    let start =
+        InitialCondition::Contact { phase: Phase::new(TOSS_START).map_err(model)?, angular_speed: 0.0 };
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let separation = |record: &EventRecord| record.event.kind() == EventKind::Separation;
     Trajectory::record(&mut engine, separation).map_err(ExperimentError::model)?;

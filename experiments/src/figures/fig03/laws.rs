@@ -1,7 +1,7 @@
 //! How exactly the motions of the census obey the equations of Sec. II.
 
 use bouncing_disk::{
-    Dimensionless, Event, EventKind, EventRecord, Mode, PlatformState, SlipDirection, Snapshot,
+    DimensionlessSystem, Event, EventKind, EventRecord, Mode, PlatformState, SlipDirection, Snapshot,
 };
 use serde::{Deserialize, Serialize};
 
@@ -74,7 +74,7 @@ fn force(at: &PlatformState) -> f64 {
 }
 
 impl Laws {
-    pub(super) fn check(&mut self, system: &Dimensionless, record: &EventRecord) {
+    pub(super) fn check(&mut self, system: &DimensionlessSystem, record: &EventRecord) {
         let shots: Vec<_> =
             (0..=CHECKS).map(|step| record.evaluate(system, f64::from(step) / f64::from(CHECKS))).collect();
         match record.before.mode {
@@ -97,7 +97,7 @@ impl Laws {
         }
     }
 
-    fn contact(&mut self, system: &Dimensionless, shots: &[Snapshot]) {
+    fn contact(&mut self, system: &DimensionlessSystem, shots: &[Snapshot]) {
         let peak = system.peak_acceleration();
         for Snapshot { disk, platform, .. } in shots {
             raise(&mut self.contact_motion, share((disk.height - platform.height).abs(), &[1.0, peak]));
@@ -107,7 +107,7 @@ impl Laws {
         }
     }
 
-    fn sticking(&mut self, system: &Dimensionless, shots: &[Snapshot]) {
+    fn sticking(&mut self, system: &DimensionlessSystem, shots: &[Snapshot]) {
         let (friction, load) = (system.friction(), system.load());
         for Snapshot { platform, .. } in shots {
             // The platform's angular acceleration is minus its angle in these units.
@@ -120,7 +120,7 @@ impl Laws {
 
     fn sliding(
         &mut self,
-        system: &Dimensionless,
+        system: &DimensionlessSystem,
         direction: SlipDirection,
         record: &EventRecord,
         shots: &[Snapshot],
@@ -156,7 +156,7 @@ impl Laws {
         }
     }
 
-    fn impact(&mut self, system: &Dimensionless, record: &EventRecord, velocity: f64) {
+    fn impact(&mut self, system: &DimensionlessSystem, record: &EventRecord, velocity: f64) {
         self.checked.impacts += 1;
         let platform = PlatformState::at(system, record.time.phase);
         let (before, after) = (&record.before, &record.after);
@@ -181,7 +181,7 @@ impl Laws {
         self.reversals += u64::from(left * slip < 0.0 && left.abs() > rounding);
     }
 
-    fn change(&mut self, system: &Dimensionless, record: &EventRecord) {
+    fn change(&mut self, system: &DimensionlessSystem, record: &EventRecord) {
         let platform = PlatformState::at(system, record.time.phase);
         let (friction, load, peak) = (system.friction(), system.load(), system.peak_acceleration());
         match record.event {

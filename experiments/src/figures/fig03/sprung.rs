@@ -168,7 +168,7 @@ impl Launch {
 
 fn engine(system: &System) -> Result<Engine, ExperimentError> {
     let phase = Phase::new(TOSS_START).map_err(core_error)?;
-    let start = bouncing_disk::Start::Contact { phase, angular_speed: 0.0 };
+    let start = bouncing_disk::InitialCondition::Contact { phase, angular_speed: 0.0 };
     Engine::new(*system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)
 }
 

@@ -1,6 +1,6 @@
 //! The printed numbers of Sec. III B over tosses whose inputs all round to those of Table I.
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 
 use super::data::{PrintedShare, TossPoint};
 use super::sweep::{best_angle, speed};
@@ -11,7 +11,7 @@ use crate::figures::printed_inputs::{DRAWN, agreement, tosses};
 const SEED: u64 = 4;
 
 pub(super) fn alike(quality: Quality) -> Result<Vec<PrintedShare>, ExperimentError> {
-    let rest = InitialState::AbsoluteRest;
+    let rest = InitialSpin::AbsoluteRest;
     let cases = tosses(quality.choose(DRAWN / 5, DRAWN), SEED)?;
     let speeds = cases.iter().map(|case| case.airborne_speed()).collect::<Result<Vec<_>, _>>()?;
     let fastest = cases.iter().map(|case| best_angle(case, rest, speed)).collect::<Result<Vec<_>, _>>()?;

@@ -4,7 +4,7 @@
 //! whose true maxima have the printed numbers, and can the printed maxima be points of an even grid of amplitude
 //! angles?
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::sin;
 
 use super::data::{CoarseGrid, Comparison, Conflict, Consistency, HandSpeed, Reading, TossPoint};
@@ -105,7 +105,7 @@ fn in_order(table_speed: f64, fastest: &TossPoint, largest_ratio: &TossPoint) ->
 
 /// The numbers with maxima found to full precision.
 fn smooth_numbers(case: &TossCase) -> Result<[f64; NUMBERS], ExperimentError> {
-    let initial = InitialState::AbsoluteRest;
+    let initial = InitialSpin::AbsoluteRest;
     let fastest = best_angle(case, initial, speed)?;
     Ok(in_order(case.airborne_speed()?, &fastest, &best_angle(case, initial, ratio)?))
 }
@@ -268,7 +268,7 @@ fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentE
     let lowest = |number: usize| printed.centres[number] - printed.half_units[number];
     let (lowest_ratio, lowest_angle) = (lowest(5), lowest(6));
     let omega = table.angular_frequency_rad_per_s;
-    let largest_ratio = |case: &TossCase| best_angle(case, InitialState::AbsoluteRest, ratio);
+    let largest_ratio = |case: &TossCase| best_angle(case, InitialSpin::AbsoluteRest, ratio);
     // The largest ratio rises with ω, its angle with a_g.
     let with_radius = |gyration_radius_m: f64| {
         let at = |omega: f64| TossCase { gyration_radius_m, angular_frequency_rad_per_s: omega, ..*table };
@@ -289,8 +289,7 @@ fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentE
         grip: case.friction * reach * reach,
         largest_speed_ratio: largest.speed_ratio.unwrap_or(0.0),
         amplitude_angle_of_largest_speed_ratio_rad: largest.amplitude_angle_rad,
-        optimal_amplitude_angle_rad: best_angle(&case, InitialState::AbsoluteRest, speed)?
-            .amplitude_angle_rad,
+        optimal_amplitude_angle_rad: best_angle(&case, InitialSpin::AbsoluteRest, speed)?.amplitude_angle_rad,
     })
 }
 
@@ -311,7 +310,7 @@ fn radius_alone(search: &Search<'_>, printed: &Printed) -> Result<Reading, Exper
     let radius = table.gyration_radius_m;
     // The angle falls as the radius grows.
     let radius = bisect((0.8 * radius, 1.2 * radius), |radius| {
-        let fastest = best_angle(&at(radius), InitialState::AbsoluteRest, speed)?;
+        let fastest = best_angle(&at(radius), InitialSpin::AbsoluteRest, speed)?;
         Ok(printed.centres[1] - fastest.amplitude_angle_rad)
     })?;
     Ok(printed.reading(search, at(radius), &smooth_numbers(&at(radius))?))
@@ -323,7 +322,7 @@ fn grid_numbers(case: &TossCase, intervals: u32) -> Result<[f64; NUMBERS], Exper
     let tosses = (1..intervals)
         .map(|index| {
             let case = case.at_angle(grid_angle(case.largest_angle(), index, intervals));
-            Ok((TossPoint::new(&case, &case.toss(InitialState::AbsoluteRest)?), case))
+            Ok((TossPoint::new(&case, &case.toss(InitialSpin::AbsoluteRest)?), case))
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
     let fastest = maximum_index(tosses.iter().map(|(toss, _)| toss.airborne_speed_rad_per_s));

@@ -1,6 +1,6 @@
 //! What Fig. 4 shows.
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
 use super::TossCase;
@@ -67,7 +67,7 @@ pub(super) struct TossPoint {
 /// The curves of one initial state.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Family {
-    pub(super) initial_state: InitialState,
+    pub(super) initial_state: InitialSpin,
     pub(super) curves: Vec<LagCurve>,
 }
 
@@ -124,7 +124,7 @@ pub(super) struct FrictionOptimum {
 /// The fastest and the most efficient toss of all phase lags in [-π/2, π/2] and all amplitude angles.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Best {
-    pub(super) initial_state: InitialState,
+    pub(super) initial_state: InitialSpin,
     pub(super) fastest_phase_lag_rad: f64,
     pub(super) fastest: TossPoint,
     pub(super) most_efficient_phase_lag_rad: f64,
@@ -134,7 +134,7 @@ pub(super) struct Best {
 /// The search for the largest |ν|, ν = α̇_f/(ωΦ), in phase lag and amplitude angle.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct RatioSearch {
-    pub(super) initial_state: InitialState,
+    pub(super) initial_state: InitialSpin,
     pub(super) largest: LagOptimum,
     /// Panel (h): the largest of all phase lags at each amplitude angle.
     pub(super) over_lags: Vec<LagOptimum>,

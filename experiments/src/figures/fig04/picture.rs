@@ -4,11 +4,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Fig04Data;
 use super::data::{Family, LagCurve, TossPoint};
-use crate::draw::{
+use crate::printed::PrintedNumber;
+use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins, Marker,
     Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
-use crate::printed::PrintedNumber;
 
 const HEIGHT: f64 = 640.0;
 const LAST_LAG: f64 = 8.0;

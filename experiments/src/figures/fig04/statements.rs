@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use bouncing_disk::InitialState;
+use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::{asin, tan};
 
 use super::consistency::PARAMETER_NAMES;
@@ -25,11 +25,11 @@ fn pi(angle: f64) -> String {
     format!("{:.4}π", angle / PI)
 }
 
-fn curves(data: &Fig04Data, initial: InitialState) -> &[LagCurve] {
+fn curves(data: &Fig04Data, initial: InitialSpin) -> &[LagCurve] {
     data.families.iter().find(|family| family.initial_state == initial).map_or(&[], |family| &family.curves)
 }
 
-fn best(data: &Fig04Data, initial: InitialState) -> Option<&Best> {
+fn best(data: &Fig04Data, initial: InitialSpin) -> Option<&Best> {
     data.best.iter().find(|best| best.initial_state == initial)
 }
 
@@ -151,7 +151,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
             .note(format!("Table I's {observed} rad in other units: ± {}", pi(observed.uncertainty))),
     ];
     claims.extend(optimal_phase_lag(data));
-    let Some(curve) = curves(data, InitialState::AbsoluteRest).first() else { return claims };
+    let Some(curve) = curves(data, InitialSpin::AbsoluteRest).first() else { return claims };
     let fastest = &curve.fastest;
     let grid = &data.consistency.coarse_grid;
     let reason = format!(
@@ -220,8 +220,8 @@ fn amplitude_ratio(data: &Fig04Data, fastest: &TossPoint) -> Option<[Claim; 2]> 
 }
 
 fn optimal_phase_lag(data: &Fig04Data) -> Option<Claim> {
-    let absolute = best(data, InitialState::AbsoluteRest)?;
-    let relative = best(data, InitialState::RestRelativeToHand)?;
+    let absolute = best(data, InitialSpin::AbsoluteRest)?;
+    let relative = best(data, InitialSpin::RestRelativeToHand)?;
     let linear = |lag: f64| lag.abs() <= PLACE_BOUND;
     Some(Claim::printed_statement(
         "section3.optimal_phase_lag",
@@ -260,7 +260,7 @@ fn one_optimum(data: &Fig04Data, curve: &LagCurve) -> Claim {
     )
 }
 
-fn search(data: &Fig04Data, initial: InitialState) -> Option<&RatioSearch> {
+fn search(data: &Fig04Data, initial: InitialSpin) -> Option<&RatioSearch> {
     data.largest_ratio.iter().find(|search| search.initial_state == initial)
 }
 
@@ -285,10 +285,10 @@ fn found(search: &RatioSearch) -> String {
 
 /// max |ν| is printed of all θ and φ_L, with its place.
 fn largest_ratio(data: &Fig04Data, linear: &LagCurve) -> Option<Vec<Claim>> {
-    let absolute = search(data, InitialState::AbsoluteRest)?;
-    let relative = search(data, InitialState::RestRelativeToHand)?;
+    let absolute = search(data, InitialSpin::AbsoluteRest)?;
+    let relative = search(data, InitialSpin::RestRelativeToHand)?;
     let at_zero = &linear.largest_speed_ratio;
-    let drawn = curves(data, InitialState::AbsoluteRest)
+    let drawn = curves(data, InitialSpin::AbsoluteRest)
         .iter()
         .max_by(|one, other| size(&one.largest_speed_ratio).total_cmp(&size(&other.largest_speed_ratio)))?;
     let angle = PrintedNumber::read(&data.printed.amplitude_angle_of_largest_speed_ratio_rad)?;
@@ -340,7 +340,7 @@ fn size(toss: &TossPoint) -> f64 {
 /// How the optimum compares with the largest ratio and with the observed tosses.
 fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
     let at_optimum = size(fastest);
-    let largest = search(data, InitialState::AbsoluteRest).map(|search| search.largest.speed_ratio);
+    let largest = search(data, InitialSpin::AbsoluteRest).map(|search| search.largest.speed_ratio);
     // What the paper calls negligible: whatever two ratios that print like its two differ by.
     let negligible = PrintedNumber::read(&data.printed.largest_speed_ratio)
         .zip(PrintedNumber::read(&data.printed.speed_ratio_at_optimum))

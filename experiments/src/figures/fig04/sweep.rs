@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::elementary::{acos, asin, cos, sin, tan};
-use bouncing_disk::{InitialState, TossPerformance, single_toss};
+use bouncing_disk::{InitialSpin, TossPerformance, single_toss};
 
 use super::data::{
     Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, LagOptimum, LagProfile, NoLaunch,
@@ -17,8 +17,8 @@ use crate::figures::motor_case::core_error;
 /// The paper's phase lags are n π/8 with n up to this.
 const LAGS: u32 = 8;
 /// Both initial states, the default one first.
-pub(super) const INITIAL_STATES: [InitialState; 2] =
-    [InitialState::AbsoluteRest, InitialState::RestRelativeToHand];
+pub(super) const INITIAL_STATES: [InitialSpin; 2] =
+    [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand];
 /// Samples among which a maximum is bracketed; the curves have fewer bends.
 pub(super) const BRACKETS: u32 = 60;
 /// Samples of the phase lag for the best toss of all: an odd number, so that θ = 0, where the paper has its
@@ -45,7 +45,7 @@ impl TossPoint {
         }
     }
 
-    fn of(case: &TossCase, initial: InitialState) -> Result<Self, ExperimentError> {
+    fn of(case: &TossCase, initial: InitialSpin) -> Result<Self, ExperimentError> {
         Ok(Self::new(case, &case.toss(initial)?))
     }
 }
@@ -65,7 +65,7 @@ pub(super) fn angles(case: &TossCase, count: u32) -> Vec<f64> {
 /// The toss with the largest `measure` of all amplitude angles.
 pub(super) fn best_angle(
     case: &TossCase,
-    initial: InitialState,
+    initial: InitialSpin,
     measure: impl Fn(&TossPerformance) -> f64,
 ) -> Result<TossPoint, ExperimentError> {
     // Without twist there is no ratio, so the search starts just above.
@@ -92,7 +92,7 @@ pub(super) fn ratio(toss: &TossPerformance) -> f64 {
 
 pub(super) fn family(
     table: &TossCase,
-    initial_state: InitialState,
+    initial_state: InitialSpin,
     angles: &[f64],
 ) -> Result<Family, ExperimentError> {
     let curve = |n: u32| {
@@ -124,7 +124,7 @@ pub(super) fn separation(table: &TossCase, count: u32) -> Result<Separation, Exp
     let phases: Vec<_> = (0..count)
         .map(|index| lowest + (FRAC_PI_2 - lowest) * f64::from(index) / f64::from(count - 1))
         .collect();
-    let initial = InitialState::AbsoluteRest;
+    let initial = InitialSpin::AbsoluteRest;
     let mut left_at = Vec::new();
     let mut deviation = 0.0_f64;
     let mut curves = Vec::new();
@@ -175,7 +175,7 @@ pub(super) fn friction_curve(
     Ok(FrictionCurve {
         friction,
         airborne_speed_rad_per_s: speeds(&case, angles)?,
-        fastest: best_angle(&case, InitialState::AbsoluteRest, speed)?,
+        fastest: best_angle(&case, InitialSpin::AbsoluteRest, speed)?,
     })
 }
 
@@ -186,14 +186,14 @@ pub(super) fn low_friction(table: &TossCase) -> Result<Vec<FrictionOptimum>, Exp
     for _ in 0..6 {
         friction *= 0.5;
         let case = TossCase { friction, ..*table };
-        let fastest = best_angle(&case, InitialState::AbsoluteRest, speed)?;
+        let fastest = best_angle(&case, InitialSpin::AbsoluteRest, speed)?;
         optima.push(FrictionOptimum { friction, fastest });
     }
     Ok(optima)
 }
 
 /// The best tosses of all phase lags; beyond ±π/2 they repeat with the other sign.
-pub(super) fn best(table: &TossCase, initial_state: InitialState) -> Result<Best, ExperimentError> {
+pub(super) fn best(table: &TossCase, initial_state: InitialSpin) -> Result<Best, ExperimentError> {
     let over_lags = |measure: fn(&TossPerformance) -> f64| {
         let found = maximum((-FRAC_PI_2, FRAC_PI_2), LAG_BRACKETS, |lag| {
             let best = best_angle(&table.at_lag(lag), initial_state, measure)?;
@@ -212,7 +212,7 @@ pub(super) fn best(table: &TossCase, initial_state: InitialState) -> Result<Best
 }
 
 /// The largest |ν| at an amplitude angle, of all phase lags; beyond ±π/2 they repeat with the other sign.
-fn best_lag(case: &TossCase, initial: InitialState) -> Result<LagOptimum, ExperimentError> {
+fn best_lag(case: &TossCase, initial: InitialSpin) -> Result<LagOptimum, ExperimentError> {
     let found = maximum((-FRAC_PI_2, FRAC_PI_2), RATIO_BRACKETS, |lag| {
         case.at_lag(lag).toss(initial).map(|toss| ratio(&toss))
     })?;
@@ -229,7 +229,7 @@ fn best_lag(case: &TossCase, initial: InitialState) -> Result<LagOptimum, Experi
 /// and between the neighbours of the best angle the golden section.
 pub(super) fn ratio_search(
     table: &TossCase,
-    initial_state: InitialState,
+    initial_state: InitialSpin,
     count: u32,
 ) -> Result<RatioSearch, ExperimentError> {
     let last = table.last_angle();
@@ -274,18 +274,18 @@ pub(super) fn profile(case: &TossCase, count: u32) -> Result<LagProfile, Experim
         .collect();
     let ratios = phase_lag_rad
         .iter()
-        .map(|lag| case.at_lag(*lag).toss(InitialState::AbsoluteRest).map(|toss| ratio(&toss)));
+        .map(|lag| case.at_lag(*lag).toss(InitialSpin::AbsoluteRest).map(|toss| ratio(&toss)));
     Ok(LagProfile {
         amplitude_angle_rad: case.amplitude_angle_rad,
         speed_ratio: ratios.collect::<Result<_, _>>()?,
-        best: best_lag(case, InitialState::AbsoluteRest)?,
+        best: best_lag(case, InitialSpin::AbsoluteRest)?,
         phase_lag_rad,
     })
 }
 
 /// Between which angles the fastest toss at θ = 0 lies.
 pub(super) fn compromise(table: &TossCase) -> Result<Compromise, ExperimentError> {
-    let initial = InitialState::AbsoluteRest;
+    let initial = InitialSpin::AbsoluteRest;
     let hand_at_separation = |angle: f64| {
         let system = table.at_angle(angle).system()?;
         let phase = Phase::new(table.at_angle(angle).toss(initial)?.separation_phase).map_err(core_error)?;
@@ -305,7 +305,7 @@ pub(super) fn no_launch(table: &TossCase) -> Result<NoLaunch, ExperimentError> {
     let limit = table.largest_angle();
     let leaves = |angle: f64| -> Result<bool, ExperimentError> {
         let system = table.at_angle(angle).system()?;
-        Ok(single_toss(&system, InitialState::AbsoluteRest).is_ok())
+        Ok(single_toss(&system, InitialSpin::AbsoluteRest).is_ok())
     };
     let mut launched_beyond = 0;
     for index in 1..=TRIED_BEYOND {
@@ -365,7 +365,7 @@ mod tests {
     #[test]
     fn the_search_over_all_lags_finds_more_than_the_linear_motion_has() {
         let table = TossCase::from(&crate::paper::table_one().expect("reads"));
-        let initial = InitialState::AbsoluteRest;
+        let initial = InitialSpin::AbsoluteRest;
         let search = ratio_search(&table, initial, 12).expect("runs");
         let linear = best_angle(&table, initial, ratio).expect("runs");
         assert!((search.largest.speed_ratio - 1.0).abs() < 1e-12, "{:?}", search.largest);

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_8};
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::{EventKind, InitialState, Mode, System, toss_trajectory};
+use bouncing_disk::{EventKind, InitialSpin, Mode, System, toss_trajectory};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
@@ -26,7 +26,7 @@ pub(super) const FRICTION_FACTORS: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 pub struct Fig05Data {
     pub(super) table_i: TableOne,
     pub(super) printed: SectionThree,
-    pub(super) initial_state: InitialState,
+    pub(super) initial_state: InitialSpin,
     pub(super) columns: Vec<Column>,
     /// The toss at the printed optimal φ_L with phase lags about 0.
     pub(super) lags: Vec<Dependence>,
@@ -96,7 +96,7 @@ impl Influence {
         Ok(Self {
             amplitude_angle_rad: case.amplitude_angle_rad,
             phase_lag_rad: case.phase_lag_rad,
-            separation_phase_rad: case.toss(InitialState::AbsoluteRest)?.separation_phase,
+            separation_phase_rad: case.toss(InitialSpin::AbsoluteRest)?.separation_phase,
             largest_hand_speed_rad_per_s: platform.peak_angular_speed(),
             largest_force: 1.0 + system.peak_acceleration(),
             fastest_hand_phase_rad: fastest.place,
@@ -190,7 +190,7 @@ impl Toss {
     pub(super) fn new(case: &TossCase, points: u32) -> Result<Self, ExperimentError> {
         let system = case.system()?;
         let trajectory =
-            toss_trajectory(&system, InitialState::AbsoluteRest).map_err(ExperimentError::model)?;
+            toss_trajectory(&system, InitialSpin::AbsoluteRest).map_err(ExperimentError::model)?;
         let scales = system.scales();
         let mut toss = Self::empty(case.phase_lag_rad);
         toss.largest_hand_speed_rad_per_s = system.platform().peak_angular_speed();

@@ -2,7 +2,7 @@
 
 use super::Fig05Data;
 use super::data::{Column, Toss};
-use crate::draw::{
+use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel,
     Rule, Stroke, Text, Ticks,
 };

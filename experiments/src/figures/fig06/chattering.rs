@@ -4,7 +4,9 @@ use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Phase, SweepEvent, Vibration, sweep};
-use bouncing_disk::{Dimensionless, MultiTossSettings, OrbitClass, Start, TossOrbit, multi_toss};
+use bouncing_disk::{
+    DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit, multi_toss,
+};
 use rayon::prelude::*;
 
 use super::data::{Policies, SingleTosses, Slice};
@@ -56,7 +58,7 @@ pub(super) fn cycles(
                 cycle.long_flights += usize::from(landing.duration > 0.5 * TAU);
                 if cycle.impacts < LONGEST_CYCLE { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             }
-            SweepEvent::Stick(stick) => {
+            SweepEvent::Attachment(stick) => {
                 cycle.platform_periods +=
                     stick.attachment.turns + stick.separation.map_or(0, |(_, turns)| turns);
                 *rests = true;
@@ -72,12 +74,12 @@ pub(super) fn cycles(
 }
 
 /// Rest on the platform at its lowest point, turning with it.
-pub(super) fn from_rest(system: &Dimensionless) -> Result<Start, ExperimentError> {
+pub(super) fn from_rest(system: &DimensionlessSystem) -> Result<InitialCondition, ExperimentError> {
     let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
-    Ok(Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
+    Ok(InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
 }
 
-fn tosses(system: &Dimensionless, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
+fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
     multi_toss(*system, from_rest(system)?, settings).map_err(ExperimentError::model)
 }
 
@@ -154,7 +156,7 @@ pub(super) fn policies(
             let same =
                 cut.platform_periods == summed.platform_periods && cut.long_flights == summed.long_flights;
             let systems = Systems::at(forcing, inputs)?;
-            let difference = |system: &Dimensionless| -> Result<Option<f64>, ExperimentError> {
+            let difference = |system: &DimensionlessSystem| -> Result<Option<f64>, ExperimentError> {
                 let (cut, summed) = (tosses(system, settings)?, tosses(system, complete)?);
                 let settled = |orbit: &TossOrbit| {
                     matches!(orbit.class, OrbitClass::Chattering { .. })

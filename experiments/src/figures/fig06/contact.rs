@@ -2,9 +2,10 @@
 
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase, lives};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase, survival_times};
 use bouncing_disk::{
-    CollisionEvent, Collisions, Dimensionless, Engine, Event, EventRecord, ForcingParameters, Start,
+    CollisionEvent, Collisions, DimensionlessSystem, Engine, Event, EventRecord, ForcingParameters,
+    InitialCondition,
 };
 use rayon::prelude::*;
 
@@ -52,7 +53,8 @@ pub(super) fn contact(inputs: Inputs) -> Result<Vec<Contact>, ExperimentError> {
         .map(|axial_forcing| {
             let system = Systems::at(axial_forcing, inputs)?.linear;
             let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
-            let rest = Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
+            let rest =
+                InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
             let mut engine =
                 Engine::new(system, rest, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
             let mut leaves = false;
@@ -69,7 +71,7 @@ pub(super) fn contact(inputs: Inputs) -> Result<Vec<Contact>, ExperimentError> {
                     Ok(map.orbit(start.map_err(ExperimentError::model)?, ChatterPolicy::Complete))
                 })
                 .collect::<Result<Vec<_>, ExperimentError>>()?;
-            let lives = lives(&orbits, THROWN_IMPACTS).map_err(ExperimentError::model)?;
+            let lives = survival_times(&orbits, THROWN_IMPACTS).map_err(ExperimentError::model)?;
             Ok(Contact {
                 axial_forcing,
                 distance_in_ulps: (axial_forcing - FRAC_1_PI) / ulp,
@@ -98,10 +100,10 @@ fn speed_bound(peak: f64, restitution: f64) -> f64 {
     speed
 }
 
-fn motion(axial_forcing: f64, system: &Dimensionless) -> Result<Motion, ExperimentError> {
+fn motion(axial_forcing: f64, system: &DimensionlessSystem) -> Result<Motion, ExperimentError> {
     let peak = system.peak_acceleration();
     let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
-    let start = Start::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
+    let start = InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
     let mut collisions =
         Collisions::new(*system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let (mut impacts, mut highest) = (0, peak);
@@ -167,7 +169,10 @@ const TRANSFERS: usize = 600;
 const PARTS: usize = 16;
 
 /// The share of the angular impulses, by size, that impacts transfer; `None` where there are none.
-fn share_in_impacts(system: &Dimensionless, start: Start) -> Result<Option<f64>, ExperimentError> {
+fn share_in_impacts(
+    system: &DimensionlessSystem,
+    start: InitialCondition,
+) -> Result<Option<f64>, ExperimentError> {
     let mut engine = Engine::new(*system, start, ChatterPolicy::Paper).map_err(ExperimentError::model)?;
     let (mut impacts, mut impulsive, mut contact) = (0, 0.0, 0.0);
     while impacts < TRANSFERS {
@@ -181,7 +186,7 @@ fn share_in_impacts(system: &Dimensionless, start: Start) -> Result<Option<f64>,
 }
 
 /// The sum of the sizes of the changes of angular speed on the platform; zero in flight.
-fn turned_in_contact(record: &EventRecord, system: &Dimensionless) -> f64 {
+fn turned_in_contact(record: &EventRecord, system: &DimensionlessSystem) -> f64 {
     let speed = |part: usize| record.evaluate(system, part as f64 / PARTS as f64).disk.angular_speed;
     if record.spell.state.mode == bouncing_disk::Mode::Flight {
         return 0.0;
@@ -193,7 +198,7 @@ fn turned_in_contact(record: &EventRecord, system: &Dimensionless) -> f64 {
 pub(super) fn motor_transfer() -> Result<Option<f64>, ExperimentError> {
     let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
     let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
-    share_in_impacts(motor.dimensionless(), Start::Contact { phase, angular_speed: 0.0 })
+    share_in_impacts(motor.dimensionless(), InitialCondition::Contact { phase, angular_speed: 0.0 })
 }
 
 /// The transfers of both rotary motions, for the followed attractor from its states and for a disk from rest.
@@ -212,23 +217,24 @@ pub(super) fn transfers(
         .into_par_iter()
         .map(|(axial_forcing, state)| {
             let systems = Systems::at(axial_forcing, inputs)?;
-            let transfer = |system: &Dimensionless, angular_forcing: f64| -> Result<_, ExperimentError> {
-                let start = match state {
-                    Some(state) => Start::Launch {
-                        phase: state.phase(),
-                        relative_speed: -system.restitution() * state.velocity(),
-                        angular_speed: 0.0,
-                    },
-                    None => Start::Contact { phase, angular_speed: 0.0 },
+            let transfer =
+                |system: &DimensionlessSystem, angular_forcing: f64| -> Result<_, ExperimentError> {
+                    let start = match state {
+                        Some(state) => InitialCondition::Launch {
+                            phase: state.phase(),
+                            relative_speed: -system.restitution() * state.velocity(),
+                            angular_speed: 0.0,
+                        },
+                        None => InitialCondition::Contact { phase, angular_speed: 0.0 },
+                    };
+                    let share_in_impacts = share_in_impacts(system, start)?;
+                    Ok(share_in_impacts.map(|share_in_impacts| Transfer {
+                        axial_forcing,
+                        angular_forcing,
+                        from_rest: state.is_none(),
+                        share_in_impacts,
+                    }))
                 };
-                let share_in_impacts = share_in_impacts(system, start)?;
-                Ok(share_in_impacts.map(|share_in_impacts| Transfer {
-                    axial_forcing,
-                    angular_forcing,
-                    from_rest: state.is_none(),
-                    share_in_impacts,
-                }))
-            };
             Ok([
                 transfer(&systems.linear, inputs.linear.angular_forcing)?,
                 transfer(&systems.semielliptical, inputs.semielliptical.angular_forcing)?,

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{CollisionEvent, CollisionState, Collisions, Dimensionless, System};
+use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, System};
 
 use super::data::{Dimension, TorqueRatio};
 use super::scan::no_orbit;
@@ -46,7 +46,7 @@ fn changed(case: MotorCase, index: usize, relative: f64) -> MotorCase {
 
 /// The impacts that follow [`IMPACTS`], in the same units.
 fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
-    let system: Dimensionless = case.system()?.into();
+    let system: DimensionlessSystem = case.system()?.into();
     let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
     let mut outcomes = Vec::with_capacity(3 * IMPACTS.len());
     for (angle, axial, tangential) in IMPACTS {

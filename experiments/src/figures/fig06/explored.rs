@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Phase, columns, follow};
-use bouncing_disk::{Dimensionless, ForcingParameters, MultiTossSettings, OrbitClass, Start, multi_toss};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Phase, follow_attractor, orbit_diagram};
+use bouncing_disk::{
+    DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, multi_toss,
+};
 use rayon::prelude::*;
 
 use super::chattering::from_rest;
@@ -82,7 +84,7 @@ fn orbit_from_rest(axial_forcing: f64, inputs: Inputs) -> Result<Orbit, Experime
 
 /// The impacts of some orbits, as many of each.
 fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, ExperimentError> {
-    columns(orbits, 0, impacts).map_err(ExperimentError::model)
+    orbit_diagram(orbits, 0, impacts).map_err(ExperimentError::model)
 }
 
 /// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ; `low` the Γ of Fig. 7(a)–(c).
@@ -100,8 +102,8 @@ pub(super) fn explored(
     };
     let (before, after) = (crisis - BESIDE, crisis + BESIDE);
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
-    let beside =
-        columns(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING).map_err(ExperimentError::model)?;
+    let beside = orbit_diagram(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING)
+        .map_err(ExperimentError::model)?;
     let cells = [CELLS, COARSE_CELLS].map(|unit| Cells::of(&beside[0], unit));
     let chattering = recorded(&[orbit_from_rest(before, inputs)?], VISITING)?;
     let union: Vec<ImpactState> = beside[0].iter().chain(&chattering[0]).copied().collect();
@@ -150,7 +152,7 @@ pub(super) fn zoom(
     let steps = quality.choose(80, 480);
     let (low, high) = ZOOM;
     let forcings = (0..=steps).map(|step| low + (high - low) * f64::from(step) / f64::from(steps));
-    let followed = follow(inputs.restitution, forcings, from, ZOOM_TRANSIENT, ChatterPolicy::Paper)
+    let followed = follow_attractor(inputs.restitution, forcings, from, ZOOM_TRANSIENT, ChatterPolicy::Paper)
         .collect::<Result<Vec<_>, _>>()
         .map_err(ExperimentError::model)?;
     let orbits: Vec<Orbit> = followed.iter().map(|at| at.map.orbit(at.state, ChatterPolicy::Paper)).collect();
@@ -264,7 +266,7 @@ pub(super) fn one_impact_decides(
             .build()
             .map_err(ExperimentError::model)?;
             let angular_speed = system.twist_speed();
-            let start = Start::Contact {
+            let start = InitialCondition::Contact {
                 phase: Phase::new(1.5 * PI).map_err(ExperimentError::model)?,
                 angular_speed,
             };
@@ -291,9 +293,12 @@ pub(super) fn one_impact_decides(
 pub(super) const AT_MAXIMUM: f64 = 0.995;
 
 /// On the followed attractor, or at rest.
-fn start(system: &Dimensionless, state: Option<ImpactState>) -> Result<Start, ExperimentError> {
+fn start(
+    system: &DimensionlessSystem,
+    state: Option<ImpactState>,
+) -> Result<InitialCondition, ExperimentError> {
     let Some(state) = state else { return from_rest(system) };
-    Ok(Start::Launch {
+    Ok(InitialCondition::Launch {
         phase: state.phase(),
         relative_speed: -system.restitution() * state.velocity(),
         angular_speed: system.platform_angular_speed(state.phase()),

@@ -1,6 +1,6 @@
 //! The crisis in which the followed attractor is lost to chattering, by bisection on survival.
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow, lives};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow_attractor, survival_times};
 
 use super::data::Merging;
 use super::scan::{Inputs, map};
@@ -20,13 +20,13 @@ pub(super) fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactSta
     let Inputs { restitution, followed_from, .. } = inputs;
     let forcings = (0..).map(|i| followed_from + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
     let mut state = first;
-    for followed in follow(restitution, forcings, first, 300, ChatterPolicy::Complete) {
+    for followed in follow_attractor(restitution, forcings, first, 300, ChatterPolicy::Complete) {
         state = followed.map_err(ExperimentError::model)?.state;
     }
     let map = map(SAFE_FORCING, restitution)?;
     let mut states = Vec::new();
     while states.len() < STARTS {
-        match map.survivor(state, 1_000, ChatterPolicy::Complete).map_err(ExperimentError::model)? {
+        match map.state_after(state, 1_000, ChatterPolicy::Complete).map_err(ExperimentError::model)? {
             Some(next) => states.push(next),
             None => break,
         }
@@ -52,7 +52,7 @@ fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(
     while lost - survived > BRACKET {
         let middle = 0.5 * (survived + lost);
         let orbits = orbits(&[middle], starts, restitution)?;
-        let lives = lives(&orbits, impacts).map_err(ExperimentError::model)?;
+        let lives = survival_times(&orbits, impacts).map_err(ExperimentError::model)?;
         if lives.into_iter().all(|lived| lived == impacts) {
             survived = middle;
         } else {
@@ -76,8 +76,8 @@ pub(super) fn merging(
     );
     let ((survived, lost), (survived_in_a_tenth, lost_in_a_tenth)) = (whole?, tenth?);
     let forcings: Vec<f64> = (0..16).map(|i| 0.5600 + 0.0001 * f64::from(i)).collect();
-    let lives =
-        lives(&orbits(&forcings, &starts, restitution)?, impacts / 10).map_err(ExperimentError::model)?;
+    let lives = survival_times(&orbits(&forcings, &starts, restitution)?, impacts / 10)
+        .map_err(ExperimentError::model)?;
     let mean_life_impacts = forcings
         .into_iter()
         .zip(lives.chunks(starts.len().max(1)))

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState};
-use bouncing_disk::{CollisionEvent, CollisionState, Collisions, Dimensionless, ForcingParameters};
+use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, ForcingParameters};
 
 use super::data::{ClosedForms, LagScan, PeriodOne};
 use super::scan::{Inputs, map, no_orbit};
@@ -58,7 +58,7 @@ fn system(
     angular_forcing: f64,
     phase_lag: f64,
     inputs: Inputs,
-) -> Result<Dimensionless, ExperimentError> {
+) -> Result<DimensionlessSystem, ExperimentError> {
     ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: inputs.restitution }
         .build()
         .map_err(ExperimentError::model)
@@ -75,7 +75,7 @@ struct Turning {
 }
 
 fn turn(
-    system: &Dimensionless,
+    system: &DimensionlessSystem,
     orbit: ImpactState,
     first_speed: f64,
     impacts: usize,

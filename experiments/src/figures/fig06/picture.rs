@@ -1,7 +1,7 @@
 //! The drawing of Fig. 6.
 
 use super::data::{Fig06Data, Slice};
-use crate::draw::{
+use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel,
     Rect, Rule, Stroke, Text, Ticks,
 };

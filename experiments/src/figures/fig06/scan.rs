@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    ChatterPolicy, Followed, ImpactMap, ImpactState, Vibration, columns, follow, lyapunov_exponents,
-    period_doublings,
+    ChatterPolicy, Followed, ImpactMap, ImpactState, Vibration, follow_attractor, lyapunov_exponents,
+    orbit_diagram, period_doublings,
 };
 use bouncing_disk::{
-    Dimensionless, ForcingParameters, MultiTossSettings, OrbitClass, Start, TossOrbit, multi_toss,
+    DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
+    multi_toss,
 };
 use rayon::prelude::*;
 
@@ -62,8 +63,8 @@ impl From<&SectionFour> for Inputs {
 
 /// The two rotary motions over one vertical one.
 pub(super) struct Systems {
-    pub(super) linear: Dimensionless,
-    pub(super) semielliptical: Dimensionless,
+    pub(super) linear: DimensionlessSystem,
+    pub(super) semielliptical: DimensionlessSystem,
 }
 
 impl Systems {
@@ -119,7 +120,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
     let first_orbit = first_map.refine(&[first]).map_err(ExperimentError::model)?;
     let above = forcings.iter().copied().filter(|forcing| *forcing >= followed_from);
     let walk: Vec<Followed> =
-        follow(restitution, above, first, settings.transient_impacts, ChatterPolicy::Paper)
+        follow_attractor(restitution, above, first, settings.transient_impacts, ChatterPolicy::Paper)
             .collect::<Result<_, _>>()
             .map_err(ExperimentError::model)?;
     progress.advance((values - walk.len()) as u64);
@@ -253,7 +254,7 @@ fn bouncing(axial_forcing: f64, restitution: f64) -> Result<Bouncing, Experiment
     if let Some(leaves) = map.vibration().separation_phase() {
         let orbit =
             map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)?;
-        let settled = columns(&[orbit], SETTLING, 1).map_err(ExperimentError::model)?;
+        let settled = orbit_diagram(&[orbit], SETTLING, 1).map_err(ExperimentError::model)?;
         if let Some(state) = settled.first().and_then(|states| states.first()) {
             period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;
         }
@@ -269,8 +270,8 @@ fn followed_slice(
 ) -> Result<Option<Slice>, ExperimentError> {
     let systems = Systems::at(followed.axial_forcing, inputs)?;
     let phase = followed.state.phase();
-    let tosses = |system: &Dimensionless| {
-        let start = Start::Launch {
+    let tosses = |system: &DimensionlessSystem| {
+        let start = InitialCondition::Launch {
             phase,
             relative_speed: -system.restitution() * followed.state.velocity(),
             angular_speed: system.platform_angular_speed(phase),

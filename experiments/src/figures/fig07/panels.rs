@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Multipliers, OrbitEvent,
-    Phase, UNDECIDED, Vibration, lives,
+    Phase, UNDECIDED, Vibration, survival_times,
 };
 
 use super::data::{Other, Panel, Shares, Spot};
@@ -60,7 +60,7 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
     let beside = Phase::new(period_one.phase().angle() + 1.0e-3).map_err(ExperimentError::model)?;
     let beside = ImpactState::new(beside, period_one.velocity()).map_err(ExperimentError::model)?;
     let survivor =
-        map.survivor(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+        map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let Some(state) = survivor else { return Ok(Route::Gone) };
     let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
     let periodic = settled.and_then(|orbit| orbit.trapping_radius(map, 64).map(|radius| (orbit, radius)));
@@ -192,7 +192,7 @@ pub(super) fn decay(map: &ImpactMap, top: f64, side: usize) -> Result<Vec<(u32, 
     let orbits = (0..side * side)
         .map(|index| Ok(map.orbit(start(&grid, index / side, index % side)?, ChatterPolicy::Complete)))
         .collect::<Result<Vec<_>, ExperimentError>>()?;
-    let lives = lives(&orbits, most as usize).map_err(ExperimentError::model)?;
+    let lives = survival_times(&orbits, most as usize).map_err(ExperimentError::model)?;
     let share = |count: u32| {
         lives.iter().filter(|lived| **lived >= count as usize).count() as f64 / lives.len() as f64
     };

@@ -2,7 +2,7 @@
 
 use super::data::{CurvePoint, Fig07Data, Panel as Basins};
 use super::labels::cells;
-use crate::draw::{
+use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel,
     Raster, Rect, Rule, Scatter, Stroke, Text, Ticks,
 };

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Phase, UNDECIDED, follow,
-    lives,
+    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Phase, UNDECIDED,
+    follow_attractor, survival_times,
 };
 use rayon::prelude::*;
 
@@ -99,7 +99,7 @@ pub(super) fn beyond(
             if let Some(index) = basins.labels().iter().position(open) {
                 let from = start(&grid, index / side, index % side)?;
                 let survivor = map
-                    .survivor(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)
+                    .state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)
                     .map_err(ExperimentError::model)?;
                 if let Some(state) = survivor {
                     period = map
@@ -137,7 +137,7 @@ pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, Expe
                 }
             }
             let longest = LONGEST_BEYOND as usize;
-            let lives = lives(&orbits, longest).map_err(ExperimentError::model)?;
+            let lives = survival_times(&orbits, longest).map_err(ExperimentError::model)?;
             Ok(Rest {
                 axial_forcing,
                 starts: orbits.len(),
@@ -161,7 +161,7 @@ pub(super) fn traced(
     let trace = |direction: f64| -> Result<Vec<(f64, Option<usize>)>, ExperimentError> {
         let forcings = (0..=steps).map(|step| axial_forcing + direction * TRACE_STEP * f64::from(step));
         let mut passed = Vec::new();
-        for at in follow(restitution, forcings, first, TRACE_IMPACTS, ChatterPolicy::Complete) {
+        for at in follow_attractor(restitution, forcings, first, TRACE_IMPACTS, ChatterPolicy::Complete) {
             let at = at.map_err(ExperimentError::model)?;
             let period =
                 at.map.period_of(at.state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;

@@ -7,8 +7,8 @@ use glam::DVec3;
 
 use super::Fig08Data;
 use super::stator::Beam;
-use crate::draw::{Anchor, Camera, Colour, Dash, Drawing, Figure, Path, Rect, SINGLE_COLUMN, Stroke};
 use crate::figures::cylinder::{Cylinder, Look, arc, polar};
+use bouncing_disk_plot::{Anchor, Camera, Colour, Dash, Drawing, Figure, Path, Rect, SINGLE_COLUMN, Stroke};
 
 const HEIGHT: f64 = 262.0;
 /// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up, in mm.

@@ -3,7 +3,7 @@
 use bouncing_disk::core::elementary::sin_cos;
 use glam::DVec3;
 
-use crate::draw::{Camera, Colour, Drawing, Path, Stroke};
+use bouncing_disk_plot::{Camera, Colour, Drawing, Path, Stroke};
 
 /// A beam of rectangular cross-section whose section turns uniformly with height.
 #[derive(Clone, Copy, Debug)]

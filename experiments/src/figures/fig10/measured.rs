@@ -3,9 +3,9 @@
 use bouncing_disk::ExponentialFit;
 use serde::{Deserialize, Serialize};
 
-use crate::draw::{Anchor, Axis, Colour, Corner, Dash, Legend, Line, Panel, Rect, Text};
 use crate::experiment::ExperimentError;
 use crate::measured::{Column, Layout, Range, Series};
+use bouncing_disk_plot::{Anchor, Axis, Colour, Corner, Dash, Legend, Line, Panel, Rect, Text};
 
 /// Panels in a row, and so the most trials.
 const TRIALS: u32 = 3;

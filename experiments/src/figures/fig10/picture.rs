@@ -4,11 +4,11 @@ use bouncing_disk::ExponentialFit;
 
 use super::data::{Exception, Fig10Data, Reading, Transient};
 use super::measured;
-use crate::draw::{
+use crate::figures::exponent;
+use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Panel, Rect, Text,
     Ticks,
 };
-use crate::figures::exponent;
 
 /// Height of a row.
 const ROW: f64 = 150.0;

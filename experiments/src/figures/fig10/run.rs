@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{Ensemble, RampFit, Spread, System, TransientSettings, ensemble};
+use bouncing_disk::{RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble};
 
 use super::data::{Alike, Exception, Fig10Data, OtherPreload, Reading, Transient};
 use crate::experiment::{ExperimentError, Quality};
@@ -179,11 +179,11 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
 }
 
 /// Root mean square of member minus exponential fit over the steady speed, mean over the ensemble.
-fn relative_oscillation(runs: &Ensemble) -> f64 {
+fn relative_oscillation(runs: &TransientEnsemble) -> f64 {
     runs.fits.iter().map(|fit| fit.residual / fit.steady_speed).sum::<f64>() / runs.fits.len() as f64
 }
 
-fn transient(motor: &MotorCase, runs: &Ensemble, mass: f64) -> Result<Transient, ExperimentError> {
+fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<Transient, ExperimentError> {
     let system: System = motor.system()?;
     let member = &runs.curves[0];
     let per_point = member.times.len() / BAND_POINTS;

@@ -2,11 +2,11 @@
 
 use super::data::{Curve, Fig11Data, Point};
 use super::measured;
-use crate::draw::{
+use crate::figures::exponent;
+use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins, Marker,
     Panel, Scatter, Text, Ticks,
 };
-use crate::figures::exponent;
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
 const STYLES: [(Colour, Dash); 3] =

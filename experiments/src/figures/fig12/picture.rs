@@ -1,11 +1,11 @@
 //! The drawing of Fig. 12.
 
 use super::data::{Fig12Data, Shown};
-use crate::draw::{
+use crate::figures::exponent;
+use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker,
     Panel, Rect, Scatter, Text, Ticks,
 };
-use crate::figures::exponent;
 
 pub(super) fn draw(data: &Fig12Data) -> Figure {
     const HEIGHT: f64 = 430.0;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    CollisionEvent, Collisions, Engine, RampFit, Start, Trajectory, TransientSettings, transient,
+    CollisionEvent, Collisions, Engine, InitialCondition, RampFit, Trajectory, TransientSettings, transient,
 };
 
 use rayon::prelude::*;
@@ -246,8 +246,8 @@ fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
 }
 
 /// A rotor at rest on the stator at its lowest point.
-fn start() -> Result<Start, ExperimentError> {
-    Ok(Start::Contact { phase: Phase::new(1.5 * PI).map_err(core_error)?, angular_speed: 0.0 })
+fn start() -> Result<InitialCondition, ExperimentError> {
+    Ok(InitialCondition::Contact { phase: Phase::new(1.5 * PI).map_err(core_error)?, angular_speed: 0.0 })
 }
 
 fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {

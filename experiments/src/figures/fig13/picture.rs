@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
-use crate::draw::{
+use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,
     Scatter, Ticks,
 };

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::elementary::{acos, asin, atan2, hypot, tan};
-use bouncing_disk::{InitialState, LaunchSpeeds, Platform, Stroke, System, single_toss};
+use bouncing_disk::{InitialSpin, LaunchSpeeds, Platform, Stroke, System, single_toss};
 
 use super::data::{
     Alike, Arc, AtSeparation, AtStart, Components, ComputedEntries, Fastest, Restitution, Row, Table1Data,
@@ -221,7 +221,7 @@ fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
 fn restitution(case: &TossCase) -> Result<Restitution, ExperimentError> {
     let (mut speed, mut efficiency) = (0.0_f64, 0.0_f64);
     for lag in COMPARED_LAGS {
-        for initial in [InitialState::AbsoluteRest, InitialState::RestRelativeToHand] {
+        for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
             let tosses = RESTITUTIONS
                 .into_iter()
                 .map(|restitution| {

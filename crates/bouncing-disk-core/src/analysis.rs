@@ -1,0 +1,8 @@
+//! What is done with orbits: periodic ones, bifurcations, basins, many at a time.
+
+pub(crate) mod attraction;
+pub(crate) mod basin;
+pub(crate) mod follow_attractor;
+pub(crate) mod orbit_batch;
+pub(crate) mod periodic;
+pub(crate) mod sweep;

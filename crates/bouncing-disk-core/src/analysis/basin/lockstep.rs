@@ -1,0 +1,281 @@
+//! Labels of many starts at once: as [`ImpactMap::basin_label`], with the flights in lockstep.
+
+use super::screen::{Screen, Target, Verdicts};
+use super::starts::{Cell, Cells, Starts};
+use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
+use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::rest_proof::RestProof;
+use crate::error::Error;
+use crate::lockstep::lanes::{Batch, FlightScheduler, Impacts, InstructionSet, LANES, Lanes, Purpose};
+use crate::map::impact_map::{ImpactMap, ImpactState};
+
+/// Batches that are computed together: enough of each kind of flight to fill vectors.
+const BATCHES: usize = 16;
+
+impl ImpactMap {
+    /// Labels cells until there are none left to take, at most `lanes` of them at a time.
+    pub(super) fn label_cells<Done: Fn()>(
+        &self,
+        cells: &Cells<'_, Done>,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+        lanes: usize,
+    ) -> Result<(), Error> {
+        if settings.policy != ChatterPolicy::Complete || settings.max_impacts == 0 {
+            return self.label_one_by_one(cells, known, settings);
+        }
+        let capacity = lanes.clamp(1, BATCHES * LANES);
+        let mut lockstep = Lockstep::new(self, known, settings, capacity);
+        let mut starts = Starts::new(cells, Batch::new(*self.vibration()));
+        while lockstep.lanes < capacity && lockstep.load(lockstep.lanes, &mut starts) {
+            lockstep.lanes += 1;
+        }
+        let mut verdicts = Verdicts::new();
+        while lockstep.lanes > 0 {
+            lockstep.fly()?;
+            // From the last lane, so that a lane moved into a gap has been judged.
+            for number in (0..lockstep.lanes.div_ceil(LANES)).rev() {
+                lockstep.judge(number, &mut starts, &mut verdicts);
+            }
+            lockstep.give_up(&mut starts);
+        }
+        Ok(())
+    }
+
+    fn label_one_by_one<Done: Fn()>(
+        &self,
+        cells: &Cells<'_, Done>,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+    ) -> Result<(), Error> {
+        while let Some(share) = cells.take() {
+            let rows = cells.speeds[share.first_row..].iter();
+            for (row, speed) in share.labels.chunks_mut(cells.phases.len()).zip(rows) {
+                for (label, phase) in row.iter_mut().zip(&cells.phases) {
+                    *label = self.basin_label(ImpactState::new(*phase, -speed)?, known, settings)?;
+                }
+            }
+            cells.rows_done(&share);
+        }
+        Ok(())
+    }
+}
+
+/// The starts under way.
+pub(super) struct Lockstep<'a> {
+    map: &'a ImpactMap,
+    known: &'a [KnownOrbit],
+    settings: BasinSettings,
+    targets: Vec<Target>,
+    proof: RestProof,
+    flyer: Box<FlightScheduler>,
+    batches: Vec<Batch>,
+    /// The cell of each lane, and the round before its first flight.
+    cell: Vec<Cell>,
+    begun: Vec<u64>,
+    /// Lanes in use: the first ones.
+    lanes: usize,
+    /// Flights made, and the round in which some lane may have spent its impacts.
+    round: u64,
+    deadline: u64,
+}
+
+impl<'a> Lockstep<'a> {
+    fn new(map: &'a ImpactMap, known: &'a [KnownOrbit], settings: BasinSettings, capacity: usize) -> Self {
+        let targets = known.iter().zip(FIRST_ORBIT..).flat_map(|(known, label)| {
+            known.orbit().states.iter().map(move |state| Target {
+                label,
+                angle: state.phase().angle(),
+                velocity: state.velocity(),
+                square_radius: known.radius() * known.radius(),
+            })
+        });
+        Self {
+            map,
+            known,
+            settings,
+            targets: targets.collect(),
+            proof: RestProof::new(map.vibration(), map.restitution()),
+            flyer: Box::new(FlightScheduler::new(InstructionSet::best(), Purpose::Orbits)),
+            batches: vec![Batch::of_map(map); capacity.div_ceil(LANES)],
+            cell: vec![Cell::NONE; capacity],
+            begun: vec![0; capacity],
+            lanes: 0,
+            round: 0,
+            deadline: u64::from(settings.max_impacts),
+        }
+    }
+
+    /// One more impact for all lanes.
+    fn fly(&mut self) -> Result<(), Error> {
+        self.round += 1;
+        let batches = &mut self.batches[..self.lanes.div_ceil(LANES)];
+        let mut failure = None;
+        self.flyer.fly(batches, self.lanes, |_, error| failure = Some(error));
+        failure.map_or(Ok(()), Err)
+    }
+
+    pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
+        self.flyer.dispatch().run(Screen {
+            impacts,
+            targets: &self.targets,
+            proof: self.proof,
+            peak: self.map.vibration().peak_acceleration(),
+            restitution: self.map.restitution(),
+            verdicts,
+        });
+    }
+
+    /// The label of a lane that was found settled, if the doubt is resolved so.
+    #[inline(always)]
+    pub(super) fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
+        if verdicts.doubtful[lane] == 0 {
+            return Some(verdicts.labels[lane] as Label);
+        }
+        self.map.settles(batch.impact_state(lane), self.known, self.settings.policy)
+    }
+
+    /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
+    fn judge<Done: Fn()>(
+        &mut self,
+        number: usize,
+        starts: &mut Starts<'_, '_, Done>,
+        verdicts: &mut Verdicts,
+    ) {
+        self.screen(self.batches[number].impacts(), verdicts);
+        let first = number * LANES;
+        let settled = verdicts.settled & Lanes::first((self.lanes - first).min(LANES));
+        for lane in settled.rev() {
+            if let Some(label) = self.label(verdicts, &self.batches[number], lane) {
+                self.finish(first + lane, label, starts);
+            }
+        }
+    }
+
+    /// Labels the lanes that have spent their impacts.
+    fn give_up<Done: Fn()>(&mut self, starts: &mut Starts<'_, '_, Done>) {
+        if self.round < self.deadline {
+            return;
+        }
+        let allowed = u64::from(self.settings.max_impacts);
+        for lane in (0..self.lanes).rev() {
+            if self.round - self.begun[lane] >= allowed {
+                self.finish(lane, UNDECIDED, starts);
+            }
+        }
+        let first = self.begun[..self.lanes].iter().min();
+        self.deadline = first.map_or(u64::MAX, |begun| begun + allowed);
+    }
+
+    fn finish<Done: Fn()>(&mut self, lane: usize, label: Label, starts: &mut Starts<'_, '_, Done>) {
+        starts.settle(self.cell[lane], label);
+        if !self.load(lane, starts) {
+            // The last lane in use fills the gap.
+            self.lanes -= 1;
+            let last = self.lanes;
+            self.take(lane, last);
+            self.cell[lane] = self.cell[last];
+            self.begun[lane] = self.begun[last];
+        }
+    }
+
+    /// Begins the next start in `lane`; false if there is none.
+    fn load<Done: Fn()>(&mut self, lane: usize, starts: &mut Starts<'_, '_, Done>) -> bool {
+        let Some((cell, from)) = starts.next(self) else { return false };
+        self.batches[lane / LANES].take_impact(lane % LANES, starts.batch(), from);
+        self.cell[lane] = cell;
+        self.begun[lane] = self.round;
+        true
+    }
+
+    fn take(&mut self, lane: usize, from: usize) {
+        let state = self.batches[from / LANES].impact_state(from % LANES);
+        self.batches[lane / LANES].set_impact(lane % LANES, state.phase(), state.velocity());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::starts::Share;
+    use super::super::{ATTACHED, Axis, Grid};
+    use super::*;
+    use crate::platform::vibration::Vibration;
+
+    fn compared(axial_forcing: f64, restitution: f64, cells: usize, max_impacts: u32) -> [usize; 4] {
+        let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
+            .expect("legal");
+        let orbit = map
+            .settled_orbit(ImpactState::from_normalised(0.8, 1.3).expect("legal"), 4_000, 16, 1e-8)
+            .expect("no failure");
+        let known: Vec<_> = orbit
+            .and_then(|orbit| orbit.catching_radius(&map).map(|radius| (orbit, radius)))
+            .into_iter()
+            // The same orbit again, with more room: the first one that catches a start has it.
+            .flat_map(|(orbit, radius)| {
+                [radius, 1.5 * radius].map(|radius| KnownOrbit::new(orbit.clone(), radius).expect("legal"))
+            })
+            .collect();
+        let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
+        let grid =
+            Grid::new(Axis::new(0.0, 1.0, cells).expect("legal"), Axis::new(0.0, 3.0, cells).expect("legal"))
+                .expect("legal");
+        let basins = map.basins(grid, &known, settings, || ()).expect("no failure");
+        let mut counts = [0; 4];
+        for row in 0..cells {
+            for (column, &label) in basins.row(row).iter().enumerate() {
+                let start = ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
+                    .expect("legal");
+                let expected = map.basin_label(start, &known, settings).expect("no failure");
+                assert_eq!(label, expected, "Gamma {axial_forcing}: {start:?}");
+                counts[usize::from(label).min(3)] += 1;
+            }
+        }
+        counts
+    }
+
+    /// What docs/performance.md says of the memory of a thread.
+    #[test]
+    fn lanes_take_less_than_half_a_megabyte() {
+        let (started, share) = ((BATCHES + 1) * LANES, size_of::<Share<'_>>() + 2 * size_of::<usize>());
+        let lanes = (BATCHES + 1) * size_of::<Batch>() + size_of::<FlightScheduler>() + started * share;
+        assert!(lanes < 500_000, "{lanes}");
+    }
+
+    #[test]
+    fn lockstep_labels_are_those_of_single_orbits() {
+        for (axial_forcing, restitution) in
+            [(0.2, 0.5), (0.34, 0.5), (0.5, 0.5), (0.55, 0.5), (0.6, 0.5), (2.0, 0.8)]
+        {
+            let counts = compared(axial_forcing, restitution, 150, 300);
+            assert!(counts[usize::from(ATTACHED)] > 0, "Gamma {axial_forcing}: {counts:?}");
+        }
+    }
+
+    #[test]
+    fn starts_are_given_up_after_the_same_number_of_impacts() {
+        for max_impacts in [0, 1, 2, 7] {
+            let counts = compared(0.5, 0.5, 120, max_impacts);
+            assert!(counts[usize::from(UNDECIDED)] > 0, "{max_impacts}: {counts:?}");
+        }
+    }
+
+    #[test]
+    fn every_row_is_reported_once() {
+        use core::sync::atomic::{AtomicUsize, Ordering};
+        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
+        for (columns, rows) in [(1, 1), (3, 50), (70, 131), (3_000, 2)] {
+            for threads in [1, 2, 7] {
+                let axis = |high, cells| Axis::new(0.0, high, cells).expect("legal");
+                let grid = Grid::new(axis(1.0, columns), axis(2.0, rows)).expect("legal");
+                let done = AtomicUsize::new(0);
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts");
+                let labels = pool.install(|| {
+                    let settings = BasinSettings { max_impacts: 50, ..BasinSettings::default() };
+                    map.basins(grid, &[], settings, || _ = done.fetch_add(1, Ordering::Relaxed))
+                });
+                assert_eq!(labels.expect("no failure").labels().len(), columns * rows);
+                assert_eq!(done.into_inner(), rows, "{columns} by {rows}, {threads} threads");
+            }
+        }
+    }
+}

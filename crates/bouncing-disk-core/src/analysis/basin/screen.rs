@@ -1,0 +1,94 @@
+//! Which impacts of a batch decide the label of their start, as `ImpactMap::settles` finds it.
+
+use core::f64::consts::TAU;
+
+use pulp::{Simd, WithSimd};
+
+use super::{ATTACHED, Label};
+use crate::chatter::rest_proof::RestProof;
+use crate::lockstep::lanes::{Impacts, LANES, Lanes, Mask, lanes_of, mask};
+
+/// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
+const SLACK: f64 = 1.0e-9;
+
+/// An impact of a known orbit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Target {
+    pub(super) label: Label,
+    pub(super) angle: f64,
+    pub(super) velocity: f64,
+    pub(super) square_radius: f64,
+}
+
+/// The labels that the impacts of lanes decide, as `ImpactMap::settles` finds them.
+#[derive(Debug, Clone)]
+pub(super) struct Verdicts {
+    pub(super) labels: Mask,
+    /// Lanes left to `ImpactMap::settles`.
+    pub(super) doubtful: Mask,
+    either: Mask,
+    /// Lanes that are labelled or doubtful.
+    pub(super) settled: Lanes,
+}
+
+pub(super) struct Screen<'a> {
+    pub(super) impacts: &'a Impacts,
+    pub(super) targets: &'a [Target],
+    pub(super) proof: RestProof,
+    pub(super) peak: f64,
+    pub(super) restitution: f64,
+    pub(super) verdicts: &'a mut Verdicts,
+}
+
+impl WithSimd for Screen<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { impacts, targets, proof, peak, restitution, verdicts } = self;
+        find_rest(impacts, proof, restitution, verdicts);
+        // From the last one: the first known orbit that catches a state has it.
+        for target in targets.iter().rev() {
+            find_caught(impacts, *target, 1.0 / peak, verdicts);
+        }
+        for lane in 0..LANES {
+            verdicts.either[lane] = mask(verdicts.labels[lane] | verdicts.doubtful[lane] != 0);
+        }
+        verdicts.settled = lanes_of(&verdicts.either);
+    }
+}
+
+#[inline(always)]
+fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &mut Verdicts) {
+    for lane in 0..LANES {
+        let speed = -restitution * impacts.velocity[lane];
+        let (angle, sin, cos) = (impacts.angle[lane], impacts.sin[lane], impacts.cos[lane]);
+        let rests = mask(proof.is_certain(angle, sin, cos, speed));
+        verdicts.labels[lane] = rests & u64::from(ATTACHED);
+        verdicts.doubtful[lane] = mask(speed <= 0.0);
+    }
+}
+
+#[inline(always)]
+fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut Verdicts) {
+    let label = u64::from(target.label);
+    let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
+    // Chosen from copies: masked stores are slow.
+    let (labels, doubtful) = (verdicts.labels, verdicts.doubtful);
+    for lane in 0..LANES {
+        let turned = (impacts.angle[lane] - target.angle).abs();
+        let back = TAU - turned;
+        let phase = if turned < back { turned } else { back };
+        let velocity = (impacts.velocity[lane] - target.velocity) * inverse_peak;
+        let square = phase * phase + velocity * velocity;
+        let inside = mask(square < least);
+        verdicts.labels[lane] = (labels[lane] & !inside) | (label & inside);
+        verdicts.doubtful[lane] = doubtful[lane] | (mask(square <= most) & !inside);
+    }
+}
+
+impl Verdicts {
+    pub(super) const fn new() -> Self {
+        Self { labels: [0; LANES], doubtful: [0; LANES], either: [0; LANES], settled: Lanes::NONE }
+    }
+}

@@ -1,0 +1,456 @@
+//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability, period doubling.
+
+use core::f64::consts::{PI, TAU};
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use glam::DMat2;
+use roots::{Convergency, SearchError, find_root_brent};
+use serde::Serialize;
+
+use crate::chatter::accumulation::ChatterPolicy;
+use crate::error::{Error, within};
+use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::elementary::acos;
+use crate::platform::phase::Phase;
+use crate::platform::vibration::Vibration;
+
+/// Newton steps of the multiple shooting before it gives up.
+const MAX_NEWTON_STEPS: u32 = 50;
+
+/// A shooting residual (rad, units of g/omega, relative to the orbit's speeds) at which the orbit counts as found.
+const SHOOTING_RESIDUAL: f64 = 1.0e-12;
+
+/// The longest period searched for and refined.
+pub const MAX_PERIOD: usize = 4_096;
+
+/// A real number or a pair of conjugates: the two Floquet multipliers of an orbit of the 2-D impact map.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub enum Multipliers {
+    /// Two real multipliers, the one of larger modulus first.
+    Real(f64, f64),
+    /// A conjugate pair with this real part and this positive imaginary part.
+    Complex {
+        /// Real part.
+        real: f64,
+        /// Imaginary part, > 0.
+        imaginary: f64,
+    },
+}
+
+impl Multipliers {
+    /// The eigenvalues of a real 2x2 matrix, in closed form without cancellation.
+    #[must_use]
+    pub fn of(matrix: DMat2) -> Self {
+        let half_trace = 0.5 * (matrix.x_axis.x + matrix.y_axis.y);
+        let determinant = matrix.determinant();
+        let radicand = half_trace * half_trace - determinant;
+        if radicand < 0.0 {
+            return Self::Complex { real: half_trace, imaginary: (-radicand).sqrt() };
+        }
+        let large =
+            if half_trace >= 0.0 { half_trace + radicand.sqrt() } else { half_trace - radicand.sqrt() };
+        Self::Real(large, if large == 0.0 { 0.0 } else { determinant / large })
+    }
+
+    /// The larger modulus: the orbit attracts where it is below one.
+    #[must_use]
+    pub fn spectral_radius(&self) -> f64 {
+        match *self {
+            Self::Real(large, _) => large.abs(),
+            Self::Complex { real, imaginary } => (real * real + imaginary * imaginary).sqrt(),
+        }
+    }
+}
+
+/// A periodic orbit of the impact map.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PeriodicOrbit {
+    /// The impacts of one period of the orbit, in their order.
+    pub states: Vec<ImpactState>,
+    /// How many periods of the platform one period of the orbit takes.
+    pub platform_periods: u64,
+    /// The derivative of the map around the orbit, from its first impact.
+    pub monodromy: DMat2,
+}
+
+impl PeriodicOrbit {
+    /// Number of impacts in one period of the orbit.
+    #[must_use]
+    pub fn period(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The Floquet multipliers.
+    #[must_use]
+    pub fn multipliers(&self) -> Multipliers {
+        Multipliers::of(self.monodromy)
+    }
+
+    /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero where the orbit doubles its period.
+    #[must_use]
+    pub fn flip_function(&self) -> f64 {
+        1.0 + (self.monodromy.x_axis.x + self.monodromy.y_axis.y) + self.monodromy.determinant()
+    }
+}
+
+/// A step of the multiple shooting: the equations matrix * step = right for the changes of all impacts, the derivative of the
+/// map around the orbit, the turns of the phase, and the largest distance of an impact from its target.
+struct Shooting {
+    matrix: Mat<f64>,
+    right: Mat<f64>,
+    monodromy: DMat2,
+    turns: u64,
+    worst: f64,
+}
+
+/// A solution of the multiple shooting, unless it is a disk at rest.
+fn accepted(orbit: PeriodicOrbit) -> Result<PeriodicOrbit, Error> {
+    if let Some(index) = orbit.states.iter().position(|state| state.velocity() >= 0.0) {
+        return Err(Error::ImpactWithoutSpeed { index, phase: orbit.states[index].phase().angle() });
+    }
+    if orbit.platform_periods == 0 {
+        let speed = orbit.states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
+        return Err(Error::NoPlatformPeriods { impacts: orbit.states.len(), speed });
+    }
+    Ok(orbit)
+}
+
+/// The smaller way round the circle from `from` to `to`, in (-pi, pi].
+fn phase_difference(to: f64, from: f64) -> f64 {
+    let difference = to - from;
+    if difference > PI {
+        difference - TAU
+    } else if difference <= -PI {
+        difference + TAU
+    } else {
+        difference
+    }
+}
+
+impl ImpactMap {
+    /// The period-1 orbit with one impact every `platform_periods` >= 1 periods, in closed form:
+    /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
+    ///
+    /// Of the two phases the one in [0, pi/2] is returned: the other is always a saddle. Whether an earlier
+    /// impact forestalls the orbit is not checked: [`Self::refine`] does.
+    #[must_use]
+    pub fn period_one(&self, platform_periods: u64) -> Option<ImpactState> {
+        let k = platform_periods as f64;
+        let r = self.restitution();
+        let cosine = k * (1.0 - r) / ((1.0 + r) * self.vibration().axial_forcing());
+        if !(0.0..=1.0).contains(&cosine) {
+            return None;
+        }
+        let phase = Phase::of_angle(acos(cosine));
+        ImpactState::new(phase, -TAU * k / (1.0 + r)).ok()
+    }
+
+    /// The forcing Gamma_1 at which the period-1 orbit with one impact per period of the platform doubles its
+    /// period: sqrt(((1-r)/(1+r))^2 + (2 (1+r^2)/(pi (1+r)^2))^2).
+    #[must_use]
+    pub fn first_doubling_forcing(restitution: f64) -> f64 {
+        let r = restitution;
+        let sum = 1.0 + r;
+        let threshold = (1.0 - r) / sum;
+        let height = 2.0 * (1.0 + r * r) / (PI * sum * sum);
+        (threshold * threshold + height * height).sqrt()
+    }
+
+    /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from `state` repeats
+    /// itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if there is none or the disk comes
+    /// to rest (judged by [`ChatterPolicy::Complete`]).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`].
+    pub fn period_of(
+        &self,
+        state: ImpactState,
+        longest: usize,
+        tolerance: f64,
+    ) -> Result<Option<usize>, Error> {
+        within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)")?;
+        let mut states = vec![state];
+        let mut orbit = self.orbit(state, ChatterPolicy::Complete);
+        for _ in 0..2 * longest {
+            match orbit.advance()? {
+                Some(OrbitEvent::Impact(impact)) => states.push(impact.into()),
+                Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
+            }
+        }
+        let near = |a: &ImpactState, b: &ImpactState| {
+            phase_difference(a.phase().angle(), b.phase().angle()).abs() <= tolerance
+                && (a.velocity() - b.velocity()).abs() <= tolerance * (1.0 + a.velocity().abs())
+        };
+        Ok((1..=longest).find(|&n| {
+            states[..n].iter().zip(&states[n..]).all(|(a, b)| near(a, b)) && near(&states[0], &states[n])
+        }))
+    }
+
+    /// The periodic orbit next to `guess` (its impacts in order), by multiple shooting: every impact is an
+    /// unknown, so that long and unstable orbits converge.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if Newton's
+    /// iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] if it converges to a
+    /// disk at rest; those of [`Vibration::first_impact`].
+    pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        let n = guess.len();
+        within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        let mut states = guess.to_vec();
+        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(state.velocity().abs()));
+        let mut residual = f64::INFINITY;
+        // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
+        let mut found = None;
+        for iterations in 1..=MAX_NEWTON_STEPS {
+            let Shooting { matrix, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
+                Ok(shooting) => shooting,
+                Err(error) => return found.map_or(Err(error), accepted),
+            };
+            let orbit = || PeriodicOrbit { states: states.clone(), platform_periods: turns, monodromy };
+            // A step after the residual has stopped shrinking only stirs the rounding.
+            if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
+                return accepted(orbit());
+            }
+            if worst <= SHOOTING_RESIDUAL {
+                found = Some(orbit());
+            } else if let Some(found) = found {
+                return accepted(found);
+            }
+            residual = worst;
+            let step = matrix.partial_piv_lu().solve(&right);
+            let moved = states.iter().enumerate().map(|(i, state)| {
+                let angle = state.phase().angle() + step[(2 * i, 0)];
+                let velocity = (state.velocity() + step[(2 * i + 1, 0)]).min(0.0);
+                ImpactState::new(Phase::new(angle)?, velocity)
+            });
+            states = match moved.collect::<Result<_, _>>() {
+                Ok(states) => states,
+                Err(_) => {
+                    let singular = Error::NotSettled { what: "multiple shooting", iterations, residual };
+                    return found.map_or(Err(singular), accepted);
+                }
+            };
+        }
+        let error = Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual };
+        found.map_or(Err(error), accepted)
+    }
+
+    /// The equations of one step of the multiple shooting, and how far `states` are from an orbit.
+    fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
+        let n = states.len();
+        let mut shooting = Shooting {
+            matrix: Mat::zeros(2 * n, 2 * n),
+            right: Mat::zeros(2 * n, 1),
+            monodromy: DMat2::IDENTITY,
+            turns: 0,
+            worst: 0.0,
+        };
+        let mut turns = 0;
+        for (i, &state) in states.iter().enumerate() {
+            let impact = self.step(state)?;
+            let jacobian = self.jacobian(state, &impact);
+            shooting.monodromy = jacobian * shooting.monodromy;
+            turns += impact.turns as i64;
+            let j = (i + 1) % n;
+            let target = states[j];
+            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
+            let phase = phase_difference(landed, aimed);
+            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
+            if landed - aimed > PI {
+                turns += 1;
+            } else if aimed - landed > PI {
+                turns -= 1;
+            }
+            let velocity = impact.velocity - target.velocity();
+            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
+            // jacobian * d_i - d_j = -(residual)
+            for row in 0..2 {
+                for column in 0..2 {
+                    shooting.matrix[(2 * i + row, 2 * i + column)] += jacobian.col(column)[row];
+                }
+                shooting.matrix[(2 * i + row, 2 * j + row)] -= 1.0;
+            }
+            shooting.right[(2 * i, 0)] = -phase;
+            shooting.right[(2 * i + 1, 0)] = -velocity;
+        }
+        shooting.turns = turns.max(0) as u64;
+        Ok(shooting)
+    }
+
+    /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the period
+    /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by [`ChatterPolicy::Complete`]) or
+    /// shows no period.
+    ///
+    /// # Errors
+    /// Those of [`Self::refine`] and [`Self::period_of`].
+    pub fn settled_orbit(
+        &self,
+        state: ImpactState,
+        transient: usize,
+        longest: usize,
+        tolerance: f64,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        let Some(state) = self.state_after(state, transient, ChatterPolicy::Complete)? else {
+            return Ok(None);
+        };
+        let Some(period) = self.period_of(state, longest, tolerance)? else { return Ok(None) };
+        let mut guess = vec![state];
+        while guess.len() < period {
+            guess.push(self.step(guess[guess.len() - 1])?.into());
+        }
+        self.refine(&guess).map(Some)
+    }
+}
+
+/// A period doubling of the cascade that starts from the period-1 orbit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PeriodDoubling {
+    /// The forcing Gamma_n.
+    pub axial_forcing: f64,
+    /// Period (in impacts) of the orbit that loses its stability.
+    pub period: usize,
+    /// det(1 + monodromy) at the forcing found: what the search left.
+    pub residual: f64,
+}
+
+/// Root only where the function is exactly zero or the bracket a few neighbouring doubles.
+struct NeighbouringDoubles;
+
+impl Convergency<f64> for NeighbouringDoubles {
+    fn is_root_found(&mut self, y: f64) -> bool {
+        y == 0.0
+    }
+
+    fn is_converged(&mut self, x1: f64, x2: f64) -> bool {
+        (x1 - x2).abs() <= 4.0 * f64::EPSILON * x1.abs().max(x2.abs())
+    }
+
+    fn is_iteration_limit_reached(&mut self, iterations: usize) -> bool {
+        iterations > 200
+    }
+}
+
+/// The first `count` period doublings of the orbit with one impact per period, for `restitution` in (0, 1).
+///
+/// Each orbit is followed in the forcing, corrected by multiple shooting, until (1 + m1)(1 + m2) changes sign; the
+/// change of sign is refined by Brent's method. The doubled orbit is started along the direction that flips.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for the restitution or a count above 10 (rounding ends the cascade there);
+/// [`Error::NotSettled`] if a branch is lost.
+pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoubling>, Error> {
+    within("restitution", restitution, f64::MIN_POSITIVE, 1.0 - f64::EPSILON, "(0, 1)")?;
+    within("count", count as f64, 0.0, 10.0, "[0, 10]")?;
+    let map_at = |forcing: f64| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution);
+    let mut found: Vec<PeriodDoubling> = Vec::new();
+    let first = ImpactMap::first_doubling_forcing(restitution);
+    let threshold = (1.0 - restitution) / (1.0 + restitution);
+    // Where to start following, and the first step in the forcing.
+    let mut forcing = 0.5 * (first + threshold);
+    // Not a simple fraction: a step onto the doubling itself would have no sign to read.
+    let mut step = 0.27 * (first - threshold);
+    let seed = map_at(forcing)?.period_one(1).ok_or(Error::NotSettled {
+        what: "period-1 orbit",
+        iterations: 0,
+        residual: forcing,
+    })?;
+    let mut orbit = map_at(forcing)?.refine(&[seed])?;
+    while found.len() < count {
+        // Follow until the sign changes.
+        let mut steps = 0;
+        let (low, low_states, high) = loop {
+            let next_forcing = forcing + step;
+            match map_at(next_forcing)?.refine(&orbit.states) {
+                Ok(next) if next.flip_function() <= 0.0 => {
+                    break (forcing, orbit.states.clone(), next_forcing);
+                }
+                Ok(next) => {
+                    forcing = next_forcing;
+                    orbit = next;
+                }
+                Err(_) => step *= 0.5,
+            }
+            steps += 1;
+            if steps > 400 {
+                return Err(Error::NotSettled {
+                    what: "period-doubling branch",
+                    iterations: steps,
+                    residual: step,
+                });
+            }
+        };
+        let flip = |forcing: f64| {
+            map_at(forcing)
+                .and_then(|map| map.refine(&low_states))
+                .map_or(f64::NAN, |orbit| orbit.flip_function())
+        };
+        let at =
+            find_root_brent(low, high, flip, &mut NeighbouringDoubles).map_err(|error: SearchError| {
+                Error::NotSettled {
+                    what: match error {
+                        SearchError::NoConvergency => "search of a period doubling",
+                        SearchError::NoBracketing => "bracket of a period doubling",
+                        _ => "root of the flip function",
+                    },
+                    iterations: 200,
+                    residual: high - low,
+                }
+            })?;
+        let map = map_at(at)?;
+        orbit = map.refine(&low_states)?;
+        let period = orbit.period();
+        let doubling = PeriodDoubling { axial_forcing: at, period, residual: orbit.flip_function() };
+        // The next interval is about delta = 4.67 times shorter.
+        let interval = found.last().map_or(at - threshold, |last| at - last.axial_forcing);
+        found.push(doubling);
+        if found.len() == count {
+            break;
+        }
+        (forcing, orbit) = doubled_orbit(&map_at, &orbit, at, interval)?;
+        step = interval / 60.0;
+    }
+    Ok(found)
+}
+
+/// The orbit of twice the period a little beyond its birth at `at`, with its forcing.
+fn doubled_orbit(
+    map_at: &impl Fn(f64) -> Result<ImpactMap, Error>,
+    orbit: &PeriodicOrbit,
+    at: f64,
+    interval: f64,
+) -> Result<(f64, PeriodicOrbit), Error> {
+    let period = orbit.period();
+    // Just beyond the doubling the attractor is the doubled orbit; the iteration itself finds it.
+    for fraction in [0.06, 0.03, 0.1] {
+        let forcing = at + fraction * interval;
+        let map = map_at(forcing)?;
+        let Ok(unstable) = map.refine(&orbit.states) else { continue };
+        let start = unstable.states[0];
+        let nudged =
+            ImpactState::new(Phase::new(start.phase().angle() + 1.0e-4 * interval)?, start.velocity())?;
+        let settled = map.settled_orbit(nudged, 4_000 * period, 2 * period, 1.0e-7)?;
+        if let Some(doubled) = settled.filter(|doubled| doubled.period() == 2 * period) {
+            return Ok((forcing, doubled));
+        }
+    }
+    Err(Error::NotSettled { what: "doubled orbit", iterations: period as u32, residual: interval })
+}
+
+/// The distance of two impacts, in units where a radian and the speed `speed_scale` count alike.
+pub(crate) fn distance(a: ImpactState, b: ImpactState, speed_scale: f64) -> f64 {
+    let phase = phase_difference(a.phase().angle(), b.phase().angle());
+    let velocity = (a.velocity() - b.velocity()) / speed_scale;
+    (phase * phase + velocity * velocity).sqrt()
+}
+
+impl PeriodicOrbit {
+    /// The distance from `state` to the nearest impact of the orbit (a radian counts as much as the speed P).
+    #[must_use]
+    pub fn distance(&self, state: ImpactState, peak_acceleration: f64) -> f64 {
+        self.states
+            .iter()
+            .fold(f64::INFINITY, |least, &own| least.min(distance(state, own, peak_acceleration)))
+    }
+}

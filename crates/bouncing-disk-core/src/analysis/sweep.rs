@@ -1,0 +1,127 @@
+//! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed in lockstep.
+
+mod measures;
+mod runner;
+
+use core::f64::consts::TAU;
+use core::ops::ControlFlow;
+
+use serde::Serialize;
+
+use crate::chatter::accumulation::PAPER_SHORT_FLIGHT;
+use crate::error::Error;
+use crate::flight::first_impact::Impact;
+use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
+use crate::platform::phase::Phase;
+
+pub use measures::{MAX_RECORDED, lyapunov_exponents, orbit_diagram, survival_times};
+
+/// One event of an orbit of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum SweepEvent {
+    /// The disk hits the platform.
+    Impact(Landing),
+    /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
+    Attachment(Attachment),
+}
+
+/// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Landing {
+    /// The impact.
+    pub state: ImpactState,
+    /// How often the phase passed 0 (mod 2 pi) during the flight.
+    pub turns: u64,
+    /// The duration of the flight in radians, from the two phases: its absolute error is their rounding, where
+    /// [`Impact::remainder`] is accurate relative to itself, however short the flight.
+    pub duration: f64,
+}
+
+impl Landing {
+    #[inline(always)]
+    fn new(from: Phase, state: ImpactState, turns: u64) -> Self {
+        let ahead = state.phase().angle() - from.angle();
+        Self { state, turns, duration: turns as f64 * TAU + ahead }
+    }
+
+    /// The landing of an orbit that is advanced by itself.
+    #[inline(always)]
+    fn of(from: Option<Phase>, impact: Impact) -> Self {
+        // A disk that started in the air has no launch.
+        from.map_or(Self { state: impact.into(), turns: impact.turns, duration: impact.duration() }, |from| {
+            Self::new(from, impact.into(), impact.turns)
+        })
+    }
+
+    /// A duration that decides as the exact one does whether the paper counts the flight as short; `orbit` has not landed.
+    #[inline(always)]
+    fn decisive_duration(&self, orbit: &Orbit) -> f64 {
+        const THRESHOLD: f64 = PAPER_SHORT_FLIGHT * TAU;
+        // Far above the rounding of two phases; nearly never, so that the flight can be computed again.
+        const DOUBT: f64 = 1.0e-12;
+        if (self.duration - THRESHOLD).abs() < DOUBT
+            && let Some((phase, speed)) = orbit.launch()
+            && let Ok(impact) = orbit.map().vibration().impact_after(phase, speed)
+        {
+            return impact.duration();
+        }
+        self.duration
+    }
+}
+
+/// The next event of an orbit that is advanced by itself, as a sweep reports it.
+#[inline]
+fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
+    let from = orbit.launch().map(|(phase, _)| phase);
+    Ok(orbit.advance()?.map(|event| match event {
+        OrbitEvent::Impact(impact) => SweepEvent::Impact(Landing::of(from, impact)),
+        OrbitEvent::Attachment(stick) => SweepEvent::Attachment(stick),
+    }))
+}
+
+/// Follows many independent orbits, each until its visitor has seen enough or it ends, and returns what the visitors
+/// made of them, in the order of the orbits.
+///
+/// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
+/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel` the
+/// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
+/// change a bit.
+///
+/// An orbit that its visitor never breaks off and that never ends is followed for ever.
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepEvent, Vibration, sweep};
+///
+/// // How many impacts, up to a hundred, before a disk comes to rest, against the forcing.
+/// let start = ImpactState::from_normalised(0.8, 1.3)?;
+/// let orbits = (0..200)
+///     .map(|k| {
+///         let map = ImpactMap::new(Vibration::from_axial_forcing(0.3 + 1e-3 * f64::from(k))?, 0.5)?;
+///         Ok(map.orbit(start, ChatterPolicy::Complete))
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
+/// let lives = sweep(&orbits, |_| 0, |lived, event| match event {
+///     SweepEvent::Impact(_) if *lived < 100 => {
+///         *lived += 1;
+///         ControlFlow::Continue(())
+///     }
+///     _ => ControlFlow::Break(()),
+/// })?;
+/// assert!(lives[0] < 100 && lives[150] == 100);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// That of the first orbit, in their order, that has no next impact (see [`Orbit::advance`]).
+pub fn sweep<S: Send>(
+    orbits: &[Orbit],
+    start: impl Fn(usize) -> S + Sync,
+    visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
+) -> Result<Vec<S>, Error> {
+    runner::run(orbits, &start, &visit, crate::lockstep::lanes::InstructionSet::best())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,826 @@
+//! Chattering: infinitely many impacts in a finite time, and the two ways to end it.
+//!
+//! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
+//! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
+//! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
+//! coefficients satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
+//! The coefficients are derived in docs/numerics.md.
+
+use core::f64::consts::{PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use super::series::ChatterSeries;
+use crate::numerics::elementary::{CREST, sin_cos_bounded};
+use crate::platform::phase::Phase;
+use crate::platform::vibration::Vibration;
+
+/// What is done with the infinite sequence of impacts of a chattering disk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum ChatterPolicy {
+    /// The sequence is summed in closed form and the disk attaches at the accumulation point; only where a bound
+    /// shows that the platform pulls back all the way there.
+    #[default]
+    Complete,
+    /// The paper's cut (Sec. IV A): the disk is put on the platform as soon as the impact speed |w|/pi falls
+    /// below 1e-6, or after 20 consecutive flights shorter than 1e-4 of a period.
+    Paper,
+}
+
+/// The paper's smallest impact speed |w_A Gamma / (omega A)|.
+pub const PAPER_SMALLEST_SPEED: f64 = 1.0e-6;
+/// The paper's "short" flight, in periods.
+pub const PAPER_SHORT_FLIGHT: f64 = 1.0e-4;
+/// The paper's number of consecutive short flights.
+pub const PAPER_SHORT_FLIGHTS: u32 = 20;
+
+/// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
+/// doubles in [pi/2, pi].
+const COMPLETION_ERROR: f64 = 1.0e-16;
+
+/// Only slower launches than this may end within a rounding of the phase without a series.
+const LARGEST_NEGLIGIBLE_SPEED: f64 = 1.0e-30;
+
+/// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
+const LONGEST_COMPLETION: f64 = 1.0e-2;
+
+/// Largest expansion parameter of the series; its majorant needs it below 1/16.
+const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
+
+/// Factor of the majorant of what the truncated series leaves.
+const MAJORANT: f64 = 32.0;
+
+/// Share of the first launch speed at which the impacts of a chatter are no longer counted.
+pub(super) const LAST_SHARE: f64 = 1.0e-17;
+
+/// Largest restitution, and smallest launch speed, of a chatter whose impacts are gone through one by one: at most 7,600 of
+/// them, as the proof of [`window_holds_all`] leaves every launch less than 1 - (2/3)(1 - r) of the one before.
+pub(super) const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
+pub(super) const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
+
+/// Shares of its first value that the pull cannot leave in a chatter that is summed: 2/3 and 4/3, and rounding.
+const PULL_SHARES: (f64, f64) = (0.6, 1.4);
+
+/// Relative rounding of the bound in [`window_holds_every_impact`], with room to spare.
+const WINDOW_ROUNDING: f64 = 1.0e-14;
+
+/// The accumulation point of a chattering sequence.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Accumulation {
+    /// Time from the last impact to the accumulation point, in radians.
+    pub duration: f64,
+    /// Bound on the error of `duration` that the truncated series leaves, in radians.
+    pub error_bound: f64,
+    /// The accumulation phase.
+    pub phase: Phase,
+    /// 1 if the phase passed 0 (mod 2 pi) on the way, else 0.
+    pub turns: u64,
+}
+
+/// One impact of a chattering sequence, from the expansion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ChatterImpact {
+    /// Time since the impact that the sequence started from, in radians.
+    pub time: f64,
+    /// Impact speed |w_A| in units of g/omega.
+    pub speed: f64,
+    /// Phase pair (sin, cos) at this impact.
+    pub pair: (f64, f64),
+}
+
+impl Vibration {
+    /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0, or `None`
+    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau
+    /// that P and the carried pair give. Next to weightlessness one rounding of P or of the phase is another pull, and the
+    /// duration another one: that is the conditioning of the problem and not counted in the bound.
+    ///
+    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the phase has the
+    /// duration 0.
+    ///
+    /// `restitution` in [0, 1).
+    #[must_use]
+    #[inline]
+    pub fn accumulation(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
+        if self.bounces_on(phase, speed, restitution) {
+            return None;
+        }
+        let reach = self.contact_force(phase) * (1.0 - restitution);
+        // Also refuses a pull <= 0 and NaN.
+        let small = speed > 0.0 && speed <= 0.5 * LONGEST_COMPLETION * reach;
+        if !small || self.falls_away_at(phase.angle()) {
+            return self.at_rest(phase, speed, restitution);
+        }
+        self.accumulation_of_small(phase, speed, restitution, speed / reach)
+    }
+
+    /// Cheap refusal of the ordinary impact: whether a launch is too fast for [`Self::accumulation`] to exist.
+    #[inline(always)]
+    pub(crate) fn bounces_on(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
+        bounces_on(self.contact_force(phase), speed, restitution)
+    }
+
+    /// [`Self::accumulation`] for an expansion parameter `x` that is worth trying.
+    fn accumulation_of_small(
+        &self,
+        phase: Phase,
+        speed: f64,
+        restitution: f64,
+        x: f64,
+    ) -> Option<Accumulation> {
+        let expansion =
+            Expansion { pull: self.contact_force(phase), drift: self.velocity(phase), restitution };
+        let error_bound = expansion.error_bound(x)?;
+        if error_bound > COMPLETION_ERROR || !self.pulls_back_throughout(phase, speed, restitution, 2.0 * x) {
+            return None;
+        }
+        let duration = expansion.duration(speed);
+        let (angle, turns) = wrapped(phase.angle() + duration);
+        if self.peak_acceleration() > 1.0
+            && (duration >= self.time_to_separation(phase.angle()) || self.falls_away_at(angle))
+        {
+            return self.rests_until_separation(phase, speed);
+        }
+        Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
+    }
+
+    /// A chatter whose sum ends at the separation or behind it, as the pull that it was proven with is a rounding: the disk
+    /// rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to change the phase; else it bounces on.
+    #[cold]
+    fn rests_until_separation(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
+        (speed <= COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
+            duration: 0.0,
+            error_bound: COMPLETION_ERROR,
+            phase,
+            turns: 0,
+        })
+    }
+
+    /// A disk without relative speed is at rest at once, unless the platform falls away; and so is one whose chatter ends
+    /// before the phase has moved by a rounding.
+    #[inline]
+    fn at_rest(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
+        let rests = speed <= 0.0
+            || (speed <= LARGEST_NEGLIGIBLE_SPEED && self.ends_within_a_rounding(phase, speed, restitution));
+        (rests && !self.falls_away_at(phase.angle())).then_some(Accumulation {
+            duration: 0.0,
+            error_bound: if speed > 0.0 { COMPLETION_ERROR } else { 0.0 },
+            phase,
+            turns: 0,
+        })
+    }
+
+    /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may hop for ever where
+    /// the pull is a rounding and its flights are too short to change the phase (docs/numerics.md, section 4).
+    #[cold]
+    fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
+        let (peak, angle) = (self.peak_acceleration(), phase.angle());
+        let left = COMPLETION_ERROR * (1.0 - restitution);
+        // 1 - P sin tau from the distances to the phases where it vanishes, or to the crest: without cancellation.
+        let sine_of_half = |angle: f64| sin_cos_bounded(0.5 * angle).0;
+        let pull = if peak > 1.0 {
+            2.0 * peak
+                * sine_of_half(angle - self.separation_angle)
+                * sine_of_half(angle - self.retention_angle)
+        } else {
+            let half = sine_of_half(angle - CREST);
+            (1.0 - peak) + 2.0 * peak * (half * half)
+        };
+        phase.cos() <= 0.0
+            && (2.0 * speed <= left * pull
+                || 17.0 * speed <= (left * left) * -self.velocity(phase)
+                || 24.0 * speed <= (left * left) * (left * peak))
+    }
+
+    /// Proof that all impacts fall within 3/2 of the leading estimate: over that window the pull lies in
+    /// [least, most] > 0, so a flight lasts at most 2 w / least and returns at most sqrt(most/least) w.
+    fn pulls_back_throughout(&self, phase: Phase, speed: f64, restitution: f64, leading: f64) -> bool {
+        window_holds_all(
+            self.peak_acceleration(),
+            self.contact_force(phase),
+            self.velocity(phase),
+            speed,
+            restitution,
+            leading,
+        )
+    }
+
+    /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
+    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first one's
+    /// impulse or are launched with less than the smallest normal number.
+    ///
+    /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
+    /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.
+    pub fn chatter_impacts(
+        &self,
+        phase: Phase,
+        speed: f64,
+        restitution: f64,
+    ) -> impl Iterator<Item = ChatterImpact> + use<> {
+        let vibration = *self;
+        // Rounding to the nearest multiple of the smallest number keeps a launch that is next to it where it is.
+        let last_speed = (speed * LAST_SHARE).max(f64::MIN_POSITIVE);
+        let mut time = 0.0;
+        let mut pair = (phase.sin(), phase.cos());
+        let mut launch = speed;
+        // The proof of the window keeps the pull within a third of the first one; next to a separation a rounded pair may
+        // give another one, or none at all.
+        let first = self.contact_force(phase);
+        let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
+        core::iter::from_fn(move || {
+            // Not a number, too, comes to an end; nothing bounces where nothing pulls.
+            if !(launch > last_speed && first > 0.0) {
+                return None;
+            }
+            let peak = vibration.peak_acceleration();
+            let pull = (1.0 - peak * pair.0).max(least).min(most);
+            let expansion = Expansion { pull, drift: peak * pair.1, restitution };
+            let (flight, impact_speed) = expansion.flight(launch);
+            time += flight;
+            pair = sin_cos_bounded(phase.angle() + time);
+            launch = restitution * impact_speed;
+            Some(ChatterImpact { time, speed: impact_speed, pair })
+        })
+    }
+}
+
+/// [`Vibration::bounces_on`] against a pull.
+#[inline(always)]
+pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
+    (speed > LARGEST_NEGLIGIBLE_SPEED) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
+}
+
+/// Whether [`Vibration::accumulation`] is `None` for a launch with `speed` against `pull`, as far as that is cheap to say.
+///
+/// Beside the refusals of [`bounces_on`] those of most chatters whose series is still too inaccurate: with x as in
+/// [`Expansion::error_bound`] that bound is at least [`MAJORANT`] (P/pull) x^5, because |P sin| + |P cos| >= P.
+#[inline(always)]
+pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f64) -> bool {
+    let reach = pull * (1.0 - restitution);
+    let (speed2, reach2) = (speed * speed, reach * reach);
+    let least = (MAJORANT * peak * speed) * (speed2 * speed2);
+    // More than the bound by far more than the rounding of both.
+    let inaccurate = least > (1.000_001 * COMPLETION_ERROR) * (pull * reach) * (reach2 * reach2);
+    bounces_on(pull, speed, restitution) | (inaccurate & (speed > LARGEST_NEGLIGIBLE_SPEED))
+}
+
+/// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.
+#[inline(always)]
+fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f64, leading: f64) -> bool {
+    let window = 1.5 * leading;
+    let change = (drift.abs() + peak * window) * window;
+    if ChatterSeries::is_needed(speed, restitution) {
+        return window_holds_every_impact(pull, change, restitution);
+    }
+    let (least, most) = (pull - change, pull + change);
+    let ratio = restitution * (most / least).sqrt();
+    (least > 0.0) & (ratio < 1.0) & (2.0 * speed <= window * least * (1.0 - ratio))
+}
+
+/// [`window_holds_all`] where `1 - ratio` would cancel or the speed has lost digits: with the window 3 w/(a (1 - r)) the
+/// condition 2 w <= window least (1 - ratio) has no speed in it, and the root is taken of a number less 1.
+#[cold]
+fn window_holds_every_impact(pull: f64, change: f64, restitution: f64) -> bool {
+    let least = pull - change;
+    let spread = 2.0 * change / least;
+    let excess = spread / ((1.0 + spread).sqrt() + 1.0);
+    let lost = 1.0 - restitution;
+    (least > 0.0) & ((2.0 + WINDOW_ROUNDING) * (pull * lost) <= 3.0 * least * (lost - restitution * excess))
+}
+
+#[inline(always)]
+fn wrapped(angle: f64) -> (f64, u64) {
+    if angle >= TAU { (angle - TAU, 1) } else { (angle, 0) }
+}
+
+/// The power series in the launch speed, about an impact with pull a = 1 - P sin tau and drift b = P cos tau.
+#[derive(Clone, Copy)]
+pub(super) struct Expansion {
+    pub(super) pull: f64,
+    pub(super) drift: f64,
+    pub(super) restitution: f64,
+}
+
+impl Expansion {
+    /// Duration of the next flight and its impact speed, to the fourth order.
+    fn flight(&self, speed: f64) -> (f64, f64) {
+        let (a, b, w) = (self.pull, self.drift, speed);
+        let x = w / a;
+        let beta = b / a;
+        let gamma = (a - 1.0) / a;
+        let h = 2.0
+            * x
+            * (1.0
+                + x * ((2.0 / 3.0) * beta
+                    + x * ((3.0 * gamma + 8.0 * beta * beta) / 9.0
+                        + x * beta * (2.0 / 135.0) * ((66.0 * a - 75.0) / a + 100.0 * beta * beta))));
+        let u = w
+            * (1.0
+                - x * ((2.0 / 3.0) * beta
+                    + x * ((2.0 / 9.0) * (3.0 * gamma + 4.0 * beta * beta)
+                        + x * beta * (2.0 / 135.0) * ((93.0 * a - 120.0) / a + 100.0 * beta * beta))));
+        (h, u)
+    }
+
+    /// Time to the accumulation point, to the fourth order.
+    pub(super) fn duration(&self, speed: f64) -> f64 {
+        let r = self.restitution;
+        let a = self.pull;
+        let x = speed / (a * (1.0 - r));
+        let beta = self.drift / a;
+        let gamma = (a - 1.0) / a;
+        let beta2 = beta * beta;
+        let three = 1.0 + r * (1.0 + r);
+        let third =
+            (3.0 * gamma * (1.0 + r) * (1.0 + r) + beta2 * (8.0 + r * (12.0 + 8.0 * r))) / (9.0 * three);
+        // The fourth-order coefficient is a polynomial in r whose terms in a^2, a and b^2 are symmetric.
+        let symmetric =
+            |ends: f64, next: f64, middle: f64| ends + r * (next + r * (middle + r * (next + r * ends)));
+        let fourth = beta
+            * (symmetric(66.0, 204.0, 60.0) - symmetric(75.0, 240.0, 60.0) / a
+                + beta2 * symmetric(100.0, 260.0, 120.0))
+            * (2.0 / 135.0)
+            / ((1.0 + r * r) * three);
+        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * (third + x * fourth)))
+    }
+
+    /// Bound on what [`Self::duration`] omits: a majorant of the fifth-order term and what follows it, or `None` if the
+    /// expansion parameter is too large for the majorant.
+    fn error_bound(&self, x: f64) -> Option<f64> {
+        let beta = (self.drift / self.pull).abs();
+        let gamma = ((self.pull - 1.0) / self.pull).abs();
+        let kappa = 1.0 + beta + gamma.sqrt();
+        if x * kappa > LARGEST_EXPANSION_PARAMETER {
+            return None;
+        }
+        let x2 = x * x;
+        Some(MAJORANT * (beta + gamma) * (kappa * kappa * kappa) * (x2 * x2 * x))
+    }
+}
+
+/// Counts what the paper's cut needs to remember.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub(crate) struct ShortFlightCount(u32);
+
+impl ShortFlightCount {
+    /// No short flight yet.
+    pub(crate) const fn new() -> Self {
+        Self(0)
+    }
+
+    /// Whether the paper's rule puts the disk on the platform after an impact with this duration and speed.
+    #[inline]
+    pub(crate) fn attaches(&mut self, duration: f64, impact_speed: f64) -> bool {
+        self.0 = if duration < PAPER_SHORT_FLIGHT * TAU { self.0 + 1 } else { 0 };
+        let cut = impact_speed < PAPER_SMALLEST_SPEED * PI || self.0 >= PAPER_SHORT_FLIGHTS;
+        if cut {
+            self.0 = 0;
+        }
+        cut
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::spread;
+
+    /// Launches about the longest expansion parameter with which the bound may be small enough.
+    #[test]
+    fn chatters_that_surely_bounce_on_have_no_sum_yet() {
+        let (mut summed, mut refused, mut seen) = (0, 0, 0);
+        for k in 0..400_000 {
+            let vibration =
+                Vibration::new(libm::exp10(10.0 * spread(k, 0.754_877_666) - 6.0)).expect("legal");
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let restitution = 0.98 * spread(k, 0.414_213_562);
+            let (peak, pull) = (vibration.peak_acceleration(), vibration.contact_force(phase));
+            let longest = libm::pow(COMPLETION_ERROR * pull / (MAJORANT * peak), 0.2);
+            let speed = longest * (0.7 + 0.6 * spread(k, 0.618_033_99)) * (pull * (1.0 - restitution));
+            if pull <= 0.0 || bounces_on(pull, speed, restitution) {
+                continue;
+            }
+            let none = vibration.accumulation(phase, speed, restitution).is_none();
+            let surely = surely_bounces_on(peak, pull, speed, restitution);
+            assert!(none || !surely, "{vibration:?} {phase:?} {speed} {restitution}");
+            summed += u32::from(!none);
+            refused += u32::from(none);
+            seen += u32::from(surely);
+        }
+        assert!(summed > 1_000 && 5 * seen > 2 * refused, "{seen} of {refused}, not of {summed}");
+    }
+
+    /// One place for each of the three bounds: an ordinary pull, none that grows with the time, and none that grows with its square.
+    #[test]
+    fn what_ends_within_a_rounding_is_told_to_the_digit() {
+        for restitution in [0.0, 0.5, 1.0 - 1e-6] {
+            let left = COMPLETION_ERROR * (1.0 - restitution);
+            let calm = Vibration::new(0.5).expect("legal");
+            let falling = Phase::new(2.0).expect("finite");
+            let strong = Vibration::new(1.5).expect("legal");
+            let end = Phase::new(strong.retention_angle).expect("finite");
+            let just = Vibration::new(1.0).expect("legal");
+            let crest = Phase::from_parts(CREST, 1.0, 0.0);
+            for (vibration, phase, slowest) in [
+                (calm, falling, 0.5 * left * calm.contact_force(falling)),
+                (strong, end, left * left * -strong.velocity(end) / 17.0),
+                (just, crest, left * left * left / 24.0),
+            ] {
+                for (share, ends) in [(0.999_999, true), (1.000_001, false)] {
+                    let speed = share * slowest;
+                    assert_eq!(
+                        vibration.ends_within_a_rounding(phase, speed, restitution),
+                        ends,
+                        "{vibration:?} {restitution} {share}"
+                    );
+                }
+            }
+            // Before the crest the pull shrinks.
+            let rising = Phase::new(1.0).expect("finite");
+            assert!(!calm.ends_within_a_rounding(rising, f64::MIN_POSITIVE, restitution));
+        }
+    }
+
+    /// The pull is a rounding there, and so was the proof that the disk chatters to rest before: it attached at or behind the
+    /// separation, and rested for a period on a platform that fell away.
+    #[test]
+    fn no_chatter_ends_behind_the_separation() {
+        let (mut attached, mut at_once) = (0, 0);
+        for k in 0..200_000 {
+            // P from next to 1 on, and distances to the separation at which the pull is some roundings.
+            let excess = libm::exp10(9.0 * spread(k, 0.754_877_666) - 9.0);
+            let vibration = Vibration::new(1.0 + excess).expect("legal");
+            let separation = vibration.separation_phase().expect("separates").angle();
+            let slope = libm::sqrt(excess * (2.0 + excess));
+            let distance = f64::EPSILON / slope * libm::exp10(4.0 * spread(k, 0.569_840_29) - 2.0);
+            let fresh = Phase::new((separation - distance).max(0.0)).expect("finite");
+            let by = [0.0, 1.1e-16, -1.1e-16][k as usize % 3];
+            let phase = Phase::from_parts(fresh.angle(), fresh.sin() + by, fresh.cos());
+            let restitution = [0.5, 0.1, 0.99][k as usize / 3 % 3];
+            let pull = vibration.contact_force(phase).max(1e-17);
+            let speed = pull * distance * libm::exp10(-4.0 * spread(k, 0.414_213_562));
+            let Some(at) = vibration.accumulation(phase, speed, restitution) else { continue };
+            attached += 1;
+            at_once += u32::from(at.duration <= 0.0);
+            assert!(
+                at.duration < vibration.time_to_separation(phase.angle())
+                    && !vibration.falls_away_at(at.phase.angle()),
+                "{vibration:?} {phase:?} {speed:e} {restitution}: {at:?}"
+            );
+        }
+        assert!(attached > 10_000 && at_once > 10, "{attached} {at_once}");
+    }
+
+    /// Nothing pulls where the platform has just stopped to fall away: no flight follows, and the impacts had no end.
+    #[test]
+    fn impacts_come_to_an_end_where_nothing_pulls() {
+        let vibration = Vibration::new(1.0).expect("legal");
+        let phase = Phase::new(CREST.next_up()).expect("finite");
+        let at = vibration.accumulation(phase, 1e-60, 0.5).expect("rests");
+        assert!(at.duration <= 0.0 && vibration.contact_force(phase) <= 0.0);
+        assert_eq!(vibration.chatter_impacts(phase, 1e-60, 0.5).count(), 0);
+    }
+
+    /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the window.
+    fn window_holds_all_exactly(peak: f64, pull: f64, drift: f64, restitution: f64, x: f64) -> bool {
+        type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
+        let high = |x: f64| High::try_from(x).expect("finite").with_precision(500).value();
+        let (pull, r) = (high(pull), high(restitution));
+        let window = high(3.0) * high(x);
+        let change = (high(drift.abs()) + high(peak) * &window) * &window;
+        let (least, most) = (&pull - &change, &pull + &change);
+        if least <= high(0.0) {
+            return false;
+        }
+        let ratio = r * (most / &least).sqrt();
+        high(2.0) * high(x) * (high(1.0) - high(restitution)) * pull <= window * least * (high(1.0) - ratio)
+    }
+
+    #[test]
+    fn a_window_is_proven_where_the_ratio_of_launches_rounds_to_one() {
+        let (mut held, mut refused) = (0, 0);
+        for k in 0..20_000 {
+            let restitution =
+                [1.0 - 1e-3, 1.0 - 1e-9, 1.0 - f64::EPSILON, 1.0 - f64::EPSILON / 2.0][k as usize % 4];
+            let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 2.0);
+            let vibration = Vibration::new(peak).expect("legal");
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let (pull, drift) = (vibration.contact_force(phase), vibration.velocity(phase));
+            if pull <= 0.0 {
+                continue;
+            }
+            // About where the change of the pull over the window is what the restitution takes.
+            let bound = (1.0 - restitution) * pull / (9.0 * drift.abs());
+            let x = bound * libm::exp10(0.1 * spread(k, 0.414_213_562) - 0.05);
+            let speed = x * (pull * (1.0 - restitution));
+            let holds = window_holds_all(peak, pull, drift, speed, restitution, 2.0 * x);
+            assert!(
+                !holds || window_holds_all_exactly(peak, pull, drift, restitution, x),
+                "{peak} {phase:?} {restitution} {x:e}"
+            );
+            held += u32::from(holds);
+            refused += u32::from(!holds);
+        }
+        assert!(held > 5_000 && refused > 5_000, "{held} {refused}");
+    }
+
+    /// At ordinary restitutions the ratio of launches decides, not the least pull.
+    #[test]
+    fn a_window_is_proven_as_far_as_the_launches_shrink() {
+        let (mut held, mut refused) = (0, 0);
+        for k in 0..4_000 {
+            let restitution = [0.1, 0.3, 0.5, 0.8, 0.95][k as usize % 5];
+            let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 2.0);
+            let vibration = Vibration::new(peak).expect("legal");
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let (pull, drift) = (vibration.contact_force(phase), vibration.velocity(phase));
+            if pull <= 1e-3 * peak || drift.abs() <= 0.1 * peak {
+                continue;
+            }
+            // The share of the pull that changes within the window: up to all of it.
+            let x = pull / (3.0 * drift.abs()) * spread(k, 0.414_213_562);
+            let holds =
+                window_holds_all(peak, pull, drift, x * (pull * (1.0 - restitution)), restitution, 2.0 * x);
+            assert_eq!(
+                holds,
+                window_holds_all_exactly(peak, pull, drift, restitution, x),
+                "{peak} {phase:?} {restitution} {x:e}"
+            );
+            held += u32::from(holds);
+            refused += u32::from(!holds);
+        }
+        assert!(held > 100 && refused > 500, "{held} {refused}");
+    }
+
+    /// From the smallest number on, and next to separations, where the pull is a rounding: nothing that is summed is said
+    /// to bounce on, the sum comes before the separation, and the impacts end.
+    #[test]
+    fn the_slowest_chatters_come_to_an_end() {
+        let mut summed = 0;
+        for k in 0..60_000_u32 {
+            let peak = [0.0, 1e-9, 0.5, 1.0, 1.000_000_267_196_965_4, 2.0, 197.39, 1e8][k as usize % 8];
+            let vibration = Vibration::new(peak).expect("legal");
+            let angle = match vibration.separation_phase() {
+                Some(at) if k % 3 > 0 => at.angle() * (1.0 - libm::exp10(-16.0 * spread(k, 0.754_877_666))),
+                _ => TAU * spread(k, 0.754_877_666),
+            };
+            let exact = Phase::new(angle).expect("finite");
+            // A carried pair is off by up to a rounding.
+            let off = |by: f64| 1.1e-16 * (spread(k, by) * 3.0 - 1.5);
+            let phase = Phase::from_parts(angle, exact.sin() + off(0.33), exact.cos() + off(0.77));
+            let restitution =
+                [1e-300, 0.3, 0.5, 0.7246, 0.99, 1.0 - 1e-7, 1.0 - f64::EPSILON / 2.0][k as usize / 8 % 7];
+            let speed = libm::exp10(-323.3 * libm::pow(spread(k, 0.618_033_99), 0.3)).max(f64::from_bits(1));
+            let (pull, sum) =
+                (vibration.contact_force(phase), vibration.accumulation(phase, speed, restitution));
+            let Some(sum) = sum else { continue };
+            summed += 1;
+            assert!(
+                !surely_bounces_on(peak, pull, speed, restitution),
+                "{peak} {phase:?} {speed:e} {restitution}"
+            );
+            assert!(sum.duration >= 0.0 && sum.duration < 2.0 * LONGEST_COMPLETION);
+            assert!(
+                !vibration.falls_away_at(sum.phase.angle()),
+                "{peak} {phase:?} {speed:e} {restitution} {sum:?} {pull:e}"
+            );
+            if restitution <= LARGEST_COUNTED_RESTITUTION {
+                let impacts = vibration.chatter_impacts(phase, speed, restitution).take(8_000).count();
+                assert!(impacts < 7_600, "{impacts} {peak} {phase:?} {speed:e} {restitution}");
+            }
+            if speed < 1e-290 && ChatterSeries::is_needed(speed, restitution) {
+                let series = vibration.chatter_series(phase, speed, restitution);
+                assert_eq!(series.duration().to_bits(), sum.duration.to_bits());
+                assert!(series.impacts_by(sum.duration).is_none());
+            }
+        }
+        assert!(summed > 20_000, "{summed}");
+    }
+
+    /// Arithmetic of 160 bits: what the expansion leaves is far above its rounding, and far below that of doubles.
+    type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
+
+    fn high(x: f64) -> High {
+        High::try_from(x).expect("finite").with_precision(160).value()
+    }
+
+    fn low(x: &High) -> f64 {
+        x.to_f64().value()
+    }
+
+    /// 1 - cos h and h - sin h of a short h, as their power series.
+    fn versine_and_deficit(h: &High) -> (High, High) {
+        let square = h * h;
+        let (mut term, mut versine, mut deficit) = (high(1.0), high(0.0), high(0.0));
+        for k in 1..10 {
+            term = -(term * &square) / high(f64::from((2 * k - 1) * (2 * k)));
+            versine -= &term;
+            deficit -= &term * h / high(f64::from(2 * k + 1));
+        }
+        (versine, deficit)
+    }
+
+    /// A chatter followed flight by flight in high precision, from the gap itself: it knows nothing of the expansion.
+    struct Bounces {
+        /// P sin and P cos of the phase of the last impact.
+        sine: High,
+        cosine: High,
+    }
+
+    impl Bounces {
+        fn from(expansion: &Expansion) -> Self {
+            Self { sine: high(1.0) - high(expansion.pull), cosine: high(expansion.drift) }
+        }
+
+        /// Duration and impact speed of the flight after a launch with this speed.
+        fn fly(&mut self, launch: &High) -> (High, High) {
+            let pull = high(1.0) - &self.sine;
+            let mut h = high(2.0) * launch / pull;
+            loop {
+                let (versine, deficit) = versine_and_deficit(&h);
+                let gap = &h * (launch - &h / high(2.0)) + &self.sine * &versine + &self.cosine * &deficit;
+                let slope = launch - &h + &self.cosine * &versine + &self.sine * (&h - &deficit);
+                let ratio = &gap / &h;
+                // Newton's step on gap/h.
+                let step = &gap / (&slope - &ratio);
+                if low(&step).abs() <= 1e-36 * low(&h) {
+                    let sin_h = &h - &deficit;
+                    let sine = &self.sine - &self.sine * &versine + &self.cosine * &sin_h;
+                    self.cosine = &self.cosine - &self.cosine * &versine - &self.sine * &sin_h;
+                    self.sine = sine;
+                    return (h, -slope);
+                }
+                h -= step;
+            }
+        }
+
+        /// Time to the accumulation point after a launch with this speed.
+        fn duration(mut self, speed: f64, restitution: f64) -> High {
+            let (mut launch, mut time) = (high(speed), high(0.0));
+            while low(&launch) > 1e-20 * speed {
+                let (flight, impact_speed) = self.fly(&launch);
+                time += flight;
+                launch = impact_speed * high(restitution);
+            }
+            // What is left, to its first order.
+            time + high(2.0) * launch / ((high(1.0) - self.sine) * (high(1.0) - high(restitution)))
+        }
+    }
+
+    /// Pulls about 1 (where the platform is in the middle of its stroke), weak and strong ones, and drifts of both signs.
+    fn expansions() -> impl Iterator<Item = Expansion> {
+        [
+            (1.0, 0.75),
+            (1.0, -1.5),
+            (0.5, 0.5),
+            (0.625, -1.0),
+            (2.5, 1.25),
+            (3.0, -4.0),
+            (1.75, 0.0),
+            (0.0625, 3.0),
+            (0.001_953_125, 32.0),
+        ]
+        .into_iter()
+        .flat_map(|(pull, drift)| {
+            [0.125, 0.5, 0.8125].map(|restitution| Expansion { pull, drift, restitution })
+        })
+    }
+
+    /// 1 + |b|/a + sqrt(|a - 1|/a): the growth of the coefficients from one order to the next.
+    fn growth(expansion: &Expansion) -> f64 {
+        let Expansion { pull, drift, .. } = *expansion;
+        1.0 + (drift / pull).abs() + ((pull - 1.0) / pull).abs().sqrt()
+    }
+
+    /// What a series to the fourth order leaves is of the fifth: half the speed leaves a thirty-second of it. One unit
+    /// less in one coefficient would leave a sixteenth.
+    #[test]
+    fn the_sum_is_exact_to_the_fourth_order() {
+        for expansion in expansions() {
+            let restitution = expansion.restitution;
+            let x = libm::ldexp(1.0, -10) / growth(&expansion);
+            let speed = x * (expansion.pull * (1.0 - restitution));
+            let left = |speed: f64| {
+                low(&(Bounces::from(&expansion).duration(speed, restitution)
+                    - high(expansion.duration(speed))))
+            };
+            let bound = expansion.error_bound(x).expect("small");
+            let (whole, half) = (left(speed), left(0.5 * speed));
+            let odd = (whole - 32.0 * half) / bound;
+            assert!(odd.abs() <= 1e-3, "{odd} of the bound");
+        }
+    }
+
+    #[test]
+    fn a_flight_is_exact_to_the_fourth_order() {
+        for expansion in expansions() {
+            let x = libm::ldexp(1.0, -9) / growth(&expansion);
+            let left = |speed: f64| {
+                let (flight, impact_speed) = Bounces::from(&expansion).fly(&high(speed));
+                let (own_flight, own_speed) = expansion.flight(speed);
+                [low(&(flight - high(own_flight))), low(&(impact_speed - high(own_speed))) / expansion.pull]
+            };
+            let bound = expansion.error_bound(x).expect("small");
+            let (whole, half) = (left(x * expansion.pull), left(0.5 * x * expansion.pull));
+            for (whole, half) in whole.into_iter().zip(half) {
+                let odd = (whole - 32.0 * half) / bound;
+                assert!(odd.abs() <= 1e-3, "{odd} of the bound");
+            }
+        }
+    }
+
+    /// The majorant holds up to the largest expansion parameter, and is not idle: what is left comes near to it.
+    #[test]
+    fn the_error_bound_is_above_the_error_and_of_its_size() {
+        let mut largest = 0.0_f64;
+        for expansion in expansions() {
+            let growth = growth(&expansion);
+            let x = (1.0 - 1e-9) / (32.0 * growth);
+            assert!(expansion.error_bound(x * (1.0 + 2e-9)).is_none(), "too large for the majorant");
+            for x in [x, 0.5 * x] {
+                let speed = x * (expansion.pull * (1.0 - expansion.restitution));
+                let exact = Bounces::from(&expansion).duration(speed, expansion.restitution);
+                let left = low(&(exact - high(expansion.duration(speed)))).abs();
+                let share = left / expansion.error_bound(x).expect("small enough");
+                assert!(share <= 1.0, "{share}");
+                largest = largest.max(share);
+            }
+        }
+        assert!(largest > 0.3, "{largest}");
+    }
+
+    /// Where the platform falls away is told by the phase, not by the force, which rounds there.
+    #[test]
+    fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
+        let mut pulled_off = 0;
+        for k in 1..10_000 {
+            let vibration = Vibration::new(1.0 + 20.0 * spread(k, 0.754_877_666)).expect("legal");
+            let below = f64::from_bits(vibration.separation_angle.to_bits() - 1);
+            for (angle, rests) in [
+                (below, true),
+                (vibration.separation_angle, false),
+                (f64::from_bits(vibration.retention_angle.to_bits() - 1), false),
+                (vibration.retention_angle, true),
+            ] {
+                let phase = Phase::new(angle).expect("finite");
+                let at_rest = Accumulation { duration: 0.0, error_bound: 0.0, phase, turns: 0 };
+                assert_eq!(vibration.accumulation(phase, 0.0, 0.5), rests.then_some(at_rest), "{angle}");
+                pulled_off += u32::from(rests && vibration.contact_force(phase) < 0.0);
+            }
+        }
+        assert!(pulled_off > 100, "{pulled_off}");
+    }
+
+    /// A chatter that ends behind phase 0 has passed it once.
+    #[test]
+    fn an_accumulation_point_is_wrapped_into_the_period() {
+        let below = f64::from_bits(TAU.to_bits() - 1);
+        assert_eq!((wrapped(TAU), wrapped(below)), ((0.0, 1), (below, 0)));
+        let vibration = Vibration::new(0.5).expect("legal");
+        let phase = Phase::new(TAU - 1e-6).expect("finite");
+        let sum = vibration.accumulation(phase, 1e-6, 0.5).expect("chatters to rest");
+        assert!((sum.duration - 4e-6).abs() < 1e-10 && sum.turns == 1, "{sum:?}");
+        assert!((sum.phase.angle() - (sum.duration - 1e-6)).abs() < 1e-15, "{sum:?}");
+    }
+
+    /// The impacts go on until a hundred-quadrillionth of the first impulse is left, and no longer.
+    #[test]
+    fn impacts_of_a_chatter_are_followed_to_1e_17_of_the_first() {
+        let vibration = Vibration::new(0.5).expect("legal");
+        let phase = Phase::new(1.0).expect("finite");
+        let (speed, restitution) = (1e-4, 0.5);
+        let impacts: Vec<_> = vibration.chatter_impacts(phase, speed, restitution).collect();
+        let launches: Vec<_> = impacts.iter().map(|impact| restitution * impact.speed / speed).collect();
+        let (last, before) = launches.split_last().expect("some");
+        assert!(*last <= 1e-17 && before.iter().all(|launch| *launch > 1e-17), "{launches:?}");
+    }
+
+    /// A still platform makes the series exact at once: only what stays visible, a hundredth of a radian, decides there.
+    #[test]
+    fn visible_bounces_of_a_still_platform_are_not_summed() {
+        let phase = Phase::new(1.0).expect("finite");
+        let sum = |longest: f64| Vibration::still().accumulation(phase, 0.5 * longest * (1.0 - 0.25), 0.25);
+        assert!(sum(0.01 * (1.0 + 1e-12)).is_none());
+        let longest = sum(0.01 * (1.0 - 1e-12)).expect("short enough");
+        assert!((longest.duration - 0.01).abs() < 1e-13 && longest.error_bound.abs() <= 0.0, "{longest:?}");
+    }
+
+    /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
+    #[test]
+    fn the_cut_of_the_paper_is_where_the_paper_says() {
+        let (short, fast) = (1e-4 * TAU, 1e-6 * PI);
+        let below = |x: f64| f64::from_bits(x.to_bits() - 1);
+        let mut count = ShortFlightCount::new();
+        assert!(!count.attaches(1.0, fast) && count.attaches(1.0, below(fast)));
+        // The first of each twenty after anything else counts anew.
+        for _ in 0..2 {
+            assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
+            assert!(count.attaches(below(short), 1.0), "the twentieth");
+        }
+        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
+        assert!(!count.attaches(short, 1.0), "not shorter");
+        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
+        assert!(count.attaches(1.0, 0.0), "too slow");
+        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)), "the cut starts the count again");
+    }
+}

@@ -1,0 +1,182 @@
+//! Cheap tests that spare a search: certain when they answer, silent otherwise.
+
+use crate::flight::gap::{CrestForm, SHORT_FLIGHT};
+use crate::platform::crests::CLEAR;
+
+/// T^2/6, rounded down, and T^3/24, rounded up by more than what the former may lack, for the half radian T of
+/// [`SHORT_FLIGHT`]: the shares of the drift P cos and of P in the gap over its time.
+const DRIFT_SHARE: f64 = 0.0416;
+const BEND_SHARE: f64 = 0.0053;
+
+/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
+/// a radian the pull is at most its value at launch, less its drift, plus the curvature of the platform
+/// (docs/numerics.md, section 9).
+#[inline(always)]
+pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
+    let pull = 1.0 - sine;
+    let pull = if pull > 0.0 { pull } else { 0.0 };
+    let late = (0.5 * SHORT_FLIGHT) * pull - DRIFT_SHARE * cosine;
+    // The pull of a disk that is about to separate is strongest before half a radian.
+    let early = (0.25 * SHORT_FLIGHT) * pull;
+    speed < (if late > early { late } else { early }) + BEND_SHARE * peak
+}
+
+/// The speed, negative, with which a disk comes down to the height of the crests; not a number where it stays below.
+///
+/// `disk_speed` is that at launch, from `depth` below the crests.
+#[inline(always)]
+pub(crate) fn arc_speed(disk_speed: f64, depth: f64) -> f64 {
+    -(disk_speed * disk_speed - 2.0 * depth).sqrt()
+}
+
+/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,
+/// though others may, too.
+///
+/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive even where the
+/// tangents at both ends meet, below which a convex function cannot lie.
+#[inline(always)]
+pub(crate) fn clears_by_tangents(
+    peak: f64,
+    separation_speed: f64,
+    (inflection, at_inflection): (f64, f64),
+    (crest, at_crest): (f64, f64),
+    disk_speed: f64,
+) -> bool {
+    let first = (disk_speed - inflection) - separation_speed;
+    let last = disk_speed - crest;
+    let lowest = CrestForm::lowest_of_tangents(at_inflection, at_crest, first, last, crest - inflection);
+    let falls_or_rises = clears(first, peak) | clears(-last, peak);
+    clears(at_inflection, peak) & clears(at_crest, peak) & (falls_or_rises | clears(lowest, peak))
+}
+
+/// Whether a gap or a relative speed is positive beyond any rounding.
+#[inline(always)]
+pub(crate) fn clears(gap: f64, peak: f64) -> bool {
+    gap > CLEAR * (1.0 + peak)
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::TAU;
+
+    use super::*;
+    use crate::flight::first_impact::Launch;
+    use crate::flight::gap::LaunchForm;
+    use crate::numerics::elementary::{CREST, sin_cos};
+    use crate::platform::phase::Phase;
+    use crate::platform::vibration::Vibration;
+    use crate::testing::spread;
+
+    fn vibration(k: u32) -> Vibration {
+        Vibration::new(libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0)).expect("legal")
+    }
+
+    #[test]
+    fn no_short_flight_is_missed() {
+        let (mut short, mut spared) = (0, 0);
+        for k in 0..100_000 {
+            let vibration = vibration(k);
+            let (p, phase) =
+                (vibration.peak_acceleration(), Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite"));
+            // Around the bounds of those that return at once and of those about to separate.
+            let pull = (1.0 - p * phase.sin()).max(0.0);
+            let share = spread(k, 0.618_033_99);
+            let speed = match k % 3 {
+                0 => 0.25 * SHORT_FLIGHT * (1.0 + p) * (1.0 + share),
+                1 => (0.5 * SHORT_FLIGHT * pull + 0.01 * p) * libm::exp10(-2.0 * share),
+                _ => 0.375 * pull * pull / (p * phase.cos().abs()) * (0.8 + 0.3 * share),
+            };
+            // Nothing leaves a platform that is about to catch up with it without speed.
+            if !(speed > 0.0 && speed.is_finite()) {
+                continue;
+            }
+            let (sine, cosine) = (p * phase.sin(), p * phase.cos());
+            if may_return_soon(p, sine, cosine, speed) {
+                let launch = Launch::new(phase, speed).expect("legal");
+                let flight = vibration.first_impact(launch).expect("lands");
+                short += u32::from(flight.duration() <= SHORT_FLIGHT);
+            } else {
+                let form = LaunchForm { angle: phase.angle(), peak: p, speed, sine, cosine };
+                for step in 1..=100 {
+                    let t = SHORT_FLIGHT * f64::from(step) / 100.0;
+                    assert!(form.gap(t) > 0.0, "{vibration:?} {phase:?} {speed} {t}");
+                }
+                spared += 1;
+            }
+        }
+        assert!(short > 10_000 && spared > 10_000, "{short} {spared}");
+    }
+
+    /// Launches of all phases and speeds: none that is certain to clear the first crest touches the platform before it, unless
+    /// within half a radian; and most of those that clear it are certain.
+    #[test]
+    fn a_crest_that_is_surely_cleared_is_cleared() {
+        let (mut certain, mut hit, mut doubtful) = (0, 0, 0);
+        for k in 0..60_000 {
+            let vibration = vibration(k);
+            let p = vibration.peak_acceleration();
+            let phase = Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite");
+            let speed = (1.0 + p) * libm::exp10(2.0 * spread(k, 0.618_033_99) - 1.5);
+            let (sine, cosine) = (p * phase.sin(), p * phase.cos());
+            let disk_speed = speed + cosine;
+            let arc_speed = arc_speed(disk_speed, p - sine);
+            let ahead = CREST - phase.angle();
+            let crest = if ahead > 0.0 { ahead } else { ahead + TAU };
+            let form = LaunchForm { angle: phase.angle(), peak: p, speed, sine, cosine };
+            if vibration.crests.surely_cleared(p, phase.angle(), disk_speed, arc_speed) {
+                certain += 1;
+                // A short flight is found before anybody asks for the crest.
+                if may_return_soon(p, sine, cosine, speed) {
+                    continue;
+                }
+                for step in 0..=200 {
+                    let t = SHORT_FLIGHT + (crest - SHORT_FLIGHT) * f64::from(step) / 200.0;
+                    assert!(form.gap(t) > 0.0, "{vibration:?} {phase:?} {speed} {t}");
+                }
+            } else {
+                let flight =
+                    vibration.first_impact(Launch::new(phase, speed).expect("legal")).expect("lands");
+                hit += u32::from(flight.duration() <= crest);
+                doubtful += u32::from(flight.duration() > crest);
+            }
+        }
+        assert!(certain > 20_000 && hit > 20_000 && doubtful < certain / 5, "{certain} {hit} {doubtful}");
+    }
+
+    #[test]
+    fn no_dip_is_missed() {
+        let (mut certain, mut hit) = (0, 0);
+        for k in 0..20_000 {
+            let vibration = vibration(k);
+            let p = vibration.peak_acceleration();
+            if p <= 1.0 {
+                continue;
+            }
+            // Disks that are about as fast as the platform at its fastest, launched before the separation.
+            let angle = vibration.separation_angle - 0.5 * TAU * spread(k, 0.569_840_29);
+            let (sin, cos) = sin_cos(angle);
+            let disk_speed = p * (0.8 + 0.6 * spread(k, 0.618_033_99));
+            if disk_speed <= p * cos {
+                continue;
+            }
+            let form = CrestForm { peak: p, angle, speed: disk_speed, depth: p - p * sin };
+            let inflection = vibration.separation_angle - angle;
+            let crest = CREST - angle;
+            let ends = (
+                (inflection, form.gap_over(vibration.separation_depth, inflection)),
+                (crest, form.gap_over(0.0, crest)),
+            );
+            if !clears_by_tangents(p, vibration.separation_speed, ends.0, ends.1, disk_speed) {
+                hit += 1;
+                continue;
+            }
+            certain += 1;
+            for step in 0..=200 {
+                let t = inflection + (crest - inflection) * f64::from(step) / 200.0;
+                let platform_depth = p - p * sin_cos(angle + t).0;
+                assert!(form.gap_over(platform_depth, t) > 0.0, "{vibration:?} {angle} {disk_speed}");
+            }
+        }
+        assert!(certain > 500 && hit > 500, "{certain} {hit}");
+    }
+}

@@ -1,0 +1,623 @@
+//! The gap between disk and platform in three forms, each without cancellation where it is used, and the search
+//! of a root that is known to be the only one in its window.
+
+use crate::error::Error;
+use crate::numerics::elementary::{
+    rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
+};
+use crate::platform::vibration::Vibration;
+
+/// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
+pub(crate) const SHORT_FLIGHT: f64 = 0.5;
+
+/// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
+/// is below twice the seventh power, 4e-17 rad.
+const LAST_STEP: f64 = 4.0e-3;
+
+/// Relative size of the last Newton step on gap/h: what it leaves is its square.
+const LAST_SHORT_STEP: f64 = 1.0e-9;
+
+/// Evaluations after which the search reports [`Error::NoConvergence`]; bisection alone needs about 60.
+const MAX_EVALUATIONS: u32 = 200;
+
+/// Evaluations after which a search may be a graze, where the gap is flat and series do not converge.
+const PATIENCE: u32 = 8;
+
+/// A flight this brief (rad) or briefer is 2 w/(1 - P sin tau) long, to all digits: the terms of a further evaluation would
+/// underflow.
+pub(crate) const BRIEFEST: f64 = 1.0e-290;
+
+/// Evaluations after which the search of a short flight bisects the logarithm of the time: a root tens of decades below the
+/// bracket's end is not come near by halving it.
+const PATIENCE_OF_SCALE: u32 = 64;
+
+/// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
+const GAP_ROUNDING: f64 = 4.5e-16;
+
+/// A window in time with exactly one root, the gap falling through it.
+#[derive(Clone, Copy)]
+pub(crate) struct Bracket {
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+}
+
+impl Bracket {
+    /// A time between both ends that halves the number of doubles between them, give or take: what bisection needs where the
+    /// root may be any number of decades below the upper end. At most 12 steps lead to within a factor of two.
+    pub(crate) fn geometric_middle(self) -> f64 {
+        let arithmetic = 0.5 * (self.lo + self.hi);
+        // The bits of positive doubles are in their order.
+        let (lo, hi) = (self.lo.max(0.0).to_bits(), self.hi.max(0.0).to_bits());
+        let middle = f64::from_bits(lo + hi.saturating_sub(lo) / 2);
+        if middle > self.lo && middle < self.hi { middle } else { arithmetic }
+    }
+}
+
+/// An impact in the time of its gap form, with the phase pair and the relative velocity.
+#[derive(Clone, Copy)]
+pub(crate) struct Root {
+    pub(crate) time: f64,
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+    pub(crate) velocity: f64,
+    pub(crate) evaluations: u32,
+}
+
+/// The gap and its derivatives at one time; the fourth derivative is -`platform`, the fifth -`third`.
+#[derive(Clone, Copy)]
+pub(crate) struct GapTaylor {
+    pub(crate) gap: f64,
+    pub(crate) slope: f64,
+    pub(crate) curvature: f64,
+    /// P cos: the third derivative.
+    pub(crate) third: f64,
+    /// P sin: the platform's height.
+    pub(crate) platform: f64,
+}
+
+impl GapTaylor {
+    /// Whether the gap falls and the series reversal of [`Self::last_step`] reaches the root from here.
+    ///
+    /// With the Newton step x = gap/slope: |x| (1 + |curvature/slope|) and x^2 (|third| + |platform|)/|slope| are small;
+    /// terms of the third order and above are bounded by the latter. Multiplied out, because a division takes long.
+    #[inline(always)]
+    pub(crate) fn is_near_root(&self) -> bool {
+        let (gap, fall) = (self.gap.abs(), -self.slope);
+        let square = fall * fall;
+        let bent = gap * (fall + self.curvature.abs()) <= LAST_STEP * square;
+        let third = (gap * gap) * (self.third.abs() + self.platform.abs())
+            <= (1.5 * LAST_STEP * LAST_STEP) * (square * fall);
+        bent & third & (fall > 0.0)
+    }
+
+    /// Whether [`Self::is_near_root`] holds for certain, which takes half the time: both of its conditions follow from
+    /// |x| (1 + (|curvature| + (|third| + |platform|)/6)/|slope|) being small, and the sum is at most sqrt(2) `peak`.
+    #[inline(always)]
+    pub(crate) fn is_surely_near_root(&self, peak: f64) -> bool {
+        let fall = -self.slope;
+        let fall = if fall > 0.0 { fall } else { 0.0 };
+        self.gap.abs() * (fall + (self.curvature.abs() + 0.24 * peak)) < (0.999 * LAST_STEP) * (fall * fall)
+    }
+
+    /// What the root of the quadratic model takes the square root of.
+    #[inline(always)]
+    pub(crate) fn radicand(&self) -> f64 {
+        self.slope * self.slope - 2.0 * self.gap * self.curvature
+    }
+
+    /// The step to the root of the quadratic model, given the square `root` of its radicand, with the sign that does
+    /// not cancel.
+    #[inline(always)]
+    pub(crate) fn quadratic_step(&self, root: f64) -> f64 {
+        -2.0 * self.gap / (self.slope - root)
+    }
+
+    /// The quadratic step `d` improved by one Newton step on the polynomial of the sixth order, whose quadratic part
+    /// has the slope -`root` there.
+    #[inline(always)]
+    pub(crate) fn corrected_step(&self, d: f64, root: f64) -> f64 {
+        let correction = self.correction(d, root);
+        if correction.abs() < 0.5 * d.abs() { d + correction } else { d }
+    }
+
+    /// [`Self::corrected_step`] with a mask in place of a selection; the same but for the sign of zero.
+    #[inline(always)]
+    pub(crate) fn corrected_step_of_lane(&self, d: f64, root: f64) -> f64 {
+        let correction = self.correction(d, root);
+        d + if correction.abs() < 0.5 * d.abs() { correction } else { 0.0 }
+    }
+
+    #[inline(always)]
+    fn correction(&self, d: f64, root: f64) -> f64 {
+        let (third, platform) = (self.third, self.platform);
+        let d2 = d * d;
+        let rest = (d2 * d)
+            * (((1.0 / 6.0) * third - (1.0 / 24.0) * (platform * d))
+                - d2 * ((1.0 / 120.0) * third - (1.0 / 720.0) * (platform * d)));
+        let rest_slope = d2 * ((0.5 * third - (1.0 / 6.0) * (platform * d)) - d2 * ((1.0 / 24.0) * third));
+        rest / (root - rest_slope)
+    }
+
+    /// The step from a point near the root to the root, by series reversal to the sixth order.
+    #[inline(always)]
+    pub(crate) fn last_step(&self) -> f64 {
+        let inverse = 1.0 / self.slope;
+        self.reverted(-(self.gap * inverse), inverse)
+    }
+
+    /// The step d with gap + slope d + curvature d^2/2 + ... = 0, given the Newton step `z` = -gap/slope and
+    /// `inverse` = 1/slope.
+    #[inline(always)]
+    pub(crate) fn reverted(&self, z: f64, inverse: f64) -> f64 {
+        let a2 = 0.5 * self.curvature * inverse;
+        let a3 = (1.0 / 6.0) * self.third * inverse;
+        let a4 = (-1.0 / 24.0) * self.platform * inverse;
+        let a5 = (-1.0 / 120.0) * self.third * inverse;
+        let b = a2 * a2;
+        let c3 = 2.0 * b - a3;
+        let c4 = a2 * (5.0 * (a3 - b)) - a4;
+        let c5 = (6.0 * a2 * a4 + 3.0 * a3 * a3) + (b * (14.0 * b - 21.0 * a3) - a5);
+        let z2 = z * z;
+        z + z2 * ((c3 * z - a2) + z2 * (c4 + c5 * z))
+    }
+}
+
+/// A way to evaluate the gap.
+pub(crate) trait GapForm: Copy {
+    /// Gap and derivatives at time `t` from the form's reference, with sine and cosine of the phase there.
+    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64));
+    /// Relative velocity at `t`, where the phase has this cosine.
+    fn velocity(&self, t: f64, cos: f64) -> f64;
+    /// Bound on the rounding error of the gap at `t`.
+    fn rounding(&self, t: f64) -> f64;
+
+    /// The root in `bracket`, which must hold exactly one, the gap falling through it, from a first `guess`.
+    ///
+    /// Each step is the root of the quadratic model with the next two terms as a correction, kept inside the
+    /// shrinking bracket by bisection; the last one is the sixth-order series reversal, whose smallness criterion
+    /// bounds what it leaves.
+    #[inline(always)]
+    fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
+        let mut t = guess;
+        let mut used = evaluations;
+        loop {
+            let (jet, (sin, cos)) = self.jet(t);
+            used += 1;
+            let GapTaylor { gap, slope, .. } = jet;
+            if jet.is_near_root() {
+                let delta = jet.last_step();
+                let time = t + delta;
+                let (sin, cos) = rotated(sin, cos, delta);
+                return Ok(Root { time, sin, cos, velocity: self.velocity(time, cos), evaluations: used });
+            }
+            if gap > 0.0 {
+                bracket.lo = t;
+            } else {
+                bracket.hi = t;
+            }
+            if used >= evaluations + PATIENCE && self.is_settled(bracket, t, gap) {
+                let velocity = if slope < 0.0 { slope } else { 0.0 };
+                return Ok(Root { time: t, sin, cos, velocity, evaluations: used });
+            }
+            if used >= MAX_EVALUATIONS {
+                return Err(Error::NoConvergence { evaluations: used, time: t, gap });
+            }
+            let radicand = jet.radicand();
+            let step = if radicand > 0.0 {
+                let root = radicand.sqrt();
+                jet.corrected_step(jet.quadratic_step(root), root)
+            } else {
+                -(gap * (1.0 / slope))
+            };
+            let next = t + step;
+            t = if slope < 0.0 && next > bracket.lo && next < bracket.hi {
+                next
+            } else {
+                0.5 * (bracket.lo + bracket.hi)
+            };
+        }
+    }
+
+    /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known to
+    /// its conditioning limit.
+    #[cold]
+    fn is_settled(&self, bracket: Bracket, t: f64, gap: f64) -> bool {
+        gap.abs() <= self.rounding(t) || bracket.hi - bracket.lo <= 4.0 * f64::EPSILON * (1.0 + bracket.hi)
+    }
+
+    /// A time in (`lo`, `hi`) where the gap is not positive, or `None` if there is none: the piece must be convex,
+    /// with a slope that changes from negative to positive.
+    ///
+    /// Newton steps on the slope approach the minimum; the tangents, which a convex function never crosses, end
+    /// the search as soon as they prove that it is positive.
+    #[cold]
+    fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
+        let mut t = 0.5 * (lo + hi);
+        loop {
+            let (GapTaylor { gap, slope, curvature, .. }, _) = self.jet(t);
+            *evaluations += 1;
+            if gap <= 0.0 {
+                return Some(t);
+            }
+            let far = if slope < 0.0 { hi } else { lo };
+            if gap + slope * (far - t) > 0.0 {
+                return None;
+            }
+            if slope < 0.0 {
+                lo = t;
+            } else {
+                hi = t;
+            }
+            let next = t - slope / curvature;
+            let next = if next > lo && next < hi { next } else { 0.5 * (lo + hi) };
+            // The gap is flat at its minimum: an error d in time costs d^2 in the gap.
+            if hi - lo <= 1.0e-9 || *evaluations >= MAX_EVALUATIONS {
+                return None;
+            }
+            t = next;
+        }
+    }
+}
+
+/// The gap counted from the platform's crest, P [1 - sin(angle + t)] - depth + t (speed - t/2): nothing large
+/// cancels however long the disk has been flying before t = 0.
+#[derive(Clone, Copy)]
+pub(crate) struct CrestForm {
+    pub(crate) peak: f64,
+    pub(crate) angle: f64,
+    /// Disk speed (not relative) at t = 0.
+    pub(crate) speed: f64,
+    /// Disk depth below the crest at t = 0.
+    pub(crate) depth: f64,
+}
+
+impl CrestForm {
+    /// Gap at a time whose platform depth below the crest, P (1 - sin), is known in closed form.
+    #[inline(always)]
+    pub(crate) fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
+        (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
+    }
+
+    /// Where the tangents at both ends of a convex piece of length `end` meet: the gap lies above it.
+    #[inline(always)]
+    pub(crate) fn lowest_of_tangents(gap: f64, gap_at_end: f64, first: f64, last: f64, end: f64) -> f64 {
+        let meet = (gap - gap_at_end + last * end) / (last - first);
+        gap + first * meet
+    }
+
+    /// Gap and derivatives at `t`, where the phase has this pair.
+    #[inline(always)]
+    pub(crate) fn jet_of_pair(&self, t: f64, sin: f64, cos: f64) -> GapTaylor {
+        let platform = self.peak * sin;
+        let third = self.peak * cos;
+        GapTaylor {
+            gap: ((self.peak - platform) - self.depth) + t * (self.speed - 0.5 * t),
+            slope: (self.speed - t) - third,
+            curvature: platform - 1.0,
+            third,
+            platform,
+        }
+    }
+}
+
+impl GapForm for CrestForm {
+    #[inline(always)]
+    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64)) {
+        let (sin, cos) = sin_cos_bounded(self.angle + t);
+        (self.jet_of_pair(t, sin, cos), (sin, cos))
+    }
+
+    #[inline(always)]
+    fn velocity(&self, t: f64, cos: f64) -> f64 {
+        (self.speed - t) - self.peak * cos
+    }
+
+    fn rounding(&self, t: f64) -> f64 {
+        GAP_ROUNDING * (2.0 * self.peak + self.depth.abs() + t * (self.speed.abs() + t))
+    }
+}
+
+/// The gap counted from the launch, w t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]: accurate relative
+/// to its own terms, for flights that stay low.
+#[derive(Clone, Copy)]
+pub(crate) struct LaunchForm {
+    pub(crate) angle: f64,
+    pub(crate) peak: f64,
+    /// Relative launch speed w.
+    pub(crate) speed: f64,
+    /// P sin tau and P cos tau at launch.
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+}
+
+impl LaunchForm {
+    /// 1 - cos t and sin t, each in relative accuracy.
+    #[inline(always)]
+    fn versine_and_sine(t: f64) -> (f64, f64) {
+        Self::versine_and_sine_of_half(sin_cos_bounded(0.5 * t))
+    }
+
+    /// 1 - cos t and sin t from the pair of t/2.
+    #[inline(always)]
+    pub(crate) fn versine_and_sine_of_half((half_sin, half_cos): (f64, f64)) -> (f64, f64) {
+        (2.0 * half_sin * half_sin, 2.0 * half_sin * half_cos)
+    }
+
+    /// The gap alone.
+    pub(crate) fn gap(&self, t: f64) -> f64 {
+        self.gap_of(t, Self::versine_and_sine(t))
+    }
+
+    /// The relative velocity.
+    pub(crate) fn slope(&self, t: f64) -> f64 {
+        self.slope_of(t, Self::versine_and_sine(t))
+    }
+
+    /// The gap at `t`, with 1 - cos t and sin t known.
+    #[inline(always)]
+    pub(crate) fn gap_of(&self, t: f64, (versine, sin_t): (f64, f64)) -> f64 {
+        t * (self.speed - 0.5 * t) + (self.sine * versine + self.cosine * sine_deficit(t, sin_t))
+    }
+
+    /// The relative velocity at `t`, with 1 - cos t and sin t known.
+    #[inline(always)]
+    pub(crate) fn slope_of(&self, t: f64, (versine, sin_t): (f64, f64)) -> f64 {
+        (self.speed - t) + (self.cosine * versine + self.sine * sin_t)
+    }
+
+    /// Gap and derivatives at `t`, with the pair of the phase there, and 1 - cos t and sin t, known.
+    #[inline(always)]
+    pub(crate) fn jet_of_pairs(&self, t: f64, (sin, cos): (f64, f64), of_time: (f64, f64)) -> GapTaylor {
+        let platform = self.peak * sin;
+        GapTaylor {
+            gap: self.gap_of(t, of_time),
+            slope: self.slope_of(t, of_time),
+            curvature: platform - 1.0,
+            third: self.peak * cos,
+            platform,
+        }
+    }
+}
+
+impl GapForm for LaunchForm {
+    #[inline(always)]
+    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64)) {
+        let pair = sin_cos_bounded(self.angle + t);
+        (self.jet_of_pairs(t, pair, Self::versine_and_sine(t)), pair)
+    }
+
+    fn velocity(&self, t: f64, _cos: f64) -> f64 {
+        self.slope(t)
+    }
+
+    fn rounding(&self, t: f64) -> f64 {
+        let (versine, sin_t) = Self::versine_and_sine(t);
+        let sides = self.sine.abs() * versine + self.cosine.abs() * sine_deficit(t, sin_t);
+        GAP_ROUNDING * (t * (self.speed + 0.5 * t) + sides)
+    }
+}
+
+/// A launch that is [brief](is_brief) is no faster than this, whatever pulls the disk back: less than 1 + P.
+pub(crate) const FASTEST_BRIEF: f64 = BRIEFEST * Vibration::MAX_PEAK_ACCELERATION;
+
+/// Whether a launch with `speed` against `pull` returns within [`BRIEFEST`].
+#[inline(always)]
+pub(crate) fn is_brief(speed: f64, pull: f64) -> bool {
+    speed < 0.5 * BRIEFEST * pull
+}
+
+/// gap(h)/h for h up to [`SHORT_FLIGHT`], in relative accuracy: the launch itself is divided out.
+#[derive(Clone, Copy)]
+pub(crate) struct ShortForm {
+    pub(crate) speed: f64,
+    /// P sin tau and P cos tau at launch.
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+    /// 1 - P sin tau: what pulls the disk back at launch.
+    pub(crate) pull: f64,
+}
+
+impl ShortForm {
+    /// (gap(h)/h, relative velocity at h).
+    #[inline(always)]
+    pub(crate) fn at(&self, h: f64) -> (f64, f64) {
+        let shortfall = versine_shortfall(h);
+        let deficit = sine_deficit_ratio(h);
+        let h2 = h * h;
+        // sin tau (1 - cos h)/h is split at 1/2 so that P sin tau = 1 cancels exactly.
+        let ratio =
+            self.speed - h * (0.5 * self.pull + self.sine * (h2 * shortfall)) + self.cosine * (h2 * deficit);
+        let versine = 0.5 - h2 * shortfall;
+        let velocity =
+            self.speed - h * self.pull + (self.cosine * (h2 * versine) - self.sine * (h2 * h * deficit));
+        (ratio, velocity)
+    }
+
+    /// The gap's second derivative at h.
+    #[inline(always)]
+    pub(crate) fn curvature(&self, h: f64) -> f64 {
+        let h2 = h * h;
+        let sin_h = h - h2 * h * sine_deficit_ratio(h);
+        (self.cosine * sin_h - self.pull) - self.sine * (h2 * versine_ratio(h))
+    }
+
+    /// Whether what this Newton step leaves is below rounding.
+    #[inline(always)]
+    pub(crate) fn is_last(step: f64, h: f64, slope: f64) -> bool {
+        (step.abs() <= LAST_SHORT_STEP * h) & (slope < 0.0)
+    }
+
+    /// The relative velocity a last `step` behind `h`, where it is `velocity`; not positive.
+    #[inline(always)]
+    pub(crate) fn impact_velocity(&self, h: f64, velocity: f64, step: f64) -> f64 {
+        let impact = velocity + self.curvature(h) * step;
+        if impact < 0.0 { impact } else { 0.0 }
+    }
+
+    /// The first flight of a chattering sequence, from the expansion in the launch speed.
+    #[inline(always)]
+    pub(crate) fn expected(&self) -> f64 {
+        let inverse = 1.0 / self.pull;
+        let x = self.speed * inverse;
+        let beta = self.cosine * inverse;
+        // (a - 1)/a with a - 1 = -P sin tau.
+        let gamma = -self.sine * inverse;
+        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * ((1.0 / 3.0) * gamma + (8.0 / 9.0) * (beta * beta))))
+    }
+
+    /// The root in (0, `end`) of a flight that starts in a concave piece which reaches to `end`: gap/h has at most
+    /// one there, so the one that Newton's iteration finds is the first. `None` if it does not find one at once.
+    #[inline(always)]
+    pub(crate) fn root_in_first_piece(&self, end: f64, evaluations: &mut u32) -> Option<(f64, f64)> {
+        let mut h = self.expected();
+        for _ in 0..4 {
+            if !(h > 0.0 && h < end) {
+                return None;
+            }
+            let (ratio, velocity) = self.at(h);
+            *evaluations += 1;
+            let slope = velocity - ratio;
+            let step = -ratio * h / slope;
+            if Self::is_last(step, h, slope) {
+                return Some((h + step, self.impact_velocity(h, velocity, step)));
+            }
+            h += step;
+        }
+        None
+    }
+
+    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
+    pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
+        let mut h = 0.5 * (bracket.lo + bracket.hi);
+        let before = *evaluations;
+        loop {
+            let (ratio, velocity) = self.at(h);
+            *evaluations += 1;
+            if ratio > 0.0 {
+                bracket.lo = h;
+            } else {
+                bracket.hi = h;
+            }
+            let slope = velocity - ratio;
+            let step = -ratio * h / slope;
+            let next = h + step;
+            if Self::is_last(step, h, slope) {
+                return Ok((next, self.impact_velocity(h, velocity, step)));
+            }
+            if bracket.hi - bracket.lo <= 2.0 * f64::EPSILON * bracket.hi || bracket.hi <= f64::from_bits(1) {
+                return Ok((h, velocity.min(0.0)));
+            }
+            if *evaluations >= MAX_EVALUATIONS {
+                return Err(Error::NoConvergence { evaluations: *evaluations, time: h, gap: ratio * h });
+            }
+            h = if *evaluations - before >= PATIENCE_OF_SCALE {
+                bracket.geometric_middle()
+            } else if slope < 0.0 && next > bracket.lo && next < bracket.hi {
+                next
+            } else {
+                0.5 * (bracket.lo + bracket.hi)
+            };
+        }
+    }
+
+    /// A time in (`lo`, `hi`) where the gap is not positive, or `None`: as [`GapForm::dip`], by bisection.
+    #[cold]
+    pub(crate) fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
+        while hi - lo > 1.0e-9 * hi && *evaluations < MAX_EVALUATIONS {
+            let middle = 0.5 * (lo + hi);
+            *evaluations += 1;
+            let (ratio, slope) = self.at(middle);
+            let gap = ratio * middle;
+            if gap <= 0.0 {
+                return Some(middle);
+            }
+            let far = if slope < 0.0 { hi } else { lo };
+            if gap + slope * (far - middle) > 0.0 {
+                return None;
+            }
+            if slope < 0.0 {
+                lo = middle;
+            } else {
+                hi = middle;
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::spread;
+
+    /// Jets of gaps of every size, above platforms of every strength.
+    fn jets() -> impl Iterator<Item = (f64, GapTaylor)> {
+        (0..400_000).map(|k| {
+            let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0);
+            let (sin, cos) = sin_cos_bounded(core::f64::consts::TAU * spread(k, 0.569_840_29));
+            let slope = (1.0 + peak) * (0.2 - 2.0 * spread(k, 0.618_033_99));
+            let gap =
+                slope * libm::exp10(-4.0 * spread(k, 0.819_172_513)) * if k % 2 == 0 { 1.0 } else { -1.0 };
+            let (platform, third) = (peak * sin, peak * cos);
+            (peak, GapTaylor { gap, slope, curvature: platform - 1.0, third, platform })
+        })
+    }
+
+    #[test]
+    fn a_root_that_is_surely_near_is_near() {
+        let (mut surely, mut near) = (0, 0);
+        for (peak, jet) in jets() {
+            assert!(!jet.is_surely_near_root(peak) || jet.is_near_root());
+            surely += u32::from(jet.is_surely_near_root(peak));
+            near += u32::from(jet.is_near_root());
+        }
+        assert!(near > 100_000 && surely > near - near / 10, "{surely} of {near}");
+        // A gap that does not fall has no root ahead, however small it is.
+        let flat = GapTaylor { gap: 0.0, slope: 0.0, curvature: -1.0, third: 0.0, platform: 0.0 };
+        assert!(!flat.is_near_root() && !flat.is_surely_near_root(1.0));
+    }
+
+    /// At the largest gap of either sign that the quick test accepts, where its two estimates are nearly equalities: on a still
+    /// platform for the first condition, for the second about P = sqrt(2) and 45 degrees, where the curvature vanishes.
+    #[test]
+    fn the_quick_test_is_right_up_to_its_limit() {
+        let mut limits = 0;
+        for k in 0..20_000 {
+            let still = k % 4 == 0;
+            let peak = if still { 0.0 } else { 1.3 + 0.25 * spread(k, 0.754_877_666) };
+            let (sin, cos) = sin_cos_bounded(0.65 + 0.3 * spread(k, 0.569_840_29));
+            let slope = if still { -10.0 } else { -0.2 - 0.3 * spread(k, 0.618_033_99) };
+            let (platform, third) = (peak * sin, peak * cos);
+            let jet = |gap: f64| GapTaylor { gap, slope, curvature: platform - 1.0, third, platform };
+            let (mut accepted, mut refused) = (0.0, 1.0);
+            while refused - accepted > 1e-12 * refused {
+                let middle = 0.5 * (accepted + refused);
+                if jet(middle).is_surely_near_root(peak) {
+                    accepted = middle;
+                } else {
+                    refused = middle;
+                }
+            }
+            assert!(
+                jet(accepted).is_near_root() && jet(-accepted).is_near_root(),
+                "{peak} {slope} {accepted}"
+            );
+            // Not idle: nearly all that is near is accepted.
+            limits += u32::from(!jet(1.06 * accepted).is_near_root());
+        }
+        assert!(limits > 1_000, "{limits}");
+    }
+
+    #[test]
+    fn steps_of_lanes_are_those_of_single_flights() {
+        let mut corrected = 0;
+        for (_, jet) in jets() {
+            let root = jet.radicand().sqrt();
+            let step = jet.quadratic_step(root);
+            let (alone, lane) = (jet.corrected_step(step, root), jet.corrected_step_of_lane(step, root));
+            assert!(alone.to_bits() == lane.to_bits() || (alone.is_nan() && lane.is_nan()), "{alone} {lane}");
+            corrected += u32::from(alone.to_bits() != step.to_bits() && !alone.is_nan());
+        }
+        assert!(corrected > 100_000, "{corrected}");
+    }
+}

@@ -1,0 +1,271 @@
+//! Sorts launches by the kind of flight that follows; each kind is computed together, in stages.
+
+mod queue;
+mod stages;
+
+use super::above::{Fly, Work};
+use super::classify::{Classify, Kinds};
+use super::fallen::{AwaitingSearch, FallingPlatform};
+use super::low::{Low, Verdicts};
+use super::platform::{Platform, PlatformLanes, Platforms};
+use super::search::{Search, Times};
+use super::short::Short;
+use super::{
+    Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
+};
+use crate::error::Error;
+use crate::flight::first_impact::FASTEST_ARC;
+use queue::Queue;
+
+/// What flights are computed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and nobody asks how long
+    /// a flight takes. Launches that are set are ignored.
+    Orbits,
+    /// Launches that are set; the impacts get their turns and durations.
+    Launches,
+}
+
+/// Computes the flights of batches of lanes.
+#[derive(Debug, Clone)]
+pub(crate) struct FlightScheduler {
+    dispatch: Dispatch,
+    /// Whether the purpose is [`Purpose::Launches`].
+    timed: bool,
+    kinds: Kinds,
+    work: Work,
+    slow: Queue<Short>,
+    low: Queue<Low>,
+    dips: Queue<Low>,
+    above: Queue<Arcs>,
+    fallen: Queue<AwaitingSearch>,
+    low_search: Search<Low>,
+    fallen_search: Search<AwaitingSearch>,
+    verdicts: Verdicts,
+    dip_verdicts: Verdicts,
+    behind: FallingPlatform,
+    /// Windows: flights of one kind are added to another while their own are read.
+    low_windows: Times,
+    dip_windows: Times,
+    fallen_windows: Times,
+    /// The platforms of `low` and of `above`, unless all lanes share one.
+    low_platforms: Platforms,
+    above_platforms: Platforms,
+    slow_impacts: Impacts,
+    low_impacts: Impacts,
+    above_impacts: Impacts,
+    fallen_impacts: Impacts,
+    hard: Vec<Who>,
+}
+
+impl FlightScheduler {
+    /// Flights computed with these instructions.
+    pub(crate) fn new(set: InstructionSet, purpose: Purpose) -> Self {
+        Self {
+            dispatch: Dispatch::new(set),
+            timed: purpose == Purpose::Launches,
+            kinds: Kinds::new(),
+            work: Work::new(),
+            slow: Queue::new(Short::new()),
+            low: Queue::new(Low::new()),
+            dips: Queue::new(Low::new()),
+            above: Queue::new(Arcs::new()),
+            fallen: Queue::new(AwaitingSearch::new()),
+            low_search: Search::new(Low::new()),
+            fallen_search: Search::new(AwaitingSearch::new()),
+            verdicts: Verdicts::new(),
+            dip_verdicts: Verdicts::new(),
+            behind: FallingPlatform::new(),
+            low_windows: Times::new(),
+            dip_windows: Times::new(),
+            fallen_windows: Times::new(),
+            low_platforms: Platforms::new(),
+            above_platforms: Platforms::new(),
+            slow_impacts: Impacts::new(),
+            low_impacts: Impacts::new(),
+            above_impacts: Impacts::new(),
+            fallen_impacts: Impacts::new(),
+            hard: Vec::new(),
+        }
+    }
+
+    /// Runs other loops over lanes with the same instructions.
+    pub(crate) const fn dispatch(&self) -> Dispatch {
+        self.dispatch
+    }
+
+    /// Computes the impacts of the first `lanes` launches of the batches together; `failed` is told of each lane that has
+    /// none, and whose impact is then meaningless.
+    pub(crate) fn fly(&mut self, batches: &mut [Batch], lanes: usize, mut failed: impl FnMut(usize, Error)) {
+        self.hard.clear();
+        let shared = shared_platform(batches);
+        for number in 0..lanes.div_ceil(LANES).min(batches.len()) {
+            batches[number].turn();
+            self.fly_batch(batches, number, (lanes - number * LANES).min(LANES), shared);
+        }
+        self.fly_slow(batches, shared);
+        self.fly_low(batches, shared);
+        self.settle_dips(batches, shared);
+        self.search_low(batches, 0);
+        self.fly_above(batches, shared);
+        self.fly_fallen(batches);
+        self.search_fallen(batches, 0);
+        // In the order of the lanes, so that the first failure does not depend on how flights were collected.
+        self.hard.sort_unstable_by_key(|who| (who.batch, who.lane));
+        for &who in &self.hard {
+            let (lane, batch) = (who.lane as usize, &mut batches[who.batch as usize]);
+            match batch.vibrations[lane].impact_after(batch.launch_phase(lane), batch.speed[lane]) {
+                Ok(impact) => batch.impacts_mut().set(lane, &impact),
+                Err(error) => failed(who.batch as usize * LANES + lane, error),
+            }
+        }
+        #[cfg(debug_assertions)]
+        self.assert_clocks(batches, lanes);
+    }
+
+    /// Asserts that the velocities at both ends of the flights agree with their turns and durations. Debug builds only.
+    #[cfg(debug_assertions)]
+    fn assert_clocks(&self, batches: &[Batch], lanes: usize) {
+        if !self.timed {
+            return;
+        }
+        for number in 0..lanes {
+            // The impact of a lane that failed means nothing; such lanes are among the hard ones.
+            let (batch, lane) = (&batches[number / LANES], number % LANES);
+            let who = Who { batch: (number / LANES) as u32, lane: lane as u32 };
+            if self.hard.contains(&who) {
+                continue;
+            }
+            let (from, impact) = (batch.launch_phase(lane), batch.impact_state(lane));
+            let (turns, known) = (batch.impacts().turns[lane], batch.impacts().duration[lane]);
+            let by_phases = turns * core::f64::consts::TAU + (impact.phase().angle() - from.angle());
+            let duration = if known >= 0.0 { known } else { by_phases };
+            batch.vibrations[lane].assert_clock(
+                from,
+                batch.speed[lane],
+                (impact.phase(), impact.velocity()),
+                duration,
+            );
+            debug_assert!(
+                (duration - by_phases).abs() <= 1.0e-14 * (1.0 + duration),
+                "{duration} {by_phases}"
+            );
+        }
+    }
+
+    /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the queues.
+    fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
+        let Self { dispatch, timed, kinds, work, .. } = self;
+        let timed = *timed;
+        let (ground, rows) = batches[number].parts();
+        match ground {
+            Ground::Shared(platforms) => classify(*dispatch, *platforms, rows, kinds, timed),
+            Ground::Own(platforms) => classify(*dispatch, platforms.as_ref(), rows, kinds, timed),
+        }
+        let all = Lanes::first(lanes);
+        let who = |lane| Who { batch: number as u32, lane: lane as u32 };
+        if !self.kinds.special {
+            let (ground, Rows { arcs, impacts, .. }) = batches[number].parts();
+            match ground {
+                Ground::Shared(platforms) => {
+                    dispatch.run(Fly { width: Whole, platforms: *platforms, arcs, work, impacts, timed });
+                }
+                Ground::Own(platforms) => {
+                    dispatch.run(Fly {
+                        width: Whole,
+                        platforms: platforms.as_ref(),
+                        arcs,
+                        work,
+                        impacts,
+                        timed,
+                    });
+                }
+            }
+            if !self.work.all {
+                for lane in all.without(self.work.landed()) {
+                    self.keep_falling(batches, who(lane), self.work.reached(lane));
+                }
+            }
+            return;
+        }
+        let (slow, low) = (lanes_of(&self.kinds.slow) & all, lanes_of(&self.kinds.low) & all);
+        for lane in slow {
+            self.go_slow(batches, who(lane), shared, low.has(lane));
+        }
+        for lane in low.without(slow) {
+            self.go_low(batches, who(lane), shared);
+        }
+        for lane in all.without(slow | low) {
+            self.go_above(batches, who(lane), shared);
+        }
+    }
+
+    #[inline(always)]
+    fn go_slow(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>, low: bool) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let k = self.slow.place(who);
+        let platform = shared.unwrap_or_else(|| batch.platform(lane));
+        self.slow.rows.set(k, &platform, batch.launches(), lane, low);
+        if self.slow.len == LANES {
+            self.fly_slow(batches, shared);
+        }
+    }
+
+    #[inline(always)]
+    fn go_low(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let k = self.low.place(who);
+        let platform = shared.unwrap_or_else(|| batch.platform(lane));
+        self.low.rows.set(k, &platform, batch.launches(), lane);
+        if shared.is_none() {
+            self.low_platforms.set(k, platform);
+        }
+        if self.low.len == LANES {
+            self.fly_low(batches, shared);
+        }
+    }
+
+    #[inline(always)]
+    fn go_above(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
+        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
+        let comes_down = batch.arcs.speed[lane] >= FASTEST_ARC;
+        if !comes_down {
+            self.hard.push(who);
+            return;
+        }
+        let k = self.above.place(who);
+        self.above.rows.take(k, &batch.arcs, lane);
+        if shared.is_none() {
+            self.above_platforms.set(k, batch.platform(lane));
+        }
+        if self.above.len == LANES {
+            self.fly_above(batches, shared);
+        }
+    }
+}
+
+/// Sorts the launches of a batch; those of `timed` flights are set.
+fn classify<P: PlatformLanes>(
+    dispatch: Dispatch,
+    platforms: P,
+    rows: Rows<'_>,
+    kinds: &mut Kinds,
+    timed: bool,
+) {
+    if timed {
+        dispatch.run(Classify::<_, true> { platforms, rows, kinds });
+    } else {
+        dispatch.run(Classify::<_, false> { platforms, rows, kinds });
+    }
+}
+
+/// The platform that all lanes share, if they do.
+fn shared_platform(batches: &[Batch]) -> Option<Platform> {
+    let shared = |batch: &Batch| match &batch.ground {
+        Ground::Shared(platform) => Some(*platform),
+        Ground::Own(_) => None,
+    };
+    let first = shared(batches.first()?)?;
+    batches.iter().all(|batch| shared(batch) == Some(first)).then_some(first)
+}

@@ -1,0 +1,5 @@
+//! Arithmetic that gives the same bits on every processor, minima, and random streams.
+
+pub mod elementary;
+pub mod minimum;
+pub mod random;

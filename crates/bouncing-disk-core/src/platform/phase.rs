@@ -1,0 +1,85 @@
+//! A point of the platform's cycle, and time as a whole number of cycles and a phase.
+
+use core::f64::consts::TAU;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::numerics::elementary::{sin_cos, wrapped_angle};
+
+/// A phase of the platform's cycle: the angle tau in [0, 2 pi) with its sine and cosine.
+///
+/// The three travel together because an impact is found with all of them known: an orbit that carries the pair
+/// does not pay for it again at the next launch. The carried pair may differ from
+/// [`sin_cos`] of the angle, in the last place after a flight of more than half a radian, so a chaotic orbit is only continued bit for bit from all three numbers.
+///
+/// How far the two may drift apart: a flight of more than half a radian evaluates the pair anew, so that it agrees with the
+/// angle to 7e-16. A shorter one turns the pair that it started with, and both it and the angle are rounded: with each further
+/// flight in an unbroken sequence of short ones they may part by 7e-16 more at most. Measured are 8e-13 after 1e7 flights, as
+/// of roundings of either sign. An attachment begins a new pair, so that the sequence is that of one chatter: some hundred
+/// flights at restitution 0.5.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Phase {
+    angle: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Phase {
+    /// The phase at `angle` radians; any finite angle is reduced to [0, 2 pi).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the angle is not finite.
+    pub fn new(angle: f64) -> Result<Self, Error> {
+        if !angle.is_finite() {
+            return Err(Error::OutOfRange { field: "phase", value: angle, legal: "finite, in radians" });
+        }
+        Ok(Self::of_angle(wrapped_angle(angle)))
+    }
+
+    /// The phase at an angle that is known to lie in [0, 2 pi).
+    #[inline]
+    pub(crate) fn of_angle(angle: f64) -> Self {
+        let (sin, cos) = sin_cos(angle);
+        Self { angle, sin, cos }
+    }
+
+    /// The same, number by number: what a function has just written in parts is read whole only after a stall.
+    #[inline(always)]
+    pub(crate) const fn in_parts(self) -> Self {
+        Self::from_parts(self.angle, self.sin, self.cos)
+    }
+
+    /// A phase from its three numbers.
+    #[inline(always)]
+    pub(crate) const fn from_parts(angle: f64, sin: f64, cos: f64) -> Self {
+        Self { angle, sin, cos }
+    }
+
+    /// The angle tau in radians, in [0, 2 pi).
+    #[must_use]
+    #[inline(always)]
+    pub const fn angle(&self) -> f64 {
+        self.angle
+    }
+
+    /// The angle as a fraction of the period, tau / 2 pi, in [0, 1).
+    #[must_use]
+    pub fn cycles(&self) -> f64 {
+        self.angle / TAU
+    }
+
+    /// sin tau.
+    #[must_use]
+    #[inline(always)]
+    pub const fn sin(&self) -> f64 {
+        self.sin
+    }
+
+    /// cos tau.
+    #[must_use]
+    #[inline(always)]
+    pub const fn cos(&self) -> f64 {
+        self.cos
+    }
+}

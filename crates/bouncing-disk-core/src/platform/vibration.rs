@@ -1,0 +1,166 @@
+//! The platform's vertical vibration, in units where time is 1/omega and length g/omega^2.
+
+use core::f64::consts::{PI, TAU};
+
+use serde::Serialize;
+
+use crate::error::{Error, within};
+use crate::numerics::elementary::{CREST, asin};
+use crate::platform::crests::Crests;
+use crate::platform::phase::Phase;
+
+/// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.
+///
+/// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the preload
+/// acceleration. In these units P is also its amplitude and its peak speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Vibration {
+    peak_acceleration: f64,
+    /// Phase sigma at which P sin tau rises through 1 (pi/2 if it never does): a disk at rest separates, and
+    /// the curvature of the gap turns positive.
+    #[serde(skip)]
+    pub(crate) separation_angle: f64,
+    /// pi - sigma: the curvature of the gap turns negative again.
+    #[serde(skip)]
+    pub(crate) retention_angle: f64,
+    /// P cos sigma: the platform's speed at separation, zero for P <= 1.
+    #[serde(skip)]
+    pub(crate) separation_speed: f64,
+    /// P - P sin sigma: how far the platform is below its crest at separation.
+    #[serde(skip)]
+    pub(crate) separation_depth: f64,
+    /// A gap at a crest or an inflection that may be rounding only, in the crest form.
+    #[serde(skip)]
+    pub(crate) doubtful_gap: f64,
+    /// Which launches clear the first crest for certain.
+    #[serde(skip)]
+    pub(crate) crests: Crests,
+}
+
+impl Vibration {
+    /// Largest peak acceleration accepted (units of g).
+    pub const MAX_PEAK_ACCELERATION: f64 = 1.0e8;
+
+    /// A vibration with peak acceleration P = A omega^2 / g = pi Gamma, from 0 (still platform) to
+    /// [`Self::MAX_PEAK_ACCELERATION`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] outside that range or for NaN.
+    pub fn new(peak_acceleration: f64) -> Result<Self, Error> {
+        let p = within(
+            "peak_acceleration",
+            peak_acceleration,
+            0.0,
+            Self::MAX_PEAK_ACCELERATION,
+            "[0, 1e8] (units of the preload acceleration)",
+        )?;
+        // sqrt(P^2 - 1) without cancellation next to P = 1.
+        let (separation_angle, separation_speed, separation_depth) = if p > 1.0 {
+            (asin(1.0 / p), ((p - 1.0) * (p + 1.0)).sqrt(), p - 1.0)
+        } else {
+            (CREST, 0.0, 0.0)
+        };
+        Ok(Self {
+            peak_acceleration: p,
+            separation_angle,
+            retention_angle: PI - separation_angle,
+            separation_speed,
+            separation_depth,
+            doubtful_gap: 1.0e-14 * (1.0 + p),
+            crests: Crests::new(p, separation_angle, separation_speed),
+        })
+    }
+
+    /// A platform that does not vibrate.
+    pub(crate) const fn still() -> Self {
+        Self {
+            peak_acceleration: 0.0,
+            separation_angle: CREST,
+            retention_angle: PI - CREST,
+            separation_speed: 0.0,
+            separation_depth: 0.0,
+            doubtful_gap: 1.0e-14,
+            crests: Crests::new(0.0, CREST, 0.0),
+        }
+    }
+
+    /// A vibration with the paper's axial forcing parameter Gamma = A omega^2 / (pi g).
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn from_axial_forcing(axial_forcing: f64) -> Result<Self, Error> {
+        within(
+            "axial_forcing",
+            axial_forcing,
+            0.0,
+            Self::MAX_PEAK_ACCELERATION / PI,
+            "[0, 3.18e7] (A omega^2 / (pi g))",
+        )?;
+        Self::new(PI * axial_forcing)
+    }
+
+    /// Peak acceleration P in units of the preload acceleration.
+    #[must_use]
+    #[inline(always)]
+    pub const fn peak_acceleration(&self) -> f64 {
+        self.peak_acceleration
+    }
+
+    /// The paper's Gamma = P / pi.
+    #[must_use]
+    pub fn axial_forcing(&self) -> f64 {
+        self.peak_acceleration / PI
+    }
+
+    /// The phase at which a disk at rest on the platform separates, asin(1/P) (Eq. 15), or `None` if the
+    /// platform never falls away (P <= 1).
+    #[must_use]
+    pub fn separation_phase(&self) -> Option<Phase> {
+        (self.peak_acceleration > 1.0).then(|| {
+            let p = self.peak_acceleration;
+            Phase::from_parts(self.separation_angle, 1.0 / p, self.separation_speed / p)
+        })
+    }
+
+    /// Height of the platform P sin tau, in units of g/omega^2.
+    #[must_use]
+    #[inline]
+    pub fn height(&self, phase: Phase) -> f64 {
+        self.peak_acceleration * phase.sin()
+    }
+
+    /// Velocity of the platform P cos tau, in units of g/omega.
+    #[must_use]
+    #[inline]
+    pub fn velocity(&self, phase: Phase) -> f64 {
+        self.peak_acceleration * phase.cos()
+    }
+
+    /// Acceleration of the platform -P sin tau, in units of g.
+    #[must_use]
+    #[inline]
+    pub fn acceleration(&self, phase: Phase) -> f64 {
+        -self.peak_acceleration * phase.sin()
+    }
+
+    /// Weight that a resting disk puts on the platform per unit mass, 1 - P sin tau, in units of g (Eq. 3 as
+    /// corrected in docs/errata.md); the disk separates where it falls to zero.
+    #[must_use]
+    #[inline]
+    pub fn contact_force(&self, phase: Phase) -> f64 {
+        1.0 - self.peak_acceleration * phase.sin()
+    }
+
+    /// Whether the platform falls away from a resting disk at this angle: sigma <= tau < pi - sigma.
+    #[inline(always)]
+    pub(crate) fn falls_away_at(&self, angle: f64) -> bool {
+        angle >= self.separation_angle && angle < self.retention_angle
+    }
+
+    /// Time from `angle` to the next phase sigma, in (0, 2 pi].
+    #[inline(always)]
+    pub(crate) fn time_to_separation(&self, angle: f64) -> f64 {
+        let ahead = self.separation_angle - angle;
+        if ahead > 0.0 { ahead } else { ahead + TAU }
+    }
+}

@@ -1,0 +1,76 @@
+//! Perspective: points in space seen by a pinhole camera.
+
+use bouncing_disk_core::elementary::sin_cos;
+use glam::DVec3;
+
+/// A pinhole camera whose upright direction is z.
+///
+/// Lengths at the distance of the target keep their size; what is nearer appears larger.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    distance: f64,
+}
+
+impl Camera {
+    /// A camera that looks at `target` from `distance` away, at an azimuth (rad, from x towards y) and an elevation
+    /// above the horizontal (rad) of less than a right angle.
+    pub fn around(target: DVec3, azimuth: f64, elevation: f64, distance: f64) -> Self {
+        let (sin_azimuth, cos_azimuth) = sin_cos(azimuth);
+        let (sin_elevation, cos_elevation) = sin_cos(elevation);
+        let back = DVec3::new(cos_elevation * cos_azimuth, cos_elevation * sin_azimuth, sin_elevation);
+        let right = DVec3::new(-sin_azimuth, cos_azimuth, 0.0);
+        Self { eye: target + distance * back, right, up: back.cross(right), forward: -back, distance }
+    }
+
+    /// Where the eye is.
+    pub fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
+    /// A point as it appears, the target at the origin, `y` upwards.
+    pub fn project(&self, point: DVec3) -> (f64, f64) {
+        let ray = point - self.eye;
+        let scale = self.distance / ray.dot(self.forward);
+        (scale * ray.dot(self.right), scale * ray.dot(self.up))
+    }
+
+    /// Whether a surface at `point` with this outward normal turns its front to the eye.
+    pub fn faces(&self, point: DVec3, normal: DVec3) -> bool {
+        normal.dot(self.eye - point) > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+
+    use super::*;
+
+    #[test]
+    fn the_target_is_the_origin_and_near_things_are_larger() {
+        let target = DVec3::new(0.3, -0.2, 1.0);
+        let camera = Camera::around(target, 0.4, FRAC_PI_6, 5.0);
+        let seen = camera.project(target);
+        assert!(seen.0.abs() + seen.1.abs() < 1e-14);
+        let above = camera.project(target + DVec3::Z);
+        assert!(above.0.abs() < 1e-14 && above.1 > 0.8);
+        let (near, far) = (target - 0.5 * camera.forward, target + 0.5 * camera.forward);
+        let width = |point: DVec3| camera.project(point + camera.right).0 - camera.project(point).0;
+        assert!((width(target) - 1.0).abs() < 1e-14);
+        assert!(width(near) > 1.0 && width(far) < 1.0);
+    }
+
+    #[test]
+    fn azimuth_runs_from_x_to_y_and_right_is_ahead_of_it() {
+        let camera = Camera::around(DVec3::ZERO, 0.0, 0.0, 10.0);
+        assert!((camera.eye() - 10.0 * DVec3::X).length() < 1e-14);
+        assert!((camera.project(DVec3::Y).0 - 1.0).abs() < 1e-14);
+        assert!(camera.faces(DVec3::X, DVec3::X) && !camera.faces(-DVec3::X, -DVec3::X));
+        let behind = Camera::around(DVec3::ZERO, FRAC_PI_2, 0.0, 10.0);
+        assert!((behind.project(DVec3::X).0 + 1.0).abs() < 1e-14);
+    }
+}

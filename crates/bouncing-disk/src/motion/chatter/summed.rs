@@ -1,0 +1,274 @@
+//! A chatter in closed form: pieces of many impacts in which the disk slides one way or follows the platform.
+
+use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::{ChatterSeries, ImpactRange, Phase, PowerSeries};
+
+use super::Chatter;
+use crate::motion::impact::friction_impact;
+use crate::motion::rotary_change::{RotaryChange, flight_turn, record_flight_load};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics.md, section 4). More arise only
+/// where rounding decides at every impact whether friction holds; each of them is then twice as long as the one before.
+const USUAL_PIECES: u32 = 16;
+
+/// Pieces after which that has led to the end: 2^64 impacts.
+const MAX_PIECES: u32 = USUAL_PIECES + 64;
+
+impl Chatter {
+    /// The whole sequence up to `duration` at once; returns the number of pieces.
+    pub(super) fn sum(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) -> u32 {
+        let series = system.vibration().chatter_series(phase, self.launch_speed, system.restitution());
+        let end = series.impacts_by(duration);
+        if end == Some(0) {
+            return 0;
+        }
+        let all = series.range(0, end);
+        self.sum_axial_motion(system, &series, &all, phase.angle() + duration);
+        let pieces = Rotation::new(system, &series, self).run(end);
+
+        self.impacts = end.unwrap_or_else(|| series.impacts());
+        self.time = end.map_or(series.duration(), |_| all.change(series.remaining()).min(duration));
+        self.launch_speed = (1.0 - system.restitution()) * series.launch_speed().at(series.share(end));
+        if end.is_none() {
+            self.launch_speed = 0.0;
+        }
+        self.pair = sin_cos(phase.angle() + self.time);
+        pieces
+    }
+
+    /// Momentum and energy of the axial motion up to an `angle`.
+    fn sum_axial_motion(
+        &mut self,
+        system: &DimensionlessSystem,
+        series: &ChatterSeries,
+        all: &ImpactRange<'_>,
+        angle: f64,
+    ) {
+        let (restitution, peak) = (system.restitution(), system.peak_acceleration());
+        let impulse = series.impact_speed().scaled(1.0 + restitution);
+        self.axial_impulse = all.sum(&impulse);
+        // The platform's velocity is that at the start less what it has lost since.
+        let lost = peak * all.moment(&impulse, series.pair_changes().1);
+        let start = peak * self.pair.1;
+        let squares = all.product(series.impact_speed(), series.impact_speed());
+        let loss = 0.5 * ((1.0 - restitution) * (1.0 + restitution)) * squares;
+        self.ledger.record_normal(start * self.axial_impulse - lost, loss);
+        // The phase at the end is rounded as its angle is, and with it the platform's height.
+        self.ledger.record_rounding(angle, start);
+    }
+}
+
+/// The rotary motion along the sequence.
+struct Rotation<'a> {
+    system: &'a DimensionlessSystem,
+    series: &'a ChatterSeries,
+    chatter: &'a mut Chatter,
+    /// Axial impulse of an impact per 1 - r, and what is still to come of it.
+    impulse: PowerSeries,
+    impulses: PowerSeries,
+    flight: PowerSeries,
+    /// Angular speed of the platform less a constant.
+    platform: PowerSeries,
+    /// What the slip gains until the end from the platform and the load, and in a flight (per 1 - r).
+    gain: PowerSeries,
+    flight_gain: PowerSeries,
+    /// Angular speed of the platform at the start.
+    platform_start: f64,
+    /// Impacts done.
+    impacts: u64,
+    /// Angular speed relative to the platform after them.
+    slip: f64,
+}
+
+impl<'a> Rotation<'a> {
+    fn new(system: &'a DimensionlessSystem, series: &'a ChatterSeries, chatter: &'a mut Chatter) -> Self {
+        let impulse = series.impact_speed().scaled(1.0 + system.restitution());
+        let (sine, cosine) = series.pair_changes();
+        let (twist_cosine, twist_sine) = system.twist_components();
+        let platform = cosine.scaled(twist_cosine).plus(&sine.scaled(-twist_sine));
+        let gain = platform.plus(&series.remaining().scaled(-system.load()));
+        let platform_start = system.angular_speed_at(chatter.pair);
+        let slip = chatter.angular_speed - platform_start;
+        Self {
+            system,
+            series,
+            chatter,
+            impulse,
+            impulses: series.summed(&impulse),
+            flight: series.flight(),
+            platform,
+            gain,
+            flight_gain: series.per_flight(&gain),
+            platform_start,
+            impacts: 0,
+            slip,
+        }
+    }
+
+    /// Goes on to impact `end`, or to the accumulation point; returns the number of pieces.
+    fn run(mut self, end: Option<u64>) -> u32 {
+        for pieces in 0..MAX_PIECES {
+            if end == Some(self.impacts) {
+                return pieces;
+            }
+            // What it does about the slip tells how the impacts after it go on.
+            self.strike();
+            let held = self.slip == 0.0;
+            let until = if held { self.first_slip() } else { self.slip_end() };
+            let least = 1_u64 << pieces.saturating_sub(USUAL_PIECES).min(63) >> 1;
+            let until = until.map(|until| until.max(self.impacts.saturating_add(least)));
+            let until = match (until, end) {
+                (Some(until), Some(end)) => Some(until.min(end)),
+                (until, end) => until.or(end),
+            };
+            if until == Some(self.impacts) {
+                continue;
+            }
+            if held {
+                self.follow(until);
+            } else {
+                self.slide(until);
+            }
+            if until.is_none() {
+                return pieces + 1;
+            }
+        }
+        self.stop();
+        self.follow(end);
+        MAX_PIECES
+    }
+
+    /// Takes away what slip there is.
+    fn stop(&mut self) {
+        let before = self.chatter.angular_speed;
+        let platform_speed = before - self.slip;
+        let work = -self.slip * platform_speed;
+        let loss = 0.5 * self.slip * self.slip;
+        self.chatter.ledger.record_friction(work, loss, work.abs() + loss);
+        self.chatter.ledger.record_rotary_change(before, platform_speed);
+        self.chatter.angular_impulse -= self.slip;
+        self.chatter.angular_speed = platform_speed;
+        self.slip = 0.0;
+    }
+
+    /// The last launch that comes before the impact which does not hold a disk that follows the platform.
+    fn first_slip(&self) -> Option<u64> {
+        let share = self.series.share(Some(self.impacts));
+        [1.0, -1.0]
+            .into_iter()
+            .filter_map(|sign| {
+                let spare = self.spare(sign);
+                // The spare impulse of an impact per r^n, which does not vanish with it.
+                let spare = self.series.per_flight(&spare).per_share();
+                self.series.first_negative(self.impacts, spare.at(share), &spare)
+            })
+            .min()
+    }
+
+    /// The last impact with which a disk that slides goes on sliding.
+    fn slip_end(&self) -> Option<u64> {
+        let sign = self.slip.signum();
+        self.series
+            .first_negative(self.impacts, sign * self.slip, &self.spare(sign))
+            .map(|impact| impact.saturating_sub(1).max(self.impacts))
+    }
+
+    /// What friction can take from a slip with this `sign` beyond what the slip gains, until the end.
+    fn spare(&self, sign: f64) -> PowerSeries {
+        self.impulses.scaled(self.system.friction()).plus(&self.gain.scaled(-sign))
+    }
+
+    fn platform_speed(&self, impacts: Option<u64>) -> f64 {
+        self.platform_start - self.series.range(0, impacts).change(&self.platform)
+    }
+
+    /// The next impact by itself, as [`Chatter::advance`] does it.
+    fn strike(&mut self) {
+        let range = self.series.range(self.impacts, Some(self.impacts + 1));
+        let duration = range.change(self.series.remaining());
+        let slip = self.slip + range.change(&self.gain);
+        let axial = range.change(&self.impulses);
+        let rotary = friction_impact(self.system.friction(), axial, slip);
+        let turn = flight_turn(self.system, self.chatter.angular_speed, duration);
+        record_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &turn);
+        let platform_speed = self.platform_speed(Some(self.impacts + 1));
+        let after = if rotary.capped { platform_speed } else { turn.speed + rotary.impulse };
+        let work = rotary.impulse * platform_speed;
+        let loss = -rotary.impulse * (slip + 0.5 * rotary.impulse);
+        let ledger = &mut self.chatter.ledger;
+        ledger.record_friction(work, loss, work.abs() + (rotary.impulse * slip).abs());
+        ledger.record_rotary_change(turn.speed, after);
+        self.slip = if rotary.capped { 0.0 } else { slip + rotary.impulse };
+        self.chatter.angle += turn.angle;
+        self.chatter.angular_impulse += rotary.impulse;
+        self.chatter.capped = rotary.capped;
+        self.chatter.angular_speed = after;
+        self.impacts += 1;
+    }
+
+    /// Slides on to impact `until`.
+    fn slide(&mut self, until: Option<u64>) {
+        let (load, grip) = (self.system.load(), self.slip.signum() * self.system.friction());
+        let range = self.series.range(self.impacts, until);
+        let speed = self.chatter.angular_speed;
+        let platform_speed = speed - self.slip;
+        let duration = range.change(self.series.remaining());
+        let impulse = range.change(&self.impulses);
+        // Sums of the impulses times the time and the platform's loss of speed since the launch.
+        let delay = range.moment(&self.impulse, self.series.remaining());
+        let slowed = range.moment(&self.impulse, &self.platform);
+        let rotary = -grip * impulse;
+        let turn = RotaryChange {
+            speed: speed - load * duration + rotary,
+            angle: duration * (speed - 0.5 * load * duration) - grip * (impulse * duration - delay),
+        };
+        let work = [rotary * platform_speed, grip * slowed];
+        let loss = [grip * self.slip * impulse, -grip * load * delay, grip * slowed, -0.5 * rotary * rotary];
+        let size = work.iter().chain(&loss).map(|term| term.abs()).sum();
+        let ledger = &mut self.chatter.ledger;
+        record_flight_load(ledger, self.system, speed, &turn);
+        ledger.record_friction(work.iter().sum(), loss.iter().sum(), size);
+        self.chatter.angle += turn.angle;
+        self.chatter.angular_impulse += rotary;
+        self.chatter.angular_speed = turn.speed;
+        let slip = self.slip + (range.change(&self.gain) + rotary);
+        // At the accumulation point a slip that has not ended before it may do so.
+        self.chatter.capped = until.is_none() && slip * self.slip <= 0.0;
+        self.slip = if self.chatter.capped { 0.0 } else { slip };
+        self.impacts = until.unwrap_or(self.impacts);
+    }
+
+    /// Follows the platform to impact `until`.
+    fn follow(&mut self, until: Option<u64>) {
+        let load = self.system.load();
+        let range = self.series.range(self.impacts, until);
+        let before = self.chatter.angular_speed;
+        let after = self.platform_speed(until);
+        let duration = range.change(self.series.remaining());
+        let rotary = -range.change(&self.gain);
+        let slowed = range.moment(&self.flight_gain, &self.platform);
+        let work = [rotary * before, slowed];
+        let loss = 0.5 * range.product(&self.flight_gain, &self.flight_gain);
+        // The disk keeps in a flight the platform's speed at the launch.
+        let lag = range.moment(&self.flight, &self.platform)
+            - range.product(&self.flight, &self.series.per_flight(&self.platform));
+        let turn = RotaryChange {
+            speed: after,
+            angle: (before * duration - lag) - 0.5 * load * range.product(&self.flight, &self.flight),
+        };
+        let ledger = &mut self.chatter.ledger;
+        record_flight_load(ledger, self.system, before, &turn);
+        ledger.record_friction(
+            work.iter().sum(),
+            loss,
+            work.iter().map(|term| term.abs()).sum::<f64>() + loss,
+        );
+        self.chatter.angle += turn.angle;
+        self.chatter.angular_impulse += rotary;
+        self.chatter.angular_speed = after;
+        self.chatter.capped = true;
+        self.slip = 0.0;
+        self.impacts = until.unwrap_or(self.impacts);
+    }
+}

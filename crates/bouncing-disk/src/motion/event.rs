@@ -1,0 +1,70 @@
+//! What ends a spell of motion.
+
+use serde::Serialize;
+
+use crate::motion::energy::EnergyLedger;
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::segment::Segment;
+use crate::motion::state::{DiskState, SlipDirection, Snapshot};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// An event.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum Event {
+    /// The disk hits the platform.
+    Impact {
+        /// Relative axial velocity w_A (disk minus platform) just before, <= 0, in units of g/omega.
+        axial_impact_velocity: f64,
+        /// Relative angular speed w_T (disk minus platform) just before, in units of g a_e/(a_g^2 omega).
+        tangential_impact_velocity: f64,
+        /// Whether friction ended the slip within the impact; otherwise the disk slid throughout.
+        capped: bool,
+    },
+    /// The disk comes to rest on the platform at the end of a chattering sequence, whose impulses the record sums.
+    Attachment {
+        /// Impacts summed.
+        impacts: u64,
+        /// Bound on the error of the attachment phase (rad); infinite for the paper's cut.
+        error_bound: f64,
+    },
+    /// The platform falls away from the disk.
+    Separation,
+    /// Friction no longer holds the disk.
+    StickToSlip(SlipDirection),
+    /// The slip ends and friction holds the disk.
+    SlipToStick,
+    /// The slip ends, friction does not hold the disk, and it slips the other way, given here.
+    SlipReversal(SlipDirection),
+}
+
+/// An event, with the spell of motion that it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EventRecord {
+    /// When it happened.
+    pub time: PhaseTime,
+    /// What happened.
+    pub event: Event,
+    /// The disk just before.
+    pub before: DiskState,
+    /// The disk just after.
+    pub after: DiskState,
+    /// Axial impulse per unit mass in units of g/omega, zero except in impacts and attachments.
+    pub axial_impulse: f64,
+    /// Angular impulse per moment of inertia in units of g a_e/(a_g^2 omega).
+    pub angular_impulse: f64,
+    /// Energy balance of the spell and the event.
+    pub ledger: EnergyLedger,
+    /// The spell since the event before.
+    pub spell: Segment,
+    /// Its duration.
+    pub span: PhaseSpan,
+}
+
+impl EventRecord {
+    /// Disk and platform during the spell, `fraction` of it in [0, 1] after its start.
+    #[must_use]
+    pub fn evaluate(&self, system: &DimensionlessSystem, fraction: f64) -> Snapshot {
+        self.spell.evaluate(system, self.span, fraction)
+    }
+}

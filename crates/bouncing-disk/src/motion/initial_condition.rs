@@ -1,0 +1,41 @@
+//! How a motion starts.
+
+use bouncing_disk_core::Phase;
+use serde::Serialize;
+
+/// The state in which the engine starts, dimensionless (see [`crate::Scales`] for the units).
+///
+/// The disk's angle starts at the platform's own angle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum InitialCondition {
+    /// The disk lies on the platform. An angular speed within rounding of the platform's counts as the platform's.
+    /// Where the platform falls away at once (P sin tau >= 1, tau before its end), the disk starts in flight.
+    Contact {
+        /// Phase of the platform.
+        phase: Phase,
+        /// Angular speed of the disk; that of the platform is
+        /// [`crate::DimensionlessSystem::platform_angular_speed`].
+        angular_speed: f64,
+    },
+    /// The disk leaves the platform.
+    Launch {
+        /// Phase of the platform.
+        phase: Phase,
+        /// Axial velocity relative to the platform, not negative; zero is legal only where the platform falls away.
+        relative_speed: f64,
+        /// Angular speed of the disk.
+        angular_speed: f64,
+    },
+    /// The disk is above the platform.
+    Flight {
+        /// Phase of the platform.
+        phase: Phase,
+        /// Height above the platform, in (0, 1e17].
+        gap: f64,
+        /// Axial velocity relative to the platform, of either sign.
+        relative_velocity: f64,
+        /// Angular speed of the disk.
+        angular_speed: f64,
+    },
+}

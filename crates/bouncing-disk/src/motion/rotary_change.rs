@@ -1,0 +1,135 @@
+//! What flight and contact change in the rotation, in closed form, and the energy balance of both.
+
+use bouncing_disk_core::Phase;
+
+use crate::motion::arc::{Arc, Term};
+use crate::motion::contact::Friction;
+use crate::motion::energy::EnergyLedger;
+use crate::motion::phase_time::PhaseSpan;
+use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// Change of the rotary state over a spell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RotaryChange {
+    /// Angular speed at the end.
+    pub(crate) speed: f64,
+    /// Change of the angle.
+    pub(crate) angle: f64,
+}
+
+/// The rotary motion of a flight: only the load acts.
+pub(crate) fn flight_turn(system: &DimensionlessSystem, speed: f64, duration: f64) -> RotaryChange {
+    let lost = system.load() * duration;
+    RotaryChange { speed: speed - lost, angle: duration * (speed - 0.5 * lost) }
+}
+
+/// The rotary motion of a spell of contact that starts in `state`.
+pub(crate) fn contact_turn(
+    system: &DimensionlessSystem,
+    state: &DiskState,
+    from: Phase,
+    to: Phase,
+    span: PhaseSpan,
+) -> RotaryChange {
+    let arc = Arc::new(system.peak_acceleration(), from, span);
+    match state.mode {
+        Mode::Sliding(direction) => sliding_turn(system, direction, state.angular_speed, &arc),
+        Mode::Sticking | Mode::Flight => {
+            let (cosine, sine) = system.twist_components();
+            RotaryChange {
+                speed: system.platform_angular_speed(to),
+                angle: cosine * arc.sine_change + sine * arc.cosine_change,
+            }
+        }
+    }
+}
+
+/// Sliding contact (Eq. 12): d(angular speed)/d tau = -s mu N - l with N = 1 - P sin tau, integrated.
+fn sliding_turn(
+    system: &DimensionlessSystem,
+    direction: SlipDirection,
+    speed: f64,
+    arc: &Arc,
+) -> RotaryChange {
+    let t = arc.duration;
+    let grip = direction.sign() * system.friction();
+    let load = system.load();
+    RotaryChange {
+        speed: speed - (grip * arc.force().value + load * t),
+        angle: t * (speed - 0.5 * load * t) - grip * arc.force_twice().value,
+    }
+}
+
+/// Energy balance of a flight, or of the flights of a chatter, as far as the load goes.
+pub(crate) fn record_flight_load(
+    ledger: &mut EnergyLedger,
+    system: &DimensionlessSystem,
+    speed: f64,
+    turn: &RotaryChange,
+) {
+    let work = system.load() * turn.angle;
+    ledger.record_rotary_change(speed, turn.speed);
+    ledger.record_load(work, work.abs());
+}
+
+/// Energy balance of a spell of contact from `state` at `from` to `to`, where the disk has turned by `turn`.
+pub(crate) fn contact_ledger(
+    system: &DimensionlessSystem,
+    friction: &Friction,
+    state: &DiskState,
+    (from, to): (Phase, Phase),
+    span: PhaseSpan,
+    turn: &RotaryChange,
+) -> EnergyLedger {
+    let mut ledger = EnergyLedger::default();
+    let arc = Arc::new(system.peak_acceleration(), from, span);
+    let peak = system.peak_acceleration();
+    let (start, end) = (PlatformState::at(system, from), PlatformState::at(system, to));
+    ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
+    // Integral of N P cos tau.
+    ledger.record_normal(peak * arc.sine_change - peak * peak * arc.sine_cosine, 0.0);
+
+    let load = system.load();
+    ledger.record_rotary_change(state.angular_speed, turn.speed);
+    let (cosine, sine) = system.twist_components();
+    match state.mode {
+        Mode::Sliding(direction) => {
+            let mu = system.friction();
+            // Where friction all but holds the load, the angle is a small difference of what each of them would give alone.
+            let t = arc.duration;
+            let angle_size =
+                t * (state.angular_speed.abs() + 0.5 * load.abs() * t) + mu * arc.force_twice().size;
+            ledger.record_load(load * turn.angle, load.abs() * angle_size);
+            // Work of the platform: integral of -s mu N Q cos(tau + theta).
+            let force = arc.force();
+            let (force_cosine, force_sine) = (arc.force_cosine(), arc.force_sine());
+            let platform: Term =
+                [force.times(start.angular_speed), force_cosine.times(cosine), force_sine.times(-sine)]
+                    .into_iter()
+                    .sum();
+            let work = -direction.sign() * mu * platform.value;
+            // Loss: integral of mu N U.
+            let (decay, own_cosine, own_sine) = friction.slip_law(direction);
+            let slip = direction.sign() * (state.angular_speed - start.angular_speed);
+            let slipped: Term = [
+                force.times(slip),
+                arc.force_moment().times(-decay),
+                force_cosine.times(-own_cosine),
+                force_sine.times(own_sine),
+            ]
+            .into_iter()
+            .sum();
+            ledger.record_friction(work, mu * slipped.value, mu * (platform.size + slipped.size));
+        }
+        Mode::Sticking | Mode::Flight => {
+            ledger.record_load(load * turn.angle, (load * turn.angle).abs());
+            // The friction torque is l + d(platform angular speed)/d tau: integrated times the platform's speed.
+            let angle_change = cosine * arc.sine_change + sine * arc.cosine_change;
+            let (before, after) = (start.angular_speed, end.angular_speed);
+            let work = load * angle_change + 0.5 * (after - before) * (after + before);
+            ledger.record_friction(work, 0.0, 0.5 * (before * before + after * after));
+        }
+    }
+    ledger
+}

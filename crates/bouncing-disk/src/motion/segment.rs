@@ -1,0 +1,158 @@
+//! The closed-form motion between two events.
+
+use serde::Serialize;
+
+use crate::motion::chatter::Chatter;
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::{contact_turn, flight_turn};
+use crate::motion::state::{DiskState, Mode, PlatformState, Snapshot};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// The motion of the disk between two events, open at its end: it holds until the next event.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Segment {
+    /// The instant of the event before.
+    pub start: PhaseTime,
+    /// The state just after that event.
+    pub state: DiskState,
+    /// Launch speed of a chattering sequence that fills the spell (mode flight), in units of g/omega.
+    pub chatter_speed: Option<f64>,
+}
+
+impl Segment {
+    /// Disk and platform `fraction` of `span` after the start, `fraction` in [0, 1].
+    #[must_use]
+    pub fn evaluate(&self, system: &DimensionlessSystem, span: PhaseSpan, fraction: f64) -> Snapshot {
+        if fraction >= 1.0 {
+            return self.state_after(system, span);
+        }
+        self.state_after(system, PhaseSpan::from_radians(fraction * span.radians()))
+    }
+
+    /// Disk and platform `span` after the start, on the assumption that no event comes before. A chatter speed that starts no
+    /// chattering sequence in this system counts as none.
+    #[must_use]
+    pub fn state_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> Snapshot {
+        let span = span.normalised();
+        let time = self.start.after(span);
+        let platform = PlatformState::at(system, time.phase);
+        // Any other sequence might never end.
+        let chatters = |speed: &f64| {
+            let vibration = system.vibration();
+            let at = vibration.accumulation(self.start.phase, *speed, system.restitution());
+            at.is_some_and(|at| at.duration > 0.0)
+        };
+        let disk = match (self.state.mode, self.chatter_speed.filter(chatters)) {
+            (Mode::Flight, None) => self.flown(system, span),
+            (Mode::Flight, Some(speed)) => self.chattered(system, speed, span),
+            (Mode::Sticking | Mode::Sliding(_), _) => {
+                let turn = contact_turn(system, &self.state, self.start.phase, time.phase, span);
+                DiskState {
+                    mode: self.state.mode,
+                    height: platform.height,
+                    axial_velocity: platform.axial_velocity,
+                    angle: self.state.angle + turn.angle,
+                    angular_speed: turn.speed,
+                }
+            }
+        };
+        Snapshot { time, disk, platform }
+    }
+
+    fn flown(&self, system: &DimensionlessSystem, span: PhaseSpan) -> DiskState {
+        let duration = span.radians();
+        let turn = flight_turn(system, self.state.angular_speed, duration);
+        DiskState {
+            mode: Mode::Flight,
+            height: self.state.height + duration * (self.state.axial_velocity - 0.5 * duration),
+            axial_velocity: self.state.axial_velocity - duration,
+            angle: self.state.angle + turn.angle,
+            angular_speed: turn.speed,
+        }
+    }
+
+    fn chattered(&self, system: &DimensionlessSystem, speed: f64, span: PhaseSpan) -> DiskState {
+        let duration = span.radians();
+        let chatter = Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
+        let turn = flight_turn(system, chatter.angular_speed, duration - chatter.time);
+        let rest = duration - chatter.time;
+        DiskState {
+            mode: Mode::Flight,
+            height: system.peak_acceleration() * chatter.pair.0
+                + rest * (chatter.launch_velocity(system) - 0.5 * rest),
+            axial_velocity: chatter.launch_velocity(system) - rest,
+            angle: self.state.angle + (chatter.angle + turn.angle),
+            angular_speed: turn.speed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use bouncing_disk_core::{ChatterPolicy, Phase};
+
+    use super::*;
+    use crate::motion::engine::Engine;
+    use crate::motion::initial_condition::InitialCondition;
+    use crate::parameters::dimensionless::ForcingParameters;
+
+    fn system() -> DimensionlessSystem {
+        ForcingParameters { axial_forcing: 0.48, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 }
+            .build()
+            .expect("legal")
+    }
+
+    fn spans() -> impl Iterator<Item = PhaseSpan> {
+        [0, 1, 1 << 53, u64::MAX].into_iter().flat_map(|periods| {
+            [0.0, 1.0, TAU, 7.0, -1.0, 1e20, 1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN]
+                .map(|remainder| PhaseSpan { periods, remainder })
+        })
+    }
+
+    /// In flight, sticking, sliding and in the middle of a chattering sequence.
+    #[test]
+    fn the_state_after_any_span_is_one() {
+        let phase = Phase::new(4.0).expect("finite");
+        let start = InitialCondition::Contact { phase, angular_speed: 0.5 };
+        let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
+        let (mut flights, mut chatters, mut contacts) = (0, 0, 0);
+        for _ in 0..200 {
+            let spell = engine.advance().expect("no failure").expect("goes on").spell;
+            match (spell.state.mode, spell.chatter_speed) {
+                (Mode::Flight, Some(_)) => chatters += 1,
+                (Mode::Flight, None) => flights += 1,
+                _ => contacts += 1,
+            }
+            for span in spans() {
+                for snapshot in [
+                    spell.state_after(&system(), span),
+                    engine.state_after(span),
+                    spell.evaluate(&system(), span, f64::NAN),
+                    spell.evaluate(&system(), span, 0.5),
+                ] {
+                    let DiskState { height, axial_velocity, angle, angular_speed, .. } = snapshot.disk;
+                    for number in [height, axial_velocity, angle, angular_speed, snapshot.platform.angle] {
+                        assert!(number.is_finite(), "{spell:?} {span:?}");
+                    }
+                }
+            }
+        }
+        assert!(flights > 10 && chatters > 10 && contacts > 10, "{flights} {chatters} {contacts}");
+    }
+
+    /// The sequence never came to an end.
+    #[test]
+    fn a_chatter_speed_that_starts_no_chatter_counts_as_none() {
+        let phase = Phase::new(1.0).expect("finite");
+        let start = InitialCondition::Launch { phase, relative_speed: 1.0, angular_speed: 0.0 };
+        let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
+        let flight = engine.advance().expect("no failure").expect("lands").spell;
+        let span = PhaseSpan { periods: 3, remainder: 1.0 };
+        for speed in [f64::NAN, f64::INFINITY, -1.0, 1.0, 1e300] {
+            let spell = Segment { chatter_speed: Some(speed), ..flight };
+            assert_eq!(spell.state_after(&system(), span), flight.state_after(&system(), span), "{speed}");
+        }
+    }
+}

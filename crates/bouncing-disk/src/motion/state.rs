@@ -1,0 +1,152 @@
+//! The state of the disk and of the platform at an instant.
+
+use bouncing_disk_core::Phase;
+use serde::{Deserialize, Serialize};
+
+use crate::motion::phase_time::PhaseTime;
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// Which way the disk slips over the platform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SlipDirection {
+    /// The disk turns faster than the platform.
+    Forward,
+    /// The disk turns slower than the platform.
+    Backward,
+}
+
+impl SlipDirection {
+    /// +1 for forward, -1 for backward: the sign of disk minus platform.
+    #[must_use]
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+        }
+    }
+
+    /// The other direction.
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        match self {
+            Self::Forward => Self::Backward,
+            Self::Backward => Self::Forward,
+        }
+    }
+
+    /// The direction of an angular speed relative to the platform; `None` for zero.
+    pub(crate) fn of(relative_speed: f64) -> Option<Self> {
+        if relative_speed > 0.0 {
+            Some(Self::Forward)
+        } else if relative_speed < 0.0 {
+            Some(Self::Backward)
+        } else {
+            None
+        }
+    }
+}
+
+/// How the disk moves between two events.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Free of the platform.
+    Flight,
+    /// On the platform and turning with it.
+    Sticking,
+    /// On the platform and turning faster or slower.
+    Sliding(SlipDirection),
+}
+
+/// The disk's state, dimensionless (see [`crate::Scales`] for the units).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DiskState {
+    /// How it moves.
+    pub mode: Mode,
+    /// Height above the platform's mean height, in units of g/omega^2.
+    pub height: f64,
+    /// Axial velocity, in units of g/omega.
+    pub axial_velocity: f64,
+    /// Angle turned, in units of g a_e/(a_g omega)^2. It is not wrapped, and it starts at the platform's own
+    /// angle: marks on disk and platform lie together at the start. The engine sums it in two doubles, so that
+    /// its error does not grow with the number of events.
+    pub angle: f64,
+    /// Angular speed, in units of g a_e/(a_g^2 omega).
+    pub angular_speed: f64,
+}
+
+/// The platform's state, dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PlatformState {
+    /// Height, in units of g/omega^2.
+    pub height: f64,
+    /// Axial velocity, in units of g/omega.
+    pub axial_velocity: f64,
+    /// Angle, in units of g a_e/(a_g omega)^2.
+    pub angle: f64,
+    /// Angular speed, in units of g a_e/(a_g^2 omega).
+    pub angular_speed: f64,
+}
+
+impl PlatformState {
+    /// The platform at `phase`.
+    #[must_use]
+    pub fn at(system: &DimensionlessSystem, phase: Phase) -> Self {
+        Self {
+            height: system.vibration().height(phase),
+            axial_velocity: system.vibration().velocity(phase),
+            angle: system.platform_angle(phase),
+            angular_speed: system.platform_angular_speed(phase),
+        }
+    }
+}
+
+/// Disk and platform at an instant.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Snapshot {
+    /// The instant.
+    pub time: PhaseTime,
+    /// The disk.
+    pub disk: DiskState,
+    /// The platform.
+    pub platform: PlatformState,
+}
+
+/// A sum kept in two doubles (Knuth's exact addition).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LongSum {
+    high: f64,
+    low: f64,
+}
+
+impl LongSum {
+    pub(crate) const fn new(value: f64) -> Self {
+        Self { high: value, low: 0.0 }
+    }
+
+    pub(crate) fn add(&mut self, term: f64) {
+        let sum = self.high + term;
+        let virtual_term = sum - self.high;
+        let lost = (self.high - (sum - virtual_term)) + (term - virtual_term);
+        self.high = sum;
+        self.low += lost;
+    }
+
+    pub(crate) fn value(&self) -> f64 {
+        self.high + self.low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_sum_keeps_what_one_double_loses() {
+        let mut sum = LongSum::new(1.0e16);
+        for _ in 0..1000 {
+            sum.add(0.5);
+        }
+        sum.add(-1.0e16);
+        assert!((sum.value() - 500.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,141 @@
+//! Which events lead from which mode to which: the flow chart of the simulation (Sec. II B, Fig. 3).
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::event::{Event, EventRecord};
+use crate::motion::state::Mode;
+
+/// A [`Mode`] without its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum ModeKind {
+    /// [`Mode::Flight`].
+    Flight,
+    /// [`Mode::Sticking`].
+    Sticking,
+    /// [`Mode::Sliding`].
+    Sliding,
+}
+
+impl ModeKind {
+    /// All modes.
+    pub const ALL: [Self; 3] = [Self::Flight, Self::Sticking, Self::Sliding];
+}
+
+/// An [`Event`] without its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum EventKind {
+    /// [`Event::Impact`].
+    Impact,
+    /// [`Event::Attachment`].
+    Attachment,
+    /// [`Event::Separation`].
+    Separation,
+    /// [`Event::StickToSlip`].
+    StickToSlip,
+    /// [`Event::SlipToStick`].
+    SlipToStick,
+    /// [`Event::SlipReversal`].
+    SlipReversal,
+}
+
+impl EventKind {
+    /// All events.
+    pub const ALL: [Self; 6] = [
+        Self::Impact,
+        Self::Attachment,
+        Self::Separation,
+        Self::StickToSlip,
+        Self::SlipToStick,
+        Self::SlipReversal,
+    ];
+}
+
+/// An event with the modes before and after it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Transition {
+    /// The mode that the event ends.
+    pub from: ModeKind,
+    /// The event.
+    pub event: EventKind,
+    /// The mode that follows.
+    pub to: ModeKind,
+}
+
+impl Transition {
+    /// The transitions that the equations of motion allow; every other combination is an error of a program.
+    pub const LEGAL: [Self; 8] = [
+        Self::new(ModeKind::Flight, EventKind::Impact, ModeKind::Flight),
+        Self::new(ModeKind::Flight, EventKind::Attachment, ModeKind::Sticking),
+        Self::new(ModeKind::Flight, EventKind::Attachment, ModeKind::Sliding),
+        Self::new(ModeKind::Sticking, EventKind::Separation, ModeKind::Flight),
+        Self::new(ModeKind::Sticking, EventKind::StickToSlip, ModeKind::Sliding),
+        Self::new(ModeKind::Sliding, EventKind::Separation, ModeKind::Flight),
+        Self::new(ModeKind::Sliding, EventKind::SlipToStick, ModeKind::Sticking),
+        Self::new(ModeKind::Sliding, EventKind::SlipReversal, ModeKind::Sliding),
+    ];
+
+    const fn new(from: ModeKind, event: EventKind, to: ModeKind) -> Self {
+        Self { from, event, to }
+    }
+
+    /// Whether the equations of motion allow it.
+    #[must_use]
+    pub fn is_legal(&self) -> bool {
+        Self::LEGAL.contains(self)
+    }
+}
+
+impl Mode {
+    /// The mode without its direction.
+    #[must_use]
+    pub const fn kind(self) -> ModeKind {
+        match self {
+            Self::Flight => ModeKind::Flight,
+            Self::Sticking => ModeKind::Sticking,
+            Self::Sliding(_) => ModeKind::Sliding,
+        }
+    }
+}
+
+impl Event {
+    /// The event without its numbers.
+    #[must_use]
+    pub const fn kind(&self) -> EventKind {
+        match self {
+            Self::Impact { .. } => EventKind::Impact,
+            Self::Attachment { .. } => EventKind::Attachment,
+            Self::Separation => EventKind::Separation,
+            Self::StickToSlip(_) => EventKind::StickToSlip,
+            Self::SlipToStick => EventKind::SlipToStick,
+            Self::SlipReversal(_) => EventKind::SlipReversal,
+        }
+    }
+}
+
+impl EventRecord {
+    /// The event with the modes before and after it.
+    #[must_use]
+    pub const fn transition(&self) -> Transition {
+        Transition::new(self.before.mode.kind(), self.event.kind(), self.after.mode.kind())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use crate::motion::engine::Engine;
+    use crate::testing;
+
+    proptest! {
+        #[test]
+        fn only_legal_transitions_happen((system, start, policy) in testing::motion()) {
+            let Ok(engine) = Engine::new(system, start, policy) else { return Ok(()) };
+            for record in engine.take(200).map_while(Result::ok) {
+                prop_assert!(record.transition().is_legal(), "{:?}", record.transition());
+            }
+        }
+    }
+}

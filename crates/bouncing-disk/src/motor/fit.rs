@@ -1,0 +1,437 @@
+//! Least-squares fits of measured or computed curves.
+
+use std::convert::Infallible;
+
+use bouncing_disk_core::elementary::{exp, exp_m1, ln};
+use bouncing_disk_core::numerics::minimum::golden_section;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, finite, not_negative, positive};
+
+/// Steps of the golden-section search: the interval shrinks by 0.618 each.
+const GOLDEN_STEPS: u32 = 80;
+
+/// Trial time constants that bracket the best one: at least so many, and no two further apart than by this ratio's logarithm.
+const TRIALS: u32 = 60;
+const WIDEST_STEP: f64 = 1.0;
+
+/// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
+const ORDINARY: f64 = 1.0e120;
+
+/// The power of two by which numbers, the largest of which is this in size, are multiplied before their squares are added up. One
+/// for ordinary numbers, whose results keep their bits.
+pub(crate) const fn scale_for(largest: f64) -> f64 {
+    if largest > ORDINARY {
+        power_of_two(-600)
+    } else if largest > 0.0 && largest < 1.0 / ORDINARY {
+        power_of_two(700)
+    } else {
+        1.0
+    }
+}
+
+const fn power_of_two(exponent: i64) -> f64 {
+    f64::from_bits(((1_023 + exponent) as u64) << 52)
+}
+
+/// The largest of some numbers in size.
+pub(crate) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedExponentialFit")]
+pub struct ExponentialFit {
+    /// Steady speed alpha_ss (rad/s).
+    pub steady_speed: f64,
+    /// Time constant t_c (s).
+    pub time_constant: f64,
+    /// Root mean square of the residuals (rad/s).
+    pub residual: f64,
+}
+
+/// What is read of an [`ExponentialFit`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedExponentialFit {
+    steady_speed: f64,
+    time_constant: f64,
+    residual: f64,
+}
+
+impl TryFrom<UncheckedExponentialFit> for ExponentialFit {
+    type Error = Error;
+
+    fn try_from(fit: UncheckedExponentialFit) -> Result<Self, Error> {
+        Ok(Self {
+            steady_speed: finite("steady_speed", fit.steady_speed)?,
+            time_constant: positive("time_constant", fit.time_constant)?,
+            residual: not_negative("residual", fit.residual)?,
+        })
+    }
+}
+
+impl ExponentialFit {
+    /// Fits times (s, not negative, rising) and speeds (rad/s): at least three points.
+    ///
+    /// The model is linear in the steady speed, so the search is over the time constant alone (variable
+    /// projection), in its logarithm, from a tenth of the shortest to a hundred times the longest time.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise or
+    /// numbers that are not finite; for a result that a double cannot hold.
+    pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
+        let (time_constant, steady_speed, residual) = saturating_fit(times, speeds, exponential)?;
+        Ok(Self { steady_speed, time_constant, residual })
+    }
+
+    /// The fitted speed (rad/s) at `time` (s).
+    #[must_use]
+    pub fn speed(&self, time: f64) -> f64 {
+        self.steady_speed * exponential(time / self.time_constant)
+    }
+
+    /// Stall acceleration alpha_ss/t_c (rad/s^2): what the paper calls the stall torque.
+    #[must_use]
+    pub fn stall_acceleration(&self) -> f64 {
+        self.steady_speed / self.time_constant
+    }
+
+    /// Stall torque m a_g^2 alpha_ss/t_c (N m) of a disk of `mass` (kg) and `gyration_radius` (m).
+    #[must_use]
+    pub fn stall_torque(&self, mass: f64, gyration_radius: f64) -> f64 {
+        mass * gyration_radius * gyration_radius * self.stall_acceleration()
+    }
+}
+
+/// The fit of alpha_ss min(t/t_r, 1): the piecewise linear rise of low-period chattering orbits (Fig. 12).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedRampFit")]
+pub struct RampFit {
+    /// Steady speed alpha_ss (rad/s).
+    pub steady_speed: f64,
+    /// Time t_r (s) at which it is reached.
+    pub rise_time: f64,
+    /// Root mean square of the residuals (rad/s).
+    pub residual: f64,
+}
+
+/// What is read of a [`RampFit`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedRampFit {
+    steady_speed: f64,
+    rise_time: f64,
+    residual: f64,
+}
+
+impl TryFrom<UncheckedRampFit> for RampFit {
+    type Error = Error;
+
+    fn try_from(fit: UncheckedRampFit) -> Result<Self, Error> {
+        Ok(Self {
+            steady_speed: finite("steady_speed", fit.steady_speed)?,
+            rise_time: positive("rise_time", fit.rise_time)?,
+            residual: not_negative("residual", fit.residual)?,
+        })
+    }
+}
+
+impl RampFit {
+    /// As [`ExponentialFit::new`], with the ramp instead of the exponential.
+    ///
+    /// # Errors
+    /// As [`ExponentialFit::new`].
+    pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
+        let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0))?;
+        Ok(Self { steady_speed, rise_time, residual })
+    }
+
+    /// The fitted speed (rad/s) at `time` (s).
+    #[must_use]
+    pub fn speed(&self, time: f64) -> f64 {
+        self.steady_speed * (time / self.rise_time).min(1.0)
+    }
+}
+
+/// 1 - exp(-x).
+fn exponential(x: f64) -> f64 {
+    -exp_m1(-x)
+}
+
+/// Checks that times and speeds are those of a curve that can be fitted.
+pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
+    let n = times.len();
+    let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+    if n < 3 {
+        return illegal("number of points of the speed curve", n as f64, "[3, inf)");
+    }
+    if speeds.len() != n {
+        return illegal("number of speeds", speeds.len() as f64, "the number of times");
+    }
+    let below_zero = -f64::from_bits(1);
+    let before = std::iter::once(&below_zero).chain(times);
+    if let Some((_, &bad)) = before.zip(times).find(|&(before, time)| !(time > before && time.is_finite())) {
+        return illegal("times of the speed curve", bad, "finite, not negative, rising (s)");
+    }
+    if let Some(&bad) = speeds.iter().find(|speed| !speed.is_finite()) {
+        return illegal("speed", bad, "finite (rad/s)");
+    }
+    Ok(())
+}
+
+/// The least-squares fit of steady * shape(time/constant): (constant, steady, root mean square residual).
+fn saturating_fit(
+    times: &[f64],
+    speeds: &[f64],
+    shape: impl Fn(f64) -> f64,
+) -> Result<(f64, f64, f64), Error> {
+    check_curve(times, speeds)?;
+    let (time_scale, speed_scale) = (scale_for(times[times.len() - 1]), scale_for(largest(speeds)));
+    let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
+    let (constant, steady, residual) =
+        scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape);
+    Ok((
+        positive("fitted time (s)", constant / time_scale)?,
+        finite("fitted steady speed (rad/s)", steady / speed_scale)?,
+        not_negative("residual of the fit (rad/s)", residual / speed_scale)?,
+    ))
+}
+
+/// [`saturating_fit`] of numbers whose squares neither overflow nor vanish.
+fn scaled_fit(times: &[f64], speeds: &[f64], shape: impl Fn(f64) -> f64) -> (f64, f64, f64) {
+    let n = times.len();
+    // The best steady speed for a given constant, and the residual that it leaves.
+    let at = |constant: f64| {
+        let (mut shapes, mut products) = (0.0, 0.0);
+        for (&time, &speed) in times.iter().zip(speeds) {
+            let y = shape(time / constant);
+            shapes += y * y;
+            products += y * speed;
+        }
+        let steady = if shapes > 0.0 { products / shapes } else { 0.0 };
+        let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
+            let difference = speed - steady * shape(time / constant);
+            sum + difference * difference
+        });
+        (constant, steady, (sum / n as f64).sqrt())
+    };
+    let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
+    // Next to the longest time a tenth of a denormal one is as good as the smallest normal one.
+    let (low, high) = (ln((0.1 * first).max(f64::MIN_POSITIVE)), ln(100.0 * times[n - 1]));
+    let cost = |log: f64| at(exp(log)).2;
+    let trials = TRIALS.max(((high - low) / WIDEST_STEP) as u32);
+    let step = (high - low) / f64::from(trials);
+    let mut best = (f64::INFINITY, 0);
+    for trial in 0..=trials {
+        let value = cost(low + step * f64::from(trial));
+        if value < best.0 {
+            best = (value, trial);
+        }
+    }
+    let centre = low + step * f64::from(best.1);
+    let cost = |log: f64| Ok::<_, Infallible>(cost(log));
+    let Ok(log) = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost);
+    at(exp(log))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_curve_is_recovered() {
+        for (steady, constant) in [(20.0, 0.6), (-3.0, 0.01), (1e-3, 40.0)] {
+            let times: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
+            let truth = ExponentialFit { steady_speed: steady, time_constant: constant, residual: 0.0 };
+            let speeds: Vec<f64> = times.iter().map(|&time| truth.speed(time)).collect();
+            let fit = ExponentialFit::new(&times, &speeds).expect("legal curve");
+            // The residual is flat at its minimum: half of the digits of the time constant are lost.
+            assert!((fit.time_constant / constant - 1.0).abs() < 1e-5, "{fit:?}");
+            assert!((fit.steady_speed / steady - 1.0).abs() < 1e-5, "{fit:?}");
+            assert!((fit.stall_acceleration() - fit.steady_speed / fit.time_constant).abs() <= 0.0);
+        }
+    }
+
+    /// Root of the mean square by which a model misses a curve.
+    fn misfit(times: &[f64], speeds: &[f64], model: impl Fn(f64) -> f64) -> f64 {
+        let squares: Vec<f64> = times
+            .iter()
+            .zip(speeds)
+            .map(|(&time, speed)| (speed - model(time)) * (speed - model(time)))
+            .collect();
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    }
+
+    /// Neither parameter can be changed a little without the sum of squares growing, and the residual is its mean's root.
+    #[test]
+    fn a_fit_is_where_the_squares_are_least() {
+        for (saturation, scatter) in [(0.3, 0.2), (2.0, 0.7), (6.0, 0.05)] {
+            let times: Vec<f64> = (0..60).map(|i| 0.1 * f64::from(i) + 0.002 * f64::from(i % 7)).collect();
+            let speeds: Vec<f64> = (0..60_u32)
+                .zip(&times)
+                .map(|(i, time)| {
+                    5.0 * exponential(time / saturation) + scatter * f64::from(i * 37 % 11) - scatter
+                })
+                .collect();
+            let curve = ExponentialFit::new(&times, &speeds).expect("legal curve");
+            let ramp = RampFit::new(&times, &speeds).expect("legal curve");
+            let of_curve = |steady: f64, constant: f64| {
+                misfit(&times, &speeds, |time| steady * (1.0 - exp(-time / constant)))
+            };
+            let of_ramp =
+                |steady: f64, rise: f64| misfit(&times, &speeds, |time| steady * (time / rise).min(1.0));
+            let is_least = |steady: f64, constant: f64, residual: f64, misfit: &dyn Fn(f64, f64) -> f64| {
+                let least = misfit(steady, constant);
+                assert!((residual - least).abs() <= 1e-13 * least, "{residual} {least}");
+                for (by_steady, by_constant) in [(1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3), (1e-3, -1e-3)] {
+                    for sign in [1.0, -1.0] {
+                        let (steady, constant) =
+                            (steady * (1.0 + sign * by_steady), constant * (1.0 + sign * by_constant));
+                        assert!(misfit(steady, constant) > least, "{saturation} {steady} {constant}");
+                    }
+                }
+            };
+            is_least(curve.steady_speed, curve.time_constant, curve.residual, &of_curve);
+            is_least(ramp.steady_speed, ramp.rise_time, ramp.residual, &of_ramp);
+        }
+    }
+
+    /// A curve that has not begun to saturate, and one that has done so before its first point, end where the search does.
+    #[test]
+    fn time_constants_lie_between_a_tenth_of_the_first_and_a_hundred_times_the_last_time() {
+        let times = [0.0, 0.5, 1.0, 2.0, 4.0];
+        let straight = ExponentialFit::new(&times, &times).expect("legal curve");
+        assert!((straight.time_constant / 400.0 - 1.0).abs() < 1e-6, "{straight:?}");
+        let at_once = ExponentialFit::new(&times, &[0.0, 7.0, 7.0, 7.0, 7.0]).expect("legal curve");
+        assert!((at_once.time_constant / 0.05 - 1.0).abs() < 1e-6, "{at_once:?}");
+        assert!((at_once.steady_speed - 7.0).abs() < 1e-3);
+        // A disk that does not turn.
+        let still = ExponentialFit::new(&times[..3], &[0.0; 3]).expect("three points are enough");
+        assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
+    }
+
+    #[test]
+    fn the_time_that_is_out_of_order_is_named() {
+        for (times, bad) in [
+            ([-1e-310, 1.0, 2.0], -1e-310),
+            ([0.0, 2.0, 1.0], 1.0),
+            ([0.0, 1.0, f64::INFINITY], f64::INFINITY),
+            ([0.0, 1.0, f64::NAN], f64::NAN),
+            ([f64::NAN, 1.0, 2.0], f64::NAN),
+        ] {
+            match ExponentialFit::new(&times, &[1.0; 3]) {
+                Err(Error::OutOfRange { field: "times of the speed curve", value, .. }) => {
+                    assert_eq!(value.to_bits(), bad.to_bits(), "{times:?}");
+                }
+                other => panic!("{times:?}: {other:?}"),
+            }
+        }
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[1.0; 3]).is_ok());
+    }
+
+    #[test]
+    fn the_stall_torque_is_that_of_a_ring() {
+        let fit = ExponentialFit { steady_speed: 30.0, time_constant: 0.25, residual: 0.0 };
+        assert!((fit.stall_acceleration() - 120.0).abs() < 1e-12);
+        assert!((fit.stall_torque(0.5, 0.2) - 0.5 * 0.04 * 120.0).abs() < 1e-12);
+        // After one time constant all but 1/e of the speed is there.
+        assert!((fit.speed(0.25) - 30.0 * (1.0 - 0.367_879_441_171_442_3)).abs() < 1e-13);
+        let ramp = RampFit { steady_speed: 30.0, rise_time: 0.5, residual: 0.0 };
+        assert!((ramp.speed(0.125) - 7.5).abs() < 1e-13 && (ramp.speed(0.75) - 30.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn ramp_and_exponential_tell_each_other_apart() {
+        let times: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
+        let ramp = RampFit { steady_speed: 17.0, rise_time: 2.1, residual: 0.0 };
+        let speeds: Vec<f64> = times.iter().map(|&time| ramp.speed(time)).collect();
+        let fit = RampFit::new(&times, &speeds).expect("legal curve");
+        assert!((fit.rise_time - 2.1).abs() < 1e-4 && (fit.steady_speed - 17.0).abs() < 1e-4, "{fit:?}");
+        let other = ExponentialFit::new(&times, &speeds).expect("legal curve");
+        assert!(fit.residual < 1e-3 * other.residual);
+    }
+
+    #[test]
+    fn illegal_curves_are_named() {
+        assert!(ExponentialFit::new(&[0.0, 1.0], &[0.0, 1.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 1.0], &[0.0, 1.0, 2.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, 1.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, 1.0]).is_err());
+    }
+
+    fn curve(steady: f64, constant: f64, times: &[f64]) -> Vec<f64> {
+        let truth = ExponentialFit { steady_speed: steady, time_constant: constant, residual: 0.0 };
+        times.iter().map(|&time| truth.speed(time)).collect()
+    }
+
+    /// Squares of speeds and a hundredfold of times overflowed, a tenth of times vanished: the fit was `Ok` and not a number.
+    #[test]
+    fn curves_of_any_size_are_fitted() {
+        let ordinary: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
+        for (time, speed) in [
+            (1.0, 1e300),
+            (1.0, 1e-200),
+            (1.0, 1e-300),
+            (1e306, 1.0),
+            (1e-300, 1.0),
+            (1e-305, -1e300),
+            (1e200, 1e-300),
+        ] {
+            let times: Vec<f64> = ordinary.iter().map(|value| value * time).collect();
+            let fit = ExponentialFit::new(&times, &curve(20.0 * speed, 0.6 * time, &times)).expect("legal");
+            assert!((fit.time_constant / (0.6 * time) - 1.0).abs() < 1e-5, "{time} {speed}: {fit:?}");
+            assert!((fit.steady_speed / (20.0 * speed) - 1.0).abs() < 1e-5, "{time} {speed}: {fit:?}");
+            assert!(fit.residual < 1e-5 * (20.0 * speed).abs(), "{time} {speed}: {fit:?}");
+        }
+    }
+
+    #[test]
+    fn a_denormal_first_time_does_not_spoil_a_fit() {
+        let mut times: Vec<f64> = (0..=200).map(|i| f64::from(i) * 0.02).collect();
+        for first in [5e-324, 1e-308, 1e-200, 1e-30] {
+            times[0] = first;
+            let fit = ExponentialFit::new(&times, &curve(20.0, 0.6, &times)).expect("legal");
+            assert!((fit.time_constant / 0.6 - 1.0).abs() < 1e-5, "{first}: {fit:?}");
+            assert!((fit.steady_speed / 20.0 - 1.0).abs() < 1e-5, "{first}: {fit:?}");
+        }
+    }
+
+    #[test]
+    fn a_fit_that_no_double_holds_is_refused() {
+        // Straight lines: the constant ends at a hundred times the longest time.
+        let line = |last: f64| [0.25, 0.5, 0.75, 1.0].map(|share| share * last);
+        let error = ExponentialFit::new(&line(1.7e308), &line(1.0)).expect_err("too long");
+        assert!(matches!(error, Error::OutOfRange { field: "fitted time (s)", .. }), "{error}");
+        let error = ExponentialFit::new(&line(1.0), &line(1.7e308)).expect_err("too fast");
+        assert!(matches!(error, Error::OutOfRange { field: "fitted steady speed (rad/s)", .. }), "{error}");
+        for fit in [
+            ExponentialFit::new(&[0.0, 5e-324, 1e-323], &[0.0, 1.0, 1.0]),
+            ExponentialFit::new(&[1.0, 2.0, 3.0], &[0.0; 3]),
+        ] {
+            assert!(fit.is_err() || fit.is_ok_and(|fit| fit.time_constant > 0.0 && !fit.residual.is_nan()));
+        }
+    }
+
+    #[test]
+    fn a_fit_that_is_read_is_legal() {
+        let fit = ExponentialFit { steady_speed: -3.0, time_constant: 0.5, residual: 0.1 };
+        let text = serde_json::to_string(&fit).expect("writes");
+        assert_eq!(serde_json::from_str::<ExponentialFit>(&text).expect("legal"), fit);
+        let ramp = RampFit { steady_speed: -3.0, rise_time: 0.5, residual: 0.1 };
+        let ramp_text = serde_json::to_string(&ramp).expect("writes");
+        assert_eq!(serde_json::from_str::<RampFit>(&ramp_text).expect("legal"), ramp);
+        for (good, bad, name) in [
+            ("0.5", "0.0", "time_constant = 0"),
+            ("0.5", "-1.0", "time_constant = -1"),
+            ("0.1", "-0.1", "residual = -0.1"),
+            ("time_constant", "time_konstant", "time_konstant"),
+        ] {
+            let error = serde_json::from_str::<ExponentialFit>(&text.replace(good, bad)).expect_err(name);
+            assert!(error.to_string().contains(name), "{error}");
+        }
+        assert!(serde_json::from_str::<RampFit>(&ramp_text.replace("0.5", "0.0")).is_err());
+        assert!(serde_json::from_str::<RampFit>(&ramp_text.replace('}', r#","raise_time":1.0}"#)).is_err());
+    }
+}

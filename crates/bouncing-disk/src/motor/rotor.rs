@@ -1,0 +1,324 @@
+//! The rotary motion alone, carried along an orbit of the core without records or energy balance.
+//!
+//! It takes the same decisions as the [`crate::Engine`] from the same functions. Only the sum over a chattering
+//! sequence is shorter where every impact of it slides the same way: then the summed impulse is known in closed form.
+
+use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase};
+
+use crate::error::Error;
+use crate::motion::chatter::Chatter;
+use crate::motion::contact::{Friction, Spent};
+use crate::motion::engine::SAME_SPEED;
+use crate::motion::impact::{axial_impulse, friction_impact};
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::contact_turn;
+use crate::motion::state::{DiskState, Mode, SlipDirection};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// What ended the last step of a [`Rotor`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RotorStep {
+    /// An impact.
+    Impact,
+    /// The end of a chattering sequence, or a change between sticking and sliding.
+    Contact,
+    /// The disk has separated from rest: the next flight starts here.
+    Separation,
+    /// Nothing more happens: the disk stays on the platform, at rest on it, sliding or turning with it.
+    Ended,
+}
+
+/// A flight and the impact that ends it, as far as the rotary motion goes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bounce {
+    /// Duration of the flight (rad).
+    pub(crate) duration: f64,
+    /// Angular speed of the platform at the impact.
+    pub(crate) platform_speed: f64,
+    /// Relative axial velocity before it.
+    pub(crate) velocity: f64,
+    pub(crate) restitution: f64,
+    pub(crate) friction: f64,
+    pub(crate) load: f64,
+}
+
+impl Bounce {
+    /// Angular speed after the impact, and the angle turned in the flight, of a disk with angular `speed` at launch.
+    #[inline(always)]
+    pub(crate) fn after(self, speed: f64) -> (f64, f64) {
+        let Self { duration, platform_speed, velocity, restitution, friction, load } = self;
+        // As `flight_turn`, but the angle is needed to the accuracy of a mean speed only.
+        let arrival = speed - load * duration;
+        let turned = duration * (speed - 0.5 * load * duration);
+        let rotary =
+            friction_impact(friction, axial_impulse(restitution, velocity), arrival - platform_speed);
+        (if rotary.capped { platform_speed } else { arrival + rotary.impulse }, turned)
+    }
+}
+
+/// A disk that is followed for its angular speed only.
+#[derive(Debug, Clone)]
+pub(crate) struct Rotor {
+    system: DimensionlessSystem,
+    friction: Friction,
+    orbit: Option<Orbit>,
+    /// Mode and separation of a disk on the platform; `None` in flight.
+    contact: Option<(Mode, Option<PhaseTime>)>,
+    now: PhaseTime,
+    speed: f64,
+    /// Angle turned in the last step.
+    turned: f64,
+}
+
+impl Rotor {
+    /// A disk that lies on the platform at `phase` with angular `speed`; where the platform falls away it flies.
+    pub(crate) fn at_rest(
+        system: &DimensionlessSystem,
+        phase: Phase,
+        speed: f64,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let vibration = system.vibration();
+        let mut rotor = Self {
+            system: *system,
+            friction: Friction::new(system),
+            orbit: None,
+            contact: None,
+            now: PhaseTime::in_first_period(phase),
+            speed,
+            turned: 0.0,
+        };
+        let mut separation = None;
+        if let Some(leaves) = vibration.separation_phase() {
+            let falls_away =
+                phase.angle() >= leaves.angle() && phase.angle() < std::f64::consts::PI - leaves.angle();
+            let from = if falls_away { phase } else { leaves };
+            rotor.orbit = Some(system.map().orbit_from_launch(from, 0.0, policy)?);
+            if falls_away {
+                return Ok(rotor);
+            }
+            separation =
+                Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
+        }
+        let platform_speed = system.platform_angular_speed(phase);
+        if (speed - platform_speed).abs() <= SAME_SPEED * (speed.abs() + system.twist_speed()) {
+            rotor.speed = platform_speed;
+        }
+        rotor.contact = Some((rotor.contact_mode(phase), separation));
+        Ok(rotor)
+    }
+
+    pub(crate) const fn time(&self) -> PhaseTime {
+        self.now
+    }
+
+    /// Angular speed just after the last step.
+    pub(crate) const fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Angle turned during the last step.
+    pub(crate) const fn turned(&self) -> f64 {
+        self.turned
+    }
+
+    pub(crate) const fn system(&self) -> &DimensionlessSystem {
+        &self.system
+    }
+
+    /// The flight that starts now, if one does.
+    pub(crate) fn launch(&self) -> Option<(Phase, f64)> {
+        if self.contact.is_some() {
+            return None;
+        }
+        self.orbit.as_ref().and_then(Orbit::launch)
+    }
+
+    /// Goes on with what follows an impact that was computed elsewhere, after which the angular speed is `speed`.
+    pub(crate) fn go_on_after(
+        &mut self,
+        impact: ImpactState,
+        policy: ChatterPolicy,
+        periods: u64,
+        speed: f64,
+    ) {
+        self.orbit = Some(self.system.map().orbit(impact, policy));
+        self.now = PhaseTime { periods, phase: impact.phase() };
+        self.speed = speed;
+    }
+
+    /// Goes on with a launch that was computed elsewhere, at angular speed `speed`.
+    pub(crate) fn go_on_with(
+        &mut self,
+        launch: Launch,
+        policy: ChatterPolicy,
+        periods: u64,
+        speed: f64,
+    ) -> Result<(), Error> {
+        let (phase, relative_speed) = (launch.phase(), launch.relative_speed());
+        self.orbit = Some(self.system.map().orbit_from_launch(phase, relative_speed, policy)?);
+        self.now = PhaseTime { periods, phase };
+        self.speed = speed;
+        Ok(())
+    }
+
+    /// Gives the flight that starts now another relative launch speed.
+    pub(crate) fn perturb_launch(&mut self, relative_speed: f64) -> Result<(), Error> {
+        if let Some(orbit) = &mut self.orbit {
+            orbit.perturb_launch(relative_speed)?;
+        }
+        Ok(())
+    }
+
+    #[inline]
+    pub(crate) fn advance(&mut self) -> Result<RotorStep, Error> {
+        if let Some((mode, separation)) = self.contact {
+            return self.advance_contact(mode, separation);
+        }
+        let event = match &mut self.orbit {
+            Some(orbit) => orbit.advance()?,
+            None => None,
+        };
+        match event {
+            Some(OrbitEvent::Impact(impact)) => {
+                let bounce = Bounce {
+                    duration: impact.duration(),
+                    platform_speed: self.system.platform_angular_speed(impact.phase),
+                    velocity: impact.velocity,
+                    restitution: self.system.restitution(),
+                    friction: self.system.friction(),
+                    load: self.system.load(),
+                };
+                (self.speed, self.turned) = bounce.after(self.speed);
+                self.now = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };
+                Ok(RotorStep::Impact)
+            }
+            Some(OrbitEvent::Attachment(stick)) => {
+                self.attach(&stick);
+                Ok(RotorStep::Contact)
+            }
+            Some(_) | None => Ok(RotorStep::Ended),
+        }
+    }
+
+    fn attach(&mut self, stick: &Attachment) {
+        let at = stick.attachment;
+        let start = self.speed;
+        if !at.error_bound.is_infinite() && stick.last_speed > 0.0 {
+            self.speed = match self.slide_throughout(stick) {
+                Some(speed) => speed,
+                None => self.sum_chatter(stick),
+            };
+        }
+        self.turned = 0.5 * (start + self.speed) * at.duration;
+        self.now = PhaseTime { periods: self.now.periods + at.turns, phase: at.phase };
+        let separation =
+            stick.separation.map(|(phase, turns)| PhaseTime { periods: self.now.periods + turns, phase });
+        self.contact = Some((self.contact_mode(at.phase), separation));
+    }
+
+    /// The speed after a chattering sequence all of whose impacts slide the same way; `None` if that is not certain.
+    ///
+    /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less the
+    /// launch speed: in relative velocity, 0 = w - integral of N + sum.
+    fn slide_throughout(&self, stick: &Attachment) -> Option<f64> {
+        let duration = stick.attachment.duration;
+        let vibration = self.system.vibration();
+        let from = self.now.phase;
+        // N = a - b t + (1 - a) t^2/2 about the start, to the accuracy of the duration itself.
+        let pull = vibration.contact_force(from);
+        let drift = vibration.velocity(from);
+        let normal = duration * (pull - duration * (0.5 * drift - duration * (1.0 - pull) * (1.0 / 6.0)));
+        let sum = self.system.friction() * (normal - stick.last_speed);
+        let load = self.system.load() * duration;
+        let slip = self.speed - self.system.platform_angular_speed(from);
+        let most = sum + load.abs() + self.system.twist_speed() * duration;
+        if slip > most {
+            Some(self.speed - sum - load)
+        } else if slip < -most {
+            Some(self.speed + sum - load)
+        } else {
+            None
+        }
+    }
+
+    /// The speed after a chattering sequence, impact by impact.
+    #[cold]
+    fn sum_chatter(&self, stick: &Attachment) -> f64 {
+        let at = stick.attachment;
+        let chatter = Chatter::new(&self.system, self.now.phase, stick.last_speed, self.speed, at.duration);
+        if chatter.capped {
+            self.system.platform_angular_speed(at.phase)
+        } else {
+            chatter.angular_speed - self.system.load() * (at.duration - chatter.time)
+        }
+    }
+
+    /// Angle turned within `span` after the last step by a rotor that stays on the stator in its mode; zero in flight.
+    pub(crate) fn turned_since_event(&self, span: PhaseSpan) -> f64 {
+        let Some((mode, _)) = self.contact else { return 0.0 };
+        let state =
+            DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
+        contact_turn(&self.system, &state, self.now.phase, self.now.after(span).phase, span).angle
+    }
+
+    fn contact_mode(&self, phase: Phase) -> Mode {
+        let slip = self.speed - self.system.platform_angular_speed(phase);
+        SlipDirection::of(slip)
+            .or_else(|| self.friction.onset(phase, Spent::None))
+            .map_or(Mode::Sticking, Mode::Sliding)
+    }
+
+    fn advance_contact(&mut self, mode: Mode, separation: Option<PhaseTime>) -> Result<RotorStep, Error> {
+        let phase = self.now.phase;
+        let limit = separation.map(|at| at.since(&self.now).radians());
+        let slip = self.speed - self.system.platform_angular_speed(phase);
+        let at_rest = SlipDirection::of(slip).is_none();
+        let span = match mode {
+            Mode::Sliding(direction) => self
+                .friction
+                .slip_end(direction, phase, direction.sign() * slip, limit)?
+                .map(|span| (span, None)),
+            Mode::Sticking | Mode::Flight => self
+                .friction
+                .stick_end(phase)
+                .filter(|(time, _)| limit.is_none_or(|limit| *time < limit))
+                .map(|(time, direction)| (PhaseSpan::from_radians(time), Some(direction))),
+        };
+        let (time, next) = match (span, separation) {
+            (Some((span, slips)), _) => (self.now.after(span), Some((span, slips))),
+            (None, Some(at)) => (at, None),
+            (None, None) => {
+                self.turned = 0.0;
+                return Ok(RotorStep::Ended);
+            }
+        };
+        let span = time.since(&self.now);
+        let state =
+            DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
+        let turn = contact_turn(&self.system, &state, phase, time.phase, span);
+        self.turned = turn.angle;
+        self.speed = turn.speed;
+        self.now = time;
+        let Some((_, slips)) = next else {
+            self.contact = None;
+            return Ok(RotorStep::Separation);
+        };
+        let mode = match (slips, mode) {
+            (Some(direction), _) => Mode::Sliding(direction),
+            (None, Mode::Sliding(direction)) => {
+                self.speed = self.system.platform_angular_speed(time.phase);
+                // As in the engine: only a slip that begins and ends at the same instant is one of rounding.
+                let idle = span == PhaseSpan::ZERO && at_rest;
+                let spent = if idle { Spent::Both } else { Spent::One(direction) };
+                self.friction.onset(time.phase, spent).map_or(Mode::Sticking, Mode::Sliding)
+            }
+            (None, Mode::Sticking | Mode::Flight) => mode,
+        };
+        self.contact = Some((mode, separation));
+        Ok(RotorStep::Contact)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,296 @@
+//! Many speed transients at once: the flights and impacts of all in lockstep, their rests one by one.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use bouncing_disk_core::{ChatterPolicy, Flights, InstructionSet, Launch, Phase};
+
+use super::rotors::{Carry, Rotors};
+use crate::error::Error;
+use crate::motor::transient::{Run, SpeedCurve, TransientSettings, transient};
+use crate::parameters::system::System;
+
+/// With fewer transients under way they are advanced one by one: what a step of the lanes costs however few of them are in use
+/// is as much as about this many single flights (docs/numerics.md, section 9).
+const FEWEST: usize = 26;
+
+/// Batches of lanes of one thread.
+const BATCHES: usize = 8;
+
+/// The arguments of one [`transient`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransientMember {
+    /// The motor.
+    pub system: System,
+    /// Phase of the stator at which it starts to vibrate.
+    pub phase: Phase,
+    /// Duration, sampling, perturbation and seed.
+    pub settings: TransientSettings,
+}
+
+impl TransientMember {
+    fn alone(&self) -> Result<SpeedCurve, Error> {
+        transient(&self.system, self.phase, &self.settings)
+    }
+}
+
+/// The transient of each member, or the error that [`transient`] returns for it, in the order of the members; bit for bit
+/// those of [`transient`], several times faster where there are many.
+///
+/// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
+/// instructions of the processor change a bit. Members under [`ChatterPolicy::Paper`] are computed one by one.
+///
+/// ```
+/// use bouncing_disk::core::Phase;
+/// use bouncing_disk::{
+///     DiskParameters, PlatformParameters, System, TransientMember, TransientSettings, transient, transients,
+/// };
+///
+/// // The motor of Table III at a hundred preloads (m/s^2), 5 ms each.
+/// let angular_frequency = std::f64::consts::TAU * 70e3;
+/// let platform = PlatformParameters {
+///     amplitude: 1e-8,
+///     twist_amplitude: 30.0 / angular_frequency,
+///     angular_frequency,
+///     phase_lag: 0.0,
+/// };
+/// let members = (0..100)
+///     .map(|k| {
+///         let rotor = DiskParameters {
+///             contact_radius: 1.25e-3,
+///             gyration_radius: 6.3e-3,
+///             friction: 0.1,
+///             restitution: 0.5,
+///             preload_acceleration: 5.0 + 0.1 * f64::from(k),
+///             load_acceleration: 0.0,
+///         };
+///         Ok(TransientMember {
+///             system: System::new(platform.build()?, rotor.build()?)?,
+///             phase: Phase::new(4.0)?,
+///             settings: TransientSettings { duration: 5e-3, intervals: 10, ..TransientSettings::default() },
+///         })
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk::Error>>()?;
+/// let curves = transients(&members);
+/// let alone = transient(&members[7].system, members[7].phase, &members[7].settings);
+/// assert_eq!(curves[7], alone);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[must_use]
+pub fn transients(members: &[TransientMember]) -> Vec<Result<SpeedCurve, Error>> {
+    with_instruction_set(members, InstructionSet::best())
+}
+
+/// What became of the member of an index.
+type Outcome = (usize, Result<SpeedCurve, Error>);
+
+fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec<Result<SpeedCurve, Error>> {
+    let next = AtomicUsize::new(0);
+    let mut outcomes = workers(members.len(), |lanes| Worker::new(members, &next, lanes, set).run());
+    outcomes.sort_unstable_by_key(|(index, _)| *index);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// The outcomes of as many workers as there are threads, each told how many lanes are its share; it does not matter which of
+/// them has a member.
+#[cfg(feature = "parallel")]
+fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
+    use rayon::prelude::*;
+    let threads = rayon::current_num_threads().min(members).max(1);
+    let lanes = members.div_ceil(threads).min(BATCHES * Flights::LANES);
+    (0..threads).into_par_iter().with_max_len(1).flat_map_iter(|_| work(lanes)).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome> {
+    work(members.min(BATCHES * Flights::LANES))
+}
+
+/// Advances members that nobody has begun until there are none left.
+struct Worker<'a> {
+    members: &'a [TransientMember],
+    next: &'a AtomicUsize,
+    /// Most lanes in use.
+    lanes: usize,
+    set: InstructionSet,
+    /// The transients of the first lanes, with the indices of their members.
+    runs: Vec<(usize, Run)>,
+    /// Their curves, close together: a run is large, and seldom looked at.
+    curves: Vec<Vec<f64>>,
+    outcomes: Vec<Outcome>,
+}
+
+impl<'a> Worker<'a> {
+    const fn new(
+        members: &'a [TransientMember],
+        next: &'a AtomicUsize,
+        lanes: usize,
+        set: InstructionSet,
+    ) -> Self {
+        Self { members, next, lanes, set, runs: Vec::new(), curves: Vec::new(), outcomes: Vec::new() }
+    }
+
+    fn take(&self) -> Option<(usize, &'a TransientMember)> {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        self.members.get(index).map(|member| (index, member))
+    }
+
+    fn run(mut self) -> Vec<Outcome> {
+        if self.lanes >= FEWEST {
+            self.in_lanes();
+        }
+        while let Some((index, member)) = self.take() {
+            self.outcomes.push((index, member.alone()));
+        }
+        self.outcomes
+    }
+
+    /// The next member that waits and is not done before its first flight, about to fly.
+    fn begun(&mut self) -> Option<(usize, Run, Launch)> {
+        loop {
+            let (index, member) = self.take()?;
+            if member.settings.policy != ChatterPolicy::Complete {
+                self.outcomes.push((index, member.alone()));
+                continue;
+            }
+            match Run::new(&member.system, member.phase, &member.settings) {
+                Ok(mut run) => match fly_next(&mut run) {
+                    Ok(Some(launch)) => return Some((index, run, launch)),
+                    Ok(None) => self.outcomes.push((index, run.finished())),
+                    Err(error) => self.outcomes.push((index, Err(error))),
+                },
+                Err(error) => self.outcomes.push((index, Err(error))),
+            }
+        }
+    }
+
+    /// Advances members together while there are enough of them.
+    fn in_lanes(&mut self) {
+        let batches = self.lanes.div_ceil(Flights::LANES);
+        // Without the memory for lanes they are advanced one by one.
+        let Ok(mut flights) = Flights::new(self.set, batches) else { return };
+        let mut rotors = vec![Rotors::new(); batches];
+        let mut may_rest = vec![[0; Flights::LANES]; batches];
+        let mut failures: Vec<(usize, Error)> = Vec::new();
+        loop {
+            while self.runs.len() < self.lanes
+                && let Some((index, mut run, launch)) = self.begun()
+            {
+                let lane = self.runs.len();
+                flights.set_platform(lane, *run.rotor.system().vibration());
+                flights.set_launch(lane, launch);
+                let (rotors, mut curve) = (&mut rotors[lane / Flights::LANES], Vec::new());
+                rotors.begin(lane % Flights::LANES, &mut run, &mut curve);
+                self.runs.push((index, run));
+                self.curves.push(curve);
+            }
+            if self.runs.len() < FEWEST {
+                break;
+            }
+            flights.fly(self.runs.len(), |lane, error| failures.push((lane, Error::from(error))));
+            let used = self.runs.len().div_ceil(Flights::LANES);
+            for (batch, (rotors, may_rest)) in rotors.iter_mut().zip(&mut may_rest).enumerate().take(used) {
+                if let Some(impacts) = flights.impacts(batch) {
+                    flights.run(Carry { impacts, rotors });
+                }
+                flights.rebound(batch, &rotors.restitution, may_rest);
+            }
+            // From the last lane, so that a transient that is moved into a gap has been judged.
+            for batch in (0..used).rev() {
+                let first = batch * Flights::LANES;
+                // The flights name the lanes in their order, and those of later batches have been taken.
+                let failed = failures.iter().rev().map_while(|(lane, _)| lane.checked_sub(first));
+                let mut waiting =
+                    failed.fold(rotors[batch].attended(&may_rest[batch]), |bits, own| bits | 1 << own);
+                while let Some(own) = waiting.checked_ilog2() {
+                    waiting &= !(1 << own);
+                    let (own, lane) = (own as usize, first + own as usize);
+                    let Some((_, run)) = self.runs.get_mut(lane) else { continue };
+                    let done = match failures.pop_if(|(failed, _)| *failed == lane) {
+                        Some((_, error)) => Err(error),
+                        None => {
+                            let may_rest = may_rest[batch][own] != 0;
+                            let curve = &mut self.curves[lane];
+                            attend(lane, run, curve, &mut flights, &mut rotors[batch], may_rest)
+                        }
+                    };
+                    if matches!(done, Ok(false)) {
+                        continue;
+                    }
+                    let (index, run) = self.runs.swap_remove(lane);
+                    self.curves.swap_remove(lane);
+                    self.outcomes.push((index, done.and_then(|_| run.finished())));
+                    let last = self.runs.len();
+                    if let (Some((_, moved)), Some(launch)) = (self.runs.get(lane), flights.launch(last)) {
+                        flights.set_platform(lane, *moved.rotor.system().vibration());
+                        flights.set_launch(lane, launch);
+                        Rotors::move_lane(&mut rotors, last, lane);
+                    }
+                }
+            }
+        }
+        let runs = std::mem::take(&mut self.runs).into_iter().zip(std::mem::take(&mut self.curves));
+        for (lane, ((index, mut run), mut curve)) in runs.enumerate() {
+            let (rotors, own) = (&rotors[lane / Flights::LANES], lane % Flights::LANES);
+            rotors.give_back(own, &mut run, &mut curve);
+            // Every run has a lane.
+            if let Some(launch) = flights.launch(lane) {
+                self.outcomes.push((index, finished_alone(run, launch, rotors.motion(own))));
+            }
+        }
+    }
+}
+
+/// Takes a transient to its next flight; `None` if it is done before.
+fn fly_next(run: &mut Run) -> Result<Option<Launch>, Error> {
+    while !run.is_done() {
+        if let Some((phase, speed)) = run.rotor.launch() {
+            return Ok(Some(Launch::new(phase, speed)?));
+        }
+        run.step()?;
+    }
+    Ok(None)
+}
+
+/// What is not the same for every lane after an impact; true if the transient is done.
+fn attend(
+    lane: usize,
+    run: &mut Run,
+    curve: &mut Vec<f64>,
+    flights: &mut Flights,
+    rotors: &mut Rotors,
+    may_rest: bool,
+) -> Result<bool, Error> {
+    let own = lane % Flights::LANES;
+    rotors.pass_interval(own, curve);
+    if rotors.is_over(own) {
+        rotors.give_back(own, run, curve);
+        return Ok(true);
+    }
+    if !may_rest {
+        return Ok(false);
+    }
+    let (Some(state), restitution) = (flights.state(lane), rotors.restitution[own]) else { return Ok(false) };
+    let vibration = run.rotor.system().vibration();
+    if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {
+        return Ok(false);
+    }
+    let (periods, speed) = rotors.motion(own);
+    run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
+    rotors.give_back(own, run, curve);
+    let Some(launch) = fly_next(run)? else { return Ok(true) };
+    flights.set_launch(lane, launch);
+    rotors.take(own, run, curve);
+    Ok(false)
+}
+
+/// The curve of a transient that leaves its lane at a launch.
+fn finished_alone(mut run: Run, launch: Launch, (periods, speed): (u64, f64)) -> Result<SpeedCurve, Error> {
+    run.rotor.go_on_with(launch, ChatterPolicy::Complete, periods, speed)?;
+    while !run.is_done() {
+        run.step()?;
+    }
+    run.finished()
+}
+
+#[cfg(test)]
+mod tests;

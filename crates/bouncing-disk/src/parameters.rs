@@ -1,0 +1,8 @@
+//! The parameters in SI units, and the groups without units that decide the motion.
+
+pub(crate) mod dimensionless;
+pub(crate) mod disk;
+pub(crate) mod platform;
+mod presets;
+pub(crate) mod scales;
+pub(crate) mod system;

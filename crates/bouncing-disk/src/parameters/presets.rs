@@ -1,0 +1,138 @@
+//! The systems of the paper's tables, and others that differ from a system in a few parameters.
+
+use std::f64::consts::TAU;
+
+use crate::error::Error;
+use crate::parameters::disk::DiskParameters;
+use crate::parameters::platform::{Platform, PlatformParameters, Stroke};
+use crate::parameters::system::System;
+
+/// The hand of Table I.
+const HAND: Stroke = Stroke {
+    stroke: 0.25,
+    amplitude_angle: 0.55,
+    contact_radius: 0.135,
+    angular_frequency: 15.0,
+    phase_lag: 0.0,
+};
+
+/// The dough of Table I. The table has no restitution: a single toss does not depend on it, and 0.5 is that of Sec. IV.
+const DOUGH: DiskParameters = DiskParameters {
+    contact_radius: 0.135,
+    gyration_radius: 0.11,
+    friction: 0.6,
+    restitution: 0.5,
+    preload_acceleration: 9.8,
+    load_acceleration: 0.0,
+};
+
+/// Drive frequency (Hz) of the paper's motor, the "70" that Table III prints as g.
+const DRIVE_FREQUENCY: f64 = 70e3;
+
+/// The largest angular speed of the stator (rad/s) of Table III.
+const STATOR_SPEED: f64 = 30.0;
+
+/// The rotor of Table III under its own weight.
+const ROTOR: DiskParameters = DiskParameters {
+    contact_radius: 1.25e-3,
+    gyration_radius: 6.3e-3,
+    friction: 0.1,
+    restitution: 0.5,
+    preload_acceleration: 9.8,
+    load_acceleration: 0.0,
+};
+
+impl System {
+    /// The pizza toss of Table I: a linear hand motion (theta = 0) with a stroke of 0.25 m at 15 rad/s, and its dough.
+    ///
+    /// ```
+    /// use bouncing_disk::{InitialSpin, System, single_toss};
+    ///
+    /// let toss = single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest)?;
+    /// assert_eq!(toss.airborne_speed.round(), 14.0);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    #[must_use]
+    pub fn pizza_toss() -> Self {
+        Platform::from_stroke(HAND)
+            .and_then(|hand| Self::new(hand, DOUGH.build()?))
+            .expect("the values of Table I are legal, which a test shows")
+    }
+
+    /// The motor of Table III, its "70" read as the drive frequency in kHz: a stator with A = 10 nm that turns with up to
+    /// 30 rad/s in phase with its rise, and a rotor under its own weight.
+    ///
+    /// ```
+    /// use bouncing_disk::System;
+    ///
+    /// // The same motor with ten times the amplitude and a little less friction.
+    /// let motor = System::motor()
+    ///     .with_platform(|stator| stator.amplitude = 1e-7)?
+    ///     .with_disk(|rotor| rotor.friction = 0.09)?;
+    /// assert_eq!(motor.axial_forcing().round(), 628.0);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    #[must_use]
+    pub fn motor() -> Self {
+        let angular_frequency = TAU * DRIVE_FREQUENCY;
+        let stator = PlatformParameters {
+            amplitude: 1e-8,
+            twist_amplitude: STATOR_SPEED / angular_frequency,
+            angular_frequency,
+            phase_lag: 0.0,
+        };
+        stator
+            .build()
+            .and_then(|stator| Self::new(stator, ROTOR.build()?))
+            .expect("the values of Table III are legal, which a test shows")
+    }
+
+    /// The same system with other parameters of the platform.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
+    pub fn with_platform(&self, change: impl FnOnce(&mut PlatformParameters)) -> Result<Self, Error> {
+        let mut parameters = self.platform().parameters();
+        change(&mut parameters);
+        Self::new(parameters.build()?, *self.disk())
+    }
+
+    /// The same system with other parameters of the disk.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
+    pub fn with_disk(&self, change: impl FnOnce(&mut DiskParameters)) -> Result<Self, Error> {
+        let mut parameters = self.disk().parameters();
+        change(&mut parameters);
+        Self::new(*self.platform(), parameters.build()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_presets_are_legal_and_those_of_the_tables() {
+        let toss = System::pizza_toss();
+        // Table I: Gamma from its own numbers, A = c cos(phi_L).
+        let expected =
+            0.25 * bouncing_disk_core::elementary::cos(0.55) * 225.0 / (std::f64::consts::PI * 9.8);
+        assert!((toss.axial_forcing() - expected).abs() < 1e-14, "{}", toss.axial_forcing());
+        let motor = System::motor();
+        assert!((motor.platform().peak_angular_speed() - 30.0).abs() < 1e-13);
+        assert!((motor.axial_forcing() - 62.83).abs() < 0.01, "{}", motor.axial_forcing());
+    }
+
+    #[test]
+    fn one_parameter_is_changed_and_checked() {
+        let motor = System::motor();
+        let rougher = motor.with_disk(|rotor| rotor.friction = 0.2).expect("legal");
+        assert_eq!(rougher.disk().friction().to_bits(), 0.2_f64.to_bits());
+        assert_eq!(rougher.platform(), motor.platform());
+        let error = motor.with_disk(|rotor| rotor.restitution = 1.0).expect_err("illegal");
+        assert!(error.to_string().contains("restitution"), "{error}");
+        let error = motor.with_platform(|stator| stator.amplitude = f64::NAN).expect_err("illegal");
+        assert!(error.to_string().contains("amplitude"), "{error}");
+    }
+}

@@ -1,0 +1,318 @@
+//! A disk on a platform, in SI units.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
+use crate::parameters::disk::Disk;
+use crate::parameters::platform::Platform;
+use crate::parameters::scales::Scales;
+
+/// A disk on a platform.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Parts", into = "Parts")]
+pub struct System {
+    platform: Platform,
+    disk: Disk,
+    dimensionless: DimensionlessSystem,
+}
+
+impl System {
+    /// The system of these two.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a dimensionless parameter of the combination is outside its range, for example a
+    /// peak acceleration above 1e8 g, or if a unit of [`Self::scales`] is too small or too large for a double.
+    pub fn new(platform: Platform, disk: Disk) -> Result<Self, Error> {
+        let preload = disk.preload_acceleration();
+        // a_g^2/(a_e g): from angular accelerations to multiples of the friction's unit.
+        let inertia = disk.gyration_radius() * disk.gyration_radius() / (disk.contact_radius() * preload);
+        let dimensionless = DimensionlessParameters {
+            peak_acceleration: platform.peak_acceleration() / preload,
+            twist_speed: inertia * platform.peak_angular_speed() * platform.angular_frequency(),
+            phase_lag: platform.phase_lag(),
+            friction: disk.friction(),
+            restitution: disk.restitution(),
+            load: inertia * disk.load_acceleration(),
+        }
+        .build()?;
+        Scales::new(&platform, &disk).check()?;
+        Ok(Self { platform, disk, dimensionless })
+    }
+
+    /// The platform.
+    #[must_use]
+    pub const fn platform(&self) -> &Platform {
+        &self.platform
+    }
+
+    /// The disk.
+    #[must_use]
+    pub const fn disk(&self) -> &Disk {
+        &self.disk
+    }
+
+    /// The same system without units.
+    #[must_use]
+    pub const fn dimensionless(&self) -> &DimensionlessSystem {
+        &self.dimensionless
+    }
+
+    /// The units of [`Self::dimensionless`].
+    #[must_use]
+    pub fn scales(&self) -> Scales {
+        Scales::new(&self.platform, &self.disk)
+    }
+
+    /// P = A omega^2/g, the platform's peak acceleration in units of the preload acceleration.
+    #[must_use]
+    pub const fn peak_acceleration(&self) -> f64 {
+        self.dimensionless.peak_acceleration()
+    }
+
+    /// Axial forcing parameter Gamma = A omega^2/(pi g) (Sec. I).
+    #[must_use]
+    pub fn axial_forcing(&self) -> f64 {
+        self.dimensionless.axial_forcing()
+    }
+
+    /// Angular forcing parameter Gamma_T = a_g^2 Phi omega^2/(a_e pi g mu) (Sec. IV); `None` without friction.
+    #[must_use]
+    pub fn angular_forcing(&self) -> Option<f64> {
+        self.dimensionless.angular_forcing()
+    }
+}
+
+impl From<System> for DimensionlessSystem {
+    fn from(system: System) -> Self {
+        system.dimensionless
+    }
+}
+
+impl From<&System> for DimensionlessSystem {
+    fn from(system: &System) -> Self {
+        system.dimensionless
+    }
+}
+
+/// What is serialised of a system.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parts {
+    platform: Platform,
+    disk: Disk,
+}
+
+impl TryFrom<Parts> for System {
+    type Error = Error;
+
+    fn try_from(parts: Parts) -> Result<Self, Error> {
+        Self::new(parts.platform, parts.disk)
+    }
+}
+
+impl From<System> for Parts {
+    fn from(system: System) -> Self {
+        Self { platform: system.platform, disk: system.disk }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use bouncing_disk_core::Phase;
+
+    use super::*;
+    use crate::parameters::disk::DiskParameters;
+    use crate::parameters::platform::{PlatformParameters, Stroke};
+
+    const PLATFORM: PlatformParameters =
+        PlatformParameters { amplitude: 0.2, twist_amplitude: 1.1, angular_frequency: 15.0, phase_lag: 0.4 };
+
+    const DISK: DiskParameters = DiskParameters {
+        contact_radius: 0.135,
+        gyration_radius: 0.11,
+        friction: 0.6,
+        restitution: 0.5,
+        preload_acceleration: 9.8,
+        load_acceleration: 3.0,
+    };
+
+    fn system() -> System {
+        System::new(PLATFORM.build().unwrap(), DISK.build().unwrap()).unwrap()
+    }
+
+    /// The dimensionless platform, scaled back, is the SI one.
+    #[test]
+    fn scales_carry_the_motion_back_to_si() {
+        let (system, scales) = (system(), system().scales());
+        for angle in [0.0, 1.0, 4.0] {
+            let phase = Phase::new(angle).unwrap();
+            let state = crate::PlatformState::at(system.dimensionless(), phase);
+            let pairs = [
+                (state.height * scales.length, system.platform().height(phase)),
+                (state.axial_velocity * scales.velocity, system.platform().velocity(phase)),
+                (state.angle * scales.angle, system.platform().angle(phase)),
+                (state.angular_speed * scales.angular_speed, system.platform().angular_speed(phase)),
+            ];
+            for (one, other) in pairs {
+                assert!((one - other).abs() <= 1e-14 * other.abs().max(1.0), "{one} {other}");
+            }
+        }
+        // Energy per unit mass: v^2/2 and (a_g speed)^2/2.
+        assert!((scales.axial_energy - scales.velocity * scales.velocity).abs() < 1e-15);
+        let rim = scales.angular_speed * 0.11;
+        assert!((scales.rotary_energy / (rim * rim) - 1.0).abs() < 1e-14);
+        assert!((system.dimensionless().load() * scales.angular_acceleration - 3.0).abs() < 1e-14);
+        let friction = 0.6 * 9.8 * 0.135 / (0.11 * 0.11);
+        assert!((scales.angular_acceleration * 0.6 - friction).abs() < 1e-13);
+        let second = crate::PhaseTime { periods: 3, phase: Phase::new(1.0).unwrap() };
+        assert!((scales.time_seconds(second) - (3.0 * std::f64::consts::TAU + 1.0) / 15.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_forcing_parameters_are_those_of_the_paper() {
+        let system = system();
+        let pi = std::f64::consts::PI;
+        assert!((system.axial_forcing() - 0.2 * 225.0 / (pi * 9.8)).abs() < 1e-14);
+        let angular = 0.11 * 0.11 * 1.1 * 225.0 / (0.135 * pi * 9.8 * 0.6);
+        assert!((system.angular_forcing().unwrap() - angular).abs() < 1e-14);
+        let slippery = DiskParameters { friction: 0.0, ..DISK }.build().unwrap();
+        assert_eq!(System::new(*system.platform(), slippery).unwrap().angular_forcing(), None);
+    }
+
+    #[test]
+    fn a_stroke_is_shared_between_lift_and_twist() {
+        let stroke = Stroke {
+            stroke: 0.25,
+            amplitude_angle: 0.55,
+            contact_radius: 0.135,
+            angular_frequency: 15.0,
+            phase_lag: 0.0,
+        };
+        let platform = Platform::from_stroke(stroke).unwrap();
+        let rim = 0.135 * platform.twist_amplitude();
+        assert!((platform.amplitude() * platform.amplitude() + rim * rim - 0.0625).abs() < 1e-15);
+        assert!((rim / platform.amplitude() - bouncing_disk_core::elementary::tan(0.55)).abs() < 1e-15);
+        assert!(Platform::from_stroke(Stroke { amplitude_angle: FRAC_PI_2, ..stroke }).is_ok());
+        let error = Platform::from_stroke(Stroke { amplitude_angle: 1.6, ..stroke }).unwrap_err();
+        assert!(error.to_string().contains("amplitude_angle = 1.6"), "{error}");
+    }
+
+    #[test]
+    fn illegal_parameters_are_refused_by_name() {
+        let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0];
+        for value in bad {
+            let platforms = [
+                ("amplitude", PlatformParameters { amplitude: value, ..PLATFORM }),
+                ("twist_amplitude", PlatformParameters { twist_amplitude: value, ..PLATFORM }),
+                ("angular_frequency", PlatformParameters { angular_frequency: value, ..PLATFORM }),
+            ];
+            for (name, parameters) in platforms {
+                assert!(matches!(parameters.build(), Err(Error::OutOfRange { field, .. }) if field == name));
+            }
+            let disks = [
+                ("contact_radius", DiskParameters { contact_radius: value, ..DISK }),
+                ("gyration_radius", DiskParameters { gyration_radius: value, ..DISK }),
+                ("friction", DiskParameters { friction: value, ..DISK }),
+                ("restitution", DiskParameters { restitution: value, ..DISK }),
+                ("preload_acceleration", DiskParameters { preload_acceleration: value, ..DISK }),
+            ];
+            for (name, parameters) in disks {
+                assert!(matches!(parameters.build(), Err(Error::OutOfRange { field, .. }) if field == name));
+            }
+        }
+        for parameters in [
+            DiskParameters { restitution: 1.0, ..DISK },
+            DiskParameters { contact_radius: 0.0, ..DISK },
+            DiskParameters { gyration_radius: 0.0, ..DISK },
+            DiskParameters { preload_acceleration: 0.0, ..DISK },
+            DISK.with_load_torque(1.0, 0.0),
+            DISK.with_load_torque(1.0, -0.05),
+            DISK.with_load_torque(0.0, f64::INFINITY),
+            // Its moment of inertia overflows, and the load vanished.
+            DiskParameters { gyration_radius: 1e10, ..DISK }.with_load_torque(1.0, 1e300),
+        ] {
+            assert!(parameters.build().is_err());
+        }
+        assert!(PlatformParameters { angular_frequency: 0.0, ..PLATFORM }.build().is_err());
+        assert!(PlatformParameters { phase_lag: f64::NAN, ..PLATFORM }.build().is_err());
+        let violent = PlatformParameters { amplitude: 1e9, ..PLATFORM }.build().unwrap();
+        assert!(matches!(System::new(violent, DISK.build().unwrap()), Err(Error::Core(_))));
+    }
+
+    /// Nothing moves, nothing rubs, nothing rebounds: all legal.
+    #[test]
+    fn zeros_are_legal() {
+        let platform = PlatformParameters { amplitude: 0.0, twist_amplitude: 0.0, ..PLATFORM };
+        let disk = DiskParameters { friction: 0.0, restitution: 0.0, load_acceleration: 0.0, ..DISK };
+        let system = System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap();
+        assert_eq!((system.axial_forcing(), system.angular_forcing()), (0.0, None));
+        let torque = DISK.with_load_torque(0.02, 0.4).load_acceleration;
+        assert!((torque - 0.02 / (0.4 * 0.11 * 0.11)).abs() < 1e-14);
+    }
+
+    /// A period of more seconds than a double holds: a transient of such a motor never ended.
+    #[test]
+    fn units_that_no_double_holds_are_refused() {
+        for (platform, disk, name) in [
+            (PlatformParameters { angular_frequency: 1e-310, ..PLATFORM }, DISK, "unit of time (s)"),
+            (PlatformParameters { angular_frequency: 1e-160, ..PLATFORM }, DISK, "unit of length (m)"),
+            (
+                PlatformParameters {
+                    amplitude: 0.0,
+                    twist_amplitude: 0.0,
+                    angular_frequency: 1e155,
+                    ..PLATFORM
+                },
+                DISK,
+                "unit of length (m)",
+            ),
+        ] {
+            let error = System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap_err();
+            assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+        }
+    }
+
+    #[test]
+    fn misspelt_keys_are_refused() {
+        let refused =
+            |error: serde_json::Error, key: &str| assert!(error.to_string().contains(key), "{error}");
+        let text = serde_json::to_string(&system()).unwrap();
+        for (key, misspelt) in
+            [("load_acceleration", "load_aceleration"), ("phase_lag", "phase_leg"), ("disk", "disc")]
+        {
+            refused(serde_json::from_str::<System>(&text.replace(key, misspelt)).unwrap_err(), misspelt);
+        }
+        let text = serde_json::to_string(system().dimensionless()).unwrap();
+        refused(
+            serde_json::from_str::<DimensionlessSystem>(&text.replace("load", "lode")).unwrap_err(),
+            "lode",
+        );
+        let braking = r#"{"angular_acceleration":-1.0,"normal_force":1.0,"mass":1.0,"contact_radius":1.0,"gyration_radius":1.0,"mas":2.0}"#;
+        refused(serde_json::from_str::<crate::Braking>(braking).unwrap_err(), "mas");
+        let stroke = r#"{"stroke":1.0,"amplitude_angle":0.0,"contact_radius":1.0,"angular_frequency":1.0,"phase_lag":0.0,"lag":1.0}"#;
+        refused(serde_json::from_str::<Stroke>(stroke).unwrap_err(), "lag");
+        let launch =
+            r#"{"axial_speed":1.0,"angular_speed":1.0,"stroke":1.0,"contact_radius":1.0,"radius":2.0}"#;
+        refused(serde_json::from_str::<crate::LaunchSpeeds>(launch).unwrap_err(), "radius");
+        let forcing =
+            r#"{"axial_forcing":1.0,"angular_forcing":1.0,"phase_lag":0.0,"restitution":0.5,"friction":0.1}"#;
+        refused(serde_json::from_str::<crate::ForcingParameters>(forcing).unwrap_err(), "friction");
+        let transition = r#"{"from":"Flight","event":"Impact","to":"Flight","via":"Sliding"}"#;
+        refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
+    }
+
+    #[test]
+    fn parameters_survive_json_and_illegal_json_is_refused() {
+        let text = serde_json::to_string(&system()).unwrap();
+        assert_eq!(serde_json::from_str::<System>(&text).unwrap(), system());
+        let error =
+            serde_json::from_str::<System>(&text.replace("\"restitution\":0.5", "\"restitution\":1.5"));
+        assert!(error.unwrap_err().to_string().contains("restitution = 1.5"));
+        let dimensionless = *system().dimensionless();
+        let text = serde_json::to_string(&dimensionless).unwrap();
+        assert_eq!(serde_json::from_str::<crate::DimensionlessSystem>(&text).unwrap(), dimensionless);
+    }
+}

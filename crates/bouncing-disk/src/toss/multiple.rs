@@ -1,0 +1,465 @@
+//! Multiple tosses (Sec. IV): what a motion settles on, and how it is classified.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers};
+use serde::Serialize;
+
+use crate::error::{Error, room_for};
+use crate::motion::initial_condition::InitialCondition;
+use crate::motion::phase_time::PhaseTime;
+use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
+
+/// Most impacts that [`multi_toss`] looks at.
+pub const MAX_EXAMINED: usize = 10_000_000;
+
+/// How long a motion is followed, and when it counts as periodic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MultiTossSettings {
+    /// What ends a chattering sequence.
+    pub policy: ChatterPolicy,
+    /// Impacts that are not looked at.
+    pub transient_impacts: usize,
+    /// Impacts that are looked at after them, from 2 to [`MAX_EXAMINED`].
+    pub examined_impacts: usize,
+    /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts examined are
+    /// compared.
+    pub longest_period: usize,
+    /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no more
+    /// are the same.
+    pub tolerance: f64,
+}
+
+impl Default for MultiTossSettings {
+    fn default() -> Self {
+        Self {
+            policy: ChatterPolicy::Complete,
+            transient_impacts: 4_000,
+            examined_impacts: 1_024,
+            longest_period: 128,
+            tolerance: 1.0e-9,
+        }
+    }
+}
+
+impl MultiTossSettings {
+    fn check(&self) -> Result<(), Error> {
+        let refuse = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+        if self.examined_impacts < 2 {
+            return refuse("examined_impacts", self.examined_impacts as f64, "at least 2");
+        }
+        if self.longest_period < 1 {
+            return refuse("longest_period", self.longest_period as f64, "at least 1");
+        }
+        if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
+            return refuse("tolerance", self.tolerance, "[0, inf)");
+        }
+        Ok(())
+    }
+}
+
+/// What a motion has settled on, judged from the impacts examined.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum OrbitClass {
+    /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
+    /// the vertical orbit, which attracts.
+    Periodic {
+        /// Impacts in one round.
+        period: usize,
+        /// Periods of the platform in one round.
+        platform_periods: u64,
+        /// The two Floquet multipliers of the vertical motion.
+        vertical: Multipliers,
+        /// The third one: 0 if the slip ends in an impact of the round, 1 if every impact slides.
+        rotary: f64,
+    },
+    /// The disk comes to rest on the platform again and again. It leaves it in the same vertical state each time,
+    /// so the vertical motion is periodic from the first separation on: eventually periodic, as long as the
+    /// arithmetic is. (A long cycle depends on its rounding.)
+    Chattering {
+        /// Impacts from one separation to the next, without those that the complete policy sums.
+        impacts_per_cycle: usize,
+        /// Periods of the platform from one separation to the next.
+        platform_periods: u64,
+        /// Flights of the cycle that last longer than half a period.
+        long_flights: usize,
+    },
+    /// Neither within the impacts examined.
+    ChaoticOrLong {
+        /// Impacts examined.
+        impacts: usize,
+        /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
+        /// impacts examined: an estimate of the largest Lyapunov exponent. `None` if the disk attached on the way.
+        lyapunov_exponent: Option<f64>,
+    },
+    /// The disk rests on the platform for ever.
+    AtRest,
+}
+
+/// A motion after its transient.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TossOrbit {
+    /// What it has settled on.
+    pub class: OrbitClass,
+    /// One round of a periodic orbit, one cycle of a chattering one, else all impacts examined.
+    pub collisions: Vec<Collision>,
+    /// Mean angular speed over those, in units of g a_e/(a_g^2 omega); `None` at rest.
+    pub mean_angular_speed: Option<f64>,
+    /// Whether the angular speed, too, repeats from round to round; `None` where nothing repeats.
+    pub rotation_repeats: Option<bool>,
+}
+
+/// Follows a motion through its transient and says what it has settled on.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts examined or than there is
+/// memory for; those of [`Collisions`].
+pub fn multi_toss(
+    system: impl Into<DimensionlessSystem>,
+    start: InitialCondition,
+    settings: MultiTossSettings,
+) -> Result<TossOrbit, Error> {
+    settings.check()?;
+    let system = system.into();
+    let mut collisions = Collisions::new(system, start, settings.policy)?;
+    let mut skipped = 0;
+    let collided = room_for("examined impacts", settings.examined_impacts, MAX_EXAMINED)?;
+    let mut window = Window { collisions: collided, ..Window::default() };
+    while window.collisions.len() < settings.examined_impacts {
+        match collisions.advance()? {
+            Some(event) if skipped < settings.transient_impacts => {
+                skipped += usize::from(matches!(event, CollisionEvent::Collision(_)));
+            }
+            Some(event) => window.push(&event),
+            None => {
+                return Ok(TossOrbit {
+                    class: OrbitClass::AtRest,
+                    collisions: Vec::new(),
+                    mean_angular_speed: None,
+                    rotation_repeats: None,
+                });
+            }
+        }
+    }
+    Ok(window.classified(&system, &settings))
+}
+
+/// A separation, and how many collisions of the window came before it.
+#[derive(Debug, Clone, Copy)]
+struct Leaving {
+    before: usize,
+    time: PhaseTime,
+    angular_speed: f64,
+    angle: f64,
+}
+
+#[derive(Debug, Default)]
+struct Window {
+    collisions: Vec<Collision>,
+    leavings: Vec<Leaving>,
+    attached: bool,
+}
+
+impl Window {
+    fn push(&mut self, event: &CollisionEvent) {
+        match *event {
+            CollisionEvent::Collision(collision) => self.collisions.push(collision),
+            CollisionEvent::Attachment { .. } => self.attached = true,
+            CollisionEvent::Separation { time, angular_speed, angle } => {
+                self.leavings.push(Leaving { before: self.collisions.len(), time, angular_speed, angle });
+            }
+        }
+    }
+
+    fn classified(self, system: &DimensionlessSystem, settings: &MultiTossSettings) -> TossOrbit {
+        if let [.., from, to] = self.leavings[..] {
+            return self.chattering(system, settings, from, to);
+        }
+        let periodic = if self.attached { None } else { self.periodic(system, settings) };
+        periodic.unwrap_or_else(|| self.chaotic(system))
+    }
+
+    fn chattering(
+        self,
+        system: &DimensionlessSystem,
+        settings: &MultiTossSettings,
+        from: Leaving,
+        to: Leaving,
+    ) -> TossOrbit {
+        let cycle = &self.collisions[from.before..to.before];
+        let mut last = from.time;
+        let mut long_flights = 0;
+        for collision in cycle {
+            long_flights += usize::from(collision.time.since(&last).radians() > 0.5 * TAU);
+            last = collision.time;
+        }
+        let change = to.angular_speed - from.angular_speed;
+        TossOrbit {
+            class: OrbitClass::Chattering {
+                impacts_per_cycle: cycle.len(),
+                platform_periods: to.time.since(&from.time).periods,
+                long_flights,
+            },
+            mean_angular_speed: mean_speed((from.time, from.angle), (to.time, to.angle)),
+            rotation_repeats: Some(change.abs() <= settings.tolerance * (1.0 + system.twist_speed())),
+            collisions: cycle.to_vec(),
+        }
+    }
+
+    fn periodic(&self, system: &DimensionlessSystem, settings: &MultiTossSettings) -> Option<TossOrbit> {
+        let last = self.collisions.len() - 1;
+        let longest = settings.longest_period.min(self.collisions.len() / 2).min(MAX_PERIOD);
+        let near = |a: &Collision, b: &Collision| {
+            let apart = (a.time.phase.angle() - b.time.phase.angle()).abs();
+            let velocity = a.state.axial_impact_velocity;
+            apart.min(TAU - apart) <= settings.tolerance
+                && (velocity - b.state.axial_impact_velocity).abs()
+                    <= settings.tolerance * (1.0 + velocity.abs())
+        };
+        let period = (1..=longest).find(|period| {
+            (0..*period)
+                .all(|back| near(&self.collisions[last - back], &self.collisions[last - back - period]))
+        })?;
+        let round = &self.collisions[last + 1 - period..];
+        let states: Vec<ImpactState> =
+            round.iter().map(|collision| collision.state.vertical()).collect::<Result<_, _>>().ok()?;
+        let orbit = system.map().refine(&states).ok()?;
+        let vertical = Multipliers::of(orbit.monodromy);
+        if vertical.spectral_radius() >= 1.0 {
+            return None;
+        }
+        let before = &self.collisions[last - period];
+        let end = &self.collisions[last];
+        let scale = settings.tolerance * (1.0 + system.twist_speed());
+        Some(TossOrbit {
+            class: OrbitClass::Periodic {
+                period,
+                platform_periods: orbit.platform_periods,
+                vertical,
+                rotary: if round.iter().any(|collision| collision.capped) { 0.0 } else { 1.0 },
+            },
+            collisions: round.to_vec(),
+            mean_angular_speed: mean_speed((before.time, before.angle), (end.time, end.angle)),
+            rotation_repeats: Some((end.angular_speed - before.angular_speed).abs() <= scale),
+        })
+    }
+
+    fn chaotic(self, system: &DimensionlessSystem) -> TossOrbit {
+        let (first, last) = (&self.collisions[0], &self.collisions[self.collisions.len() - 1]);
+        let mean = mean_speed((first.time, first.angle), (last.time, last.angle));
+        let lyapunov_exponent =
+            if self.attached { None } else { growth_rate(system.map(), &self.collisions) };
+        TossOrbit {
+            class: OrbitClass::ChaoticOrLong { impacts: self.collisions.len(), lyapunov_exponent },
+            mean_angular_speed: mean,
+            rotation_repeats: None,
+            collisions: self.collisions,
+        }
+    }
+}
+
+/// Angle turned over time taken.
+fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
+    let span = to.0.since(&from.0).radians();
+    (span > 0.0).then(|| (to.1 - from.1) / span)
+}
+
+/// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is unbounded.
+fn growth_rate(map: &ImpactMap, collisions: &[Collision]) -> Option<f64> {
+    let mut tangent = (1.0, 0.0);
+    let mut sum = 0.0;
+    let mut steps = 0;
+    for collision in collisions.split_last()?.1 {
+        let state = collision.state.vertical().ok()?;
+        let impact = map.step(state).ok()?;
+        let jacobian = map.jacobian(state, &impact);
+        let (along, across) = (jacobian.x_axis, jacobian.y_axis);
+        let x = along.x * tangent.0 + across.x * tangent.1;
+        let y = along.y * tangent.0 + across.y * tangent.1;
+        let length = (x * x + y * y).sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        sum += bouncing_disk_core::elementary::ln(length);
+        tangent = (x / length, y / length);
+        steps += 1;
+    }
+    Some(sum / f64::from(steps))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use bouncing_disk_core::{Phase, Vibration};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::parameters::dimensionless::ForcingParameters;
+    use crate::toss::collisions::CollisionState;
+    use crate::toss::period_one::period_one_rotary_speed;
+
+    fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> DimensionlessSystem {
+        ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: 0.5 }.build().unwrap()
+    }
+
+    fn period_one(system: &DimensionlessSystem, angular_speed: f64) -> InitialCondition {
+        let state = system.map().period_one(1).unwrap();
+        let relative_speed = -system.restitution() * state.velocity();
+        InitialCondition::Launch { phase: state.phase(), relative_speed, angular_speed }
+    }
+
+    fn from_rest(system: &DimensionlessSystem) -> InitialCondition {
+        let phase = Phase::new(1.5 * PI).unwrap();
+        InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) }
+    }
+
+    #[test]
+    fn period_one_tosses_turn_with_the_speed_of_eq_16() {
+        for (forcing, angular_forcing, lag) in
+            [(0.36, 100.0, 0.0), (0.42, 1.0, -0.26 * PI), (0.45, 30.0, 2.0)]
+        {
+            let system = system(forcing, angular_forcing, lag);
+            let orbit = multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default()).unwrap();
+            let OrbitClass::Periodic { period, platform_periods, vertical, rotary } = orbit.class else {
+                panic!("{:?}", orbit.class)
+            };
+            assert_eq!((period, platform_periods), (1, 1));
+            assert!(vertical.spectral_radius() < 1.0);
+            assert!(rotary == 0.0, "the disk turns with the platform at every impact");
+            let expected = period_one_rotary_speed(&system, system.map().period_one(1).unwrap().phase());
+            let speed = orbit.mean_angular_speed.unwrap();
+            assert!((speed - expected).abs() <= 1e-9 * (1.0 + system.twist_speed()), "{speed} {expected}");
+            assert_eq!(orbit.rotation_repeats, Some(true));
+        }
+    }
+
+    #[test]
+    fn a_disk_from_rest_chatters_below_the_merging_of_the_attractors() {
+        for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
+            let system = system(0.48, 1.0, 0.0);
+            let settings = MultiTossSettings { policy, transient_impacts: 100, ..Default::default() };
+            let orbit = multi_toss(system, from_rest(&system), settings).unwrap();
+            let OrbitClass::Chattering { platform_periods, long_flights, .. } = orbit.class else {
+                panic!("{:?}", orbit.class)
+            };
+            assert_eq!((platform_periods, long_flights), (1, 1));
+            assert_eq!(orbit.rotation_repeats, Some(true));
+        }
+    }
+
+    #[test]
+    fn chaos_and_the_gentle_platform_are_told_apart() {
+        let system_of = |forcing| system(forcing, 1.0, 0.0);
+        let chaotic = system_of(0.55);
+        let start = InitialCondition::Launch {
+            phase: Phase::new(0.6).unwrap(),
+            relative_speed: 2.1,
+            angular_speed: 0.0,
+        };
+        let orbit = multi_toss(chaotic, start, MultiTossSettings::default()).unwrap();
+        let OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } = orbit.class else {
+            panic!("{:?}", orbit.class)
+        };
+        assert_eq!(impacts, 1_024);
+        let exponent = lyapunov_exponent.unwrap();
+        assert!(exponent > 0.1 && exponent < 1.0, "{exponent}");
+        let gentle = system_of(0.3);
+        let orbit = multi_toss(gentle, from_rest(&gentle), MultiTossSettings::default()).unwrap();
+        assert_eq!(orbit.class, OrbitClass::AtRest);
+        let orbit = multi_toss(gentle, start, MultiTossSettings::default()).unwrap();
+        assert_eq!(orbit.class, OrbitClass::AtRest);
+    }
+
+    #[test]
+    fn bad_settings_and_states_are_refused() {
+        let system = system(0.4, 1.0, 0.0);
+        let start = period_one(&system, 0.0);
+        for settings in [
+            MultiTossSettings { examined_impacts: 1, ..Default::default() },
+            MultiTossSettings { longest_period: 0, ..Default::default() },
+            MultiTossSettings { tolerance: f64::NAN, ..Default::default() },
+        ] {
+            assert!(matches!(multi_toss(system, start, settings), Err(Error::OutOfRange { .. })));
+        }
+        for examined_impacts in [MAX_EXAMINED + 1, usize::MAX] {
+            let settings = MultiTossSettings { examined_impacts, ..Default::default() };
+            let error = multi_toss(system, start, settings).unwrap_err();
+            assert!(error.to_string().contains(&examined_impacts.to_string()), "{error}");
+        }
+        let endless = MultiTossSettings { longest_period: usize::MAX, ..Default::default() };
+        assert_eq!(multi_toss(system, start, endless), multi_toss(system, start, Default::default()));
+        let state = CollisionState {
+            phase: Phase::new(0.0).unwrap(),
+            axial_impact_velocity: 1.0,
+            tangential_impact_velocity: 0.0,
+        };
+        assert!(state.rebound(&system).is_err());
+        let state = CollisionState {
+            axial_impact_velocity: -1.0,
+            tangential_impact_velocity: f64::INFINITY,
+            ..state
+        };
+        assert!(state.rebound(&system).is_err());
+    }
+
+    proptest! {
+        /// The next collision is that of the map, bit for bit, and the rotary derivative is 0 or 1.
+        #[test]
+        fn the_next_collision_map_is_block_triangular(
+            forcing in 0.3_f64..3.0, angular_forcing in 0.0_f64..10.0, lag in -PI..PI,
+            angle in 0.0..TAU, speed in 0.2_f64..5.0, slip in -20.0_f64..20.0,
+        ) {
+            let system = system(forcing, angular_forcing, lag);
+            let state = CollisionState {
+                phase: Phase::new(angle).unwrap(),
+                axial_impact_velocity: -speed,
+                tangential_impact_velocity: slip,
+            };
+            let next = |slip: f64| {
+                let state = CollisionState { tangential_impact_velocity: slip, ..state };
+                let mut collisions = Collisions::after(system, state, ChatterPolicy::Complete).unwrap();
+                match collisions.advance().unwrap() {
+                    Some(CollisionEvent::Collision(collision)) => Some(collision),
+                    _ => None,
+                }
+            };
+            let Some(one) = next(slip) else { return Ok(()) };
+            let impact = system.map().step(state.vertical().unwrap()).unwrap();
+            prop_assert_eq!(one.time.phase.angle().to_bits(), impact.phase.angle().to_bits());
+            prop_assert_eq!(one.state.axial_impact_velocity.to_bits(), impact.velocity.to_bits());
+            let step = 1e-3;
+            let limit = 1.5 * speed;
+            prop_assume!(((slip.abs() - limit).abs() > 2.0 * step) && slip.abs() > 2.0 * step);
+            let other = next(slip + step).unwrap();
+            prop_assert_eq!(other.state.axial_impact_velocity.to_bits(), one.state.axial_impact_velocity.to_bits());
+            let derivative = (other.state.tangential_impact_velocity - one.state.tangential_impact_velocity) / step;
+            let expected = if slip.abs() < limit { 0.0 } else { 1.0 };
+            prop_assert!((derivative - expected).abs() < 1e-8, "{derivative}");
+        }
+    }
+
+    #[test]
+    fn the_growth_rate_of_a_periodic_orbit_is_the_logarithm_of_its_multiplier() {
+        let vibration = Vibration::from_axial_forcing(0.46).unwrap();
+        let map = ImpactMap::new(vibration, 0.5).unwrap();
+        let state = map.period_one(1).unwrap();
+        let collision = Collision {
+            time: PhaseTime::in_first_period(state.phase()),
+            state: CollisionState {
+                phase: state.phase(),
+                axial_impact_velocity: state.velocity(),
+                tangential_impact_velocity: 0.0,
+            },
+            angular_speed: 0.0,
+            angle: 0.0,
+            capped: true,
+        };
+        let rate = growth_rate(&map, &vec![collision; 20_001]).unwrap();
+        let radius = Multipliers::of(map.refine(&[state]).unwrap().monodromy).spectral_radius();
+        let expected = bouncing_disk_core::elementary::ln(radius);
+        assert!((rate - expected).abs() < 1e-3, "{rate} {expected}");
+    }
+}
