@@ -627,7 +627,10 @@ mod tests {
         assert!(!Claim::printed_statement(key, false, "").lacks_data());
         let inputs = ledger::not_computable("fig10");
         assert!(!inputs.is_empty() && inputs.iter().all(|claim| !claim.lacks_data()));
-        assert!(inputs.iter().any(|claim| claim.class() == Class::Input), "an input stays one without a value");
+        assert!(
+            inputs.iter().any(|claim| claim.class() == Class::Input),
+            "an input stays one without a value"
+        );
     }
 
     #[test]
