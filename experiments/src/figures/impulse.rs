@@ -64,11 +64,11 @@ impl Impulses {
                         .impacts
                         .push((impact.phase.angle(), -(1.0 + map.restitution()) * impact.velocity));
                 }
-                OrbitEvent::Attachment(stick) => {
-                    let Some((leaves, turns)) = stick.separation else { break };
-                    let attached = stick.attachment;
+                OrbitEvent::Attachment(rest) => {
+                    let Some((leaves, turns)) = rest.separation else { break };
+                    let attached = rest.attachment;
                     let from = impulses.impacts.last().map_or(phase.angle(), |impact| impact.0);
-                    let chatter = attached.duration - stick.last_speed
+                    let chatter = attached.duration - rest.last_speed
                         + map.vibration().peak_acceleration() * (cos(attached.phase.angle()) - cos(from));
                     impulses.contact.push((attached.phase.angle(), chatter));
                     let until = leaves.angle() + TAU * turns as f64;

@@ -204,12 +204,12 @@ fn kicks(
                     impulse: -(1.0 + map.restitution()) * impact.velocity,
                 });
             }
-            OrbitEvent::Attachment(stick) => {
-                let Some((leaves, turns)) = stick.separation else { break };
-                let (at, from) = (stick.attachment, stick.attachment.phase.angle());
+            OrbitEvent::Attachment(rest) => {
+                let Some((leaves, turns)) = rest.separation else { break };
+                let (at, from) = (rest.attachment, rest.attachment.phase.angle());
                 // Impulse is change of velocity plus weight times time.
                 let peak = map.vibration().peak_acceleration();
-                let impulse = at.duration - stick.last_speed + peak * (cos(from) - cos(last));
+                let impulse = at.duration - rest.last_speed + peak * (cos(from) - cos(last));
                 kicks.push(Kick { duration: at.duration, stator: cos(from + phase_lag), impulse });
                 let until = leaves.angle() + std::f64::consts::TAU * turns as f64;
                 let step = (until - from) / f64::from(CONTACT_PARTS);

@@ -76,7 +76,7 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
     let from = orbit.launch().map(|(phase, _)| phase);
     Ok(orbit.advance()?.map(|event| match event {
         OrbitEvent::Impact(impact) => SweepEvent::Impact(Landing::of(from, impact)),
-        OrbitEvent::Attachment(stick) => SweepEvent::Attachment(stick),
+        OrbitEvent::Attachment(rest) => SweepEvent::Attachment(rest),
     }))
 }
 

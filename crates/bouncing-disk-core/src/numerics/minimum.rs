@@ -1,6 +1,6 @@
 //! Minima of functions of one variable.
 
-/// The minimum of a function that has one in [`low`, `high`], by the golden section: each of `steps` narrows the bracket by the
+/// The minimum of a function that has one between `low` and `high`, by the golden section: each of `steps` narrows the bracket by the
 /// factor 0.618, and its middle is returned. The place of a smooth minimum is in the values of a function to half of their
 /// digits only.
 ///

@@ -36,3 +36,26 @@ impl SplitMix64 {
         (self.next_number() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_generator_is_splitmix64() {
+        let mut generator = SplitMix64::new(1_234_567);
+        let published = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+            4_593_380_528_125_082_431,
+            16_408_922_859_458_223_821,
+        ];
+        assert_eq!(published.map(|_| generator.next_number()), published);
+        // The highest 53 bits, as a share of one.
+        let mut generator = SplitMix64::new(1_234_567);
+        for bits in published {
+            assert_eq!((generator.unit() * (1_u64 << 53) as f64) as u64, bits >> 11);
+        }
+    }
+}

@@ -131,7 +131,7 @@ pub(crate) struct ImpactEnergy {
     pub(crate) platform_speed: f64,
 }
 
-/// Books the platform's work and the losses of one impact.
+/// Records the platform's work and the losses of one impact.
 pub(crate) fn record_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
     let ImpactEnergy {
         axial,

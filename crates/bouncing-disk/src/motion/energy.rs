@@ -68,7 +68,7 @@ impl EnergyLedger {
             .max(relative(self.rotary_closure(), self.rotary_magnitude))
     }
 
-    /// Books a change of the axial velocity and height.
+    /// Records a change of the axial velocity and height.
     pub(crate) fn record_axial_change(&mut self, velocity: [f64; 2], height: [f64; 2]) {
         let [before, after] = velocity;
         self.axial_kinetic_change += 0.5 * (after - before) * (after + before);
@@ -81,27 +81,27 @@ impl EnergyLedger {
         self.axial_magnitude += peak * velocity.abs();
     }
 
-    /// Books a change of the angular speed.
+    /// Records a change of the angular speed.
     pub(crate) fn record_rotary_change(&mut self, before: f64, after: f64) {
         self.rotary_kinetic_change += 0.5 * (after - before) * (after + before);
         self.rotary_magnitude += 0.5 * (before * before + after * after);
     }
 
-    /// Books work of the platform and a loss, axial.
+    /// Records work of the platform and a loss, axial.
     pub(crate) fn record_normal(&mut self, work: f64, loss: f64) {
         self.normal_work += work;
         self.restitution_loss += loss;
         self.axial_magnitude += work.abs() + loss.abs();
     }
 
-    /// Books work of the platform and a loss, rotary; `magnitude` is the size of the terms they were formed from.
+    /// Records work of the platform and a loss, rotary; `magnitude` is the size of the terms they were formed from.
     pub(crate) fn record_friction(&mut self, work: f64, loss: f64, magnitude: f64) {
         self.friction_work += work;
         self.friction_loss += loss;
         self.rotary_magnitude += magnitude;
     }
 
-    /// Books work against the load.
+    /// Records work against the load.
     pub(crate) fn record_load(&mut self, work: f64, magnitude: f64) {
         self.load_work += work;
         self.rotary_magnitude += magnitude;

@@ -194,7 +194,7 @@ impl Engine {
         let Some(orbit) = &mut self.orbit else { return Ok(None) };
         Ok(match orbit.advance()? {
             Some(OrbitEvent::Impact(impact)) => Some(self.hit(&impact)),
-            Some(OrbitEvent::Attachment(stick)) => Some(self.attach(&stick)),
+            Some(OrbitEvent::Attachment(rest)) => Some(self.attach(&rest)),
             Some(_) | None => None,
         })
     }
@@ -274,15 +274,15 @@ impl Engine {
         }
     }
 
-    fn attach(&mut self, stick: &Attachment) -> EventRecord {
+    fn attach(&mut self, rest: &Attachment) -> EventRecord {
         let system = &self.system;
-        let accumulation = stick.attachment;
+        let accumulation = rest.attachment;
         let from = self.now.phase;
         let cut = accumulation.error_bound.is_infinite();
-        let spell = self.spell((!cut).then_some(stick.last_speed));
+        let spell = self.spell((!cut).then_some(rest.last_speed));
         let duration = accumulation.duration;
         // The paper's cut takes the last launch speed away by an impulse of its own.
-        let chatter_speed = if cut { 0.0 } else { stick.last_speed };
+        let chatter_speed = if cut { 0.0 } else { rest.last_speed };
         let chatter = Chatter::new(system, from, chatter_speed, self.state.angular_speed, duration);
         let turn = flight_turn(system, chatter.angular_speed, duration - chatter.time);
         let platform_speed = system.platform_angular_speed(accumulation.phase);
@@ -307,7 +307,7 @@ impl Engine {
         let mut rotary = chatter.angular_impulse;
         let mut angular_speed = turn.speed;
         if cut {
-            let speed = stick.last_speed;
+            let speed = rest.last_speed;
             axial -= speed;
             ledger.record_normal(-speed * platform_velocity, 0.5 * speed * speed);
         }
@@ -338,7 +338,7 @@ impl Engine {
 
         let time = PhaseTime { periods: self.now.periods + accumulation.turns, phase: accumulation.phase };
         let separation =
-            stick.separation.map(|(phase, turns)| PhaseTime { periods: time.periods + turns, phase });
+            rest.separation.map(|(phase, turns)| PhaseTime { periods: time.periods + turns, phase });
         self.moved_to(time, &after);
         self.stage = Stage::Contact { separation };
         EventRecord {
@@ -432,7 +432,7 @@ impl Engine {
         }
     }
 
-    /// Books what rounding has left between the disk's speed at the end of a slip and the platform's.
+    /// Records what rounding has left between the disk's speed at the end of a slip and the platform's.
     fn settle(&self, ledger: &mut EnergyLedger, turn: RotaryChange, platform_speed: f64) {
         let slip = turn.speed - platform_speed;
         let rest = ImpactEnergy {
@@ -466,7 +466,7 @@ impl Engine {
     }
 }
 
-/// Books a jump of the velocities at one height.
+/// Records a jump of the velocities at one height.
 fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
     ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);

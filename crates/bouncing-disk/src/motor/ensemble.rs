@@ -99,7 +99,7 @@ pub struct TransientEnsemble {
     pub stall_acceleration: Spread,
 }
 
-/// What is read of an [`TransientEnsemble`].
+/// What is read of a [`TransientEnsemble`].
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct UncheckedEnsemble {

@@ -193,27 +193,27 @@ impl Rotor {
                 self.now = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };
                 Ok(RotorStep::Impact)
             }
-            Some(OrbitEvent::Attachment(stick)) => {
-                self.attach(&stick);
+            Some(OrbitEvent::Attachment(rest)) => {
+                self.attach(&rest);
                 Ok(RotorStep::Contact)
             }
             Some(_) | None => Ok(RotorStep::Ended),
         }
     }
 
-    fn attach(&mut self, stick: &Attachment) {
-        let at = stick.attachment;
+    fn attach(&mut self, rest: &Attachment) {
+        let at = rest.attachment;
         let start = self.speed;
-        if !at.error_bound.is_infinite() && stick.last_speed > 0.0 {
-            self.speed = match self.slide_throughout(stick) {
+        if !at.error_bound.is_infinite() && rest.last_speed > 0.0 {
+            self.speed = match self.slide_throughout(rest) {
                 Some(speed) => speed,
-                None => self.sum_chatter(stick),
+                None => self.sum_chatter(rest),
             };
         }
         self.turned = 0.5 * (start + self.speed) * at.duration;
         self.now = PhaseTime { periods: self.now.periods + at.turns, phase: at.phase };
         let separation =
-            stick.separation.map(|(phase, turns)| PhaseTime { periods: self.now.periods + turns, phase });
+            rest.separation.map(|(phase, turns)| PhaseTime { periods: self.now.periods + turns, phase });
         self.contact = Some((self.contact_mode(at.phase), separation));
     }
 
@@ -221,15 +221,15 @@ impl Rotor {
     ///
     /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less the
     /// launch speed: in relative velocity, 0 = w - integral of N + sum.
-    fn slide_throughout(&self, stick: &Attachment) -> Option<f64> {
-        let duration = stick.attachment.duration;
+    fn slide_throughout(&self, rest: &Attachment) -> Option<f64> {
+        let duration = rest.attachment.duration;
         let vibration = self.system.vibration();
         let from = self.now.phase;
         // N = a - b t + (1 - a) t^2/2 about the start, to the accuracy of the duration itself.
         let pull = vibration.contact_force(from);
         let drift = vibration.velocity(from);
         let normal = duration * (pull - duration * (0.5 * drift - duration * (1.0 - pull) * (1.0 / 6.0)));
-        let sum = self.system.friction() * (normal - stick.last_speed);
+        let sum = self.system.friction() * (normal - rest.last_speed);
         let load = self.system.load() * duration;
         let slip = self.speed - self.system.platform_angular_speed(from);
         let most = sum + load.abs() + self.system.twist_speed() * duration;
@@ -244,9 +244,9 @@ impl Rotor {
 
     /// The speed after a chattering sequence, impact by impact.
     #[cold]
-    fn sum_chatter(&self, stick: &Attachment) -> f64 {
-        let at = stick.attachment;
-        let chatter = Chatter::new(&self.system, self.now.phase, stick.last_speed, self.speed, at.duration);
+    fn sum_chatter(&self, rest: &Attachment) -> f64 {
+        let at = rest.attachment;
+        let chatter = Chatter::new(&self.system, self.now.phase, rest.last_speed, self.speed, at.duration);
         if chatter.capped {
             self.system.platform_angular_speed(at.phase)
         } else {

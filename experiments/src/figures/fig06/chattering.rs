@@ -58,9 +58,9 @@ pub(super) fn cycles(
                 cycle.long_flights += usize::from(landing.duration > 0.5 * TAU);
                 if cycle.impacts < LONGEST_CYCLE { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             }
-            SweepEvent::Attachment(stick) => {
+            SweepEvent::Attachment(rest) => {
                 cycle.platform_periods +=
-                    stick.attachment.turns + stick.separation.map_or(0, |(_, turns)| turns);
+                    rest.attachment.turns + rest.separation.map_or(0, |(_, turns)| turns);
                 *rests = true;
                 ControlFlow::Break(())
             }

@@ -16,7 +16,7 @@ use crate::progress::Progress;
 /// Relaunch perturbations (units of g/omega) for which the steady speed is compared: from none at all.
 const PERTURBATIONS: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7, 1e-9, 0.0];
 /// Duration of the transients compared, in rise times.
-const COMPARED_RISES: [f64; 2] = [6.0, 20.0];
+const COMPARED_RISES: [f64; 2] = [6.0, 12.0];
 /// Duration of the transients drawn with gravity and with the printed g (s).
 const DURATIONS_S: [f64; 2] = [6.0, 0.9];
 /// Duration of the transients that verdicts are taken over, in rise times.
@@ -34,7 +34,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
     let table = paper::table_three()?;
     let section = paper::section_five()?;
     let case = MotorCase::default_of(&table, &section);
-    let members = quality.choose(6, 32);
+    let members = quality.choose(4, 32);
     let defaults = TransientSettings::default();
     let amplitudes = section.amplitudes_of_fig10_m;
     progress.start((2 * amplitudes.len() + 3) as u64, "parts");
@@ -63,8 +63,9 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
     let exception = exception(&MotorCase { amplitude_m: amplitudes[0], ..case })?;
     progress.advance(1);
     let inputs = PrintedInputs::table_three()?;
-    let alike = drawn_alike(inputs, |inputs| inputs, quality)?;
-    let exact_settings = drawn_alike(inputs, PrintedInputs::exact_settings, quality)?;
+    let count = quality.choose(DRAWN / 10, DRAWN);
+    let alike = drawn_alike(inputs, |inputs| inputs, count)?;
+    let exact_settings = drawn_alike(inputs, PrintedInputs::exact_settings, count / 2)?;
     progress.advance(1);
     let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
     let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
@@ -107,9 +108,8 @@ fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> f64 {
 fn drawn_alike(
     inputs: PrintedInputs,
     settings: fn(PrintedInputs) -> PrintedInputs,
-    quality: Quality,
+    count: usize,
 ) -> Result<Alike, ExperimentError> {
-    let count = quality.choose(DRAWN / 5, DRAWN);
     let motors = |key| -> Result<_, ExperimentError> {
         alike(&settings(inputs.amplitude(key)?).drawn(count, SEED), JUDGED_RISES)
     };

@@ -98,7 +98,7 @@ fn impacts_to_rest(map: &ImpactMap, phase: f64, speed: f64) -> Result<Option<usi
     while impacts < MOST_IMPACTS {
         match orbit.advance().map_err(core_error)? {
             Some(OrbitEvent::Impact(_)) => impacts += 1,
-            Some(OrbitEvent::Attachment(stick)) if stick.separation.is_none() => return Ok(Some(impacts)),
+            Some(OrbitEvent::Attachment(rest)) if rest.separation.is_none() => return Ok(Some(impacts)),
             Some(_) => {}
             None => return Ok(Some(impacts)),
         }

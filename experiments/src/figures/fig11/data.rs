@@ -136,9 +136,9 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data
     let section = paper::section_five()?;
     let motor = MotorCase::default_of(&paper::table_three()?, &section);
     let rotor_mass_kg = section.rotor_mass_kg();
-    let members = quality.choose([3, 4, 8], [4, 6, 24]);
+    let members = quality.choose([2, 3, 6], [3, 6, 24]);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
-    let count = quality.choose(24, 112);
+    let count = quality.choose(20, 112);
     let frequencies = printed.frequencies_hz;
     let amplitudes = section.amplitudes_of_fig10_m;
     let [low, high] = printed.measured_range_n.map(|preload| preload / rotor_mass_kg);
@@ -162,7 +162,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data
                     .collect::<Vec<Result<Point, ExperimentError>>>();
                 points.into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
             };
-            let (points, further) = (motors(first, count)?, motors(high, quality.choose(8, MORE_ABOVE))?);
+            let (points, further) = (motors(first, count)?, motors(high, quality.choose(4, MORE_ABOVE))?);
             curves.push(Curve { frequency_hz, amplitude_m, points, further });
             progress.advance(1);
         }
@@ -176,7 +176,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data
             progress.advance(1);
         }
         let case = MotorCase { frequency_hz, preload_acceleration_m_per_s2: middle, ..motor };
-        perturbations.push(perturbation_table(&case, &PERTURBATIONS, 2.0 * RISES, quality.choose(8, 24))?);
+        perturbations.push(perturbation_table(&case, &PERTURBATIONS, 2.0 * RISES, quality.choose(4, 24))?);
         progress.advance(1);
     }
     let trends: Vec<Trend> =

@@ -92,19 +92,19 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
     progress.advance(1);
     let perturbations = perturbation_table(&near, &PERTURBATIONS, 6.0, quality.choose(4, 16))?;
     progress.advance(1);
-    let count = quality.choose(DRAWN / 5, DRAWN);
+    let count = quality.choose(DRAWN / 10, DRAWN);
     let inputs = PrintedInputs::table_three()?;
     let of_case = |amplitude, preload| inputs.amplitude(amplitude)?.preload_acceleration(preload);
     let both = [
         of_case("section5.amplitude_of_long_period", "section5.preload_acceleration_of_long_period")?,
         of_case("section5.amplitude_of_low_period", "section5.preload_acceleration_of_low_period")?,
     ];
-    let drawn = |inputs: PrintedInputs| {
+    let drawn = |inputs: PrintedInputs, count: usize| {
         let motors = alike(&inputs.drawn(count, SEED), LONG_RISES)?;
         Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
     };
-    let [long_like, low_like] = both.map(drawn);
-    let [long_exactly, low_exactly] = both.map(|inputs| drawn(inputs.exact_settings()));
+    let [long_like, low_like] = both.map(|inputs| drawn(inputs, count));
+    let [long_exactly, low_exactly] = both.map(|inputs| drawn(inputs.exact_settings(), count / 2));
     let alike_of_low_period = first_of_low_period(&both[1], count)?;
     progress.advance(1);
     Ok(Fig12Data {
@@ -123,7 +123,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
 
 /// The first `count` motors of low period that are drawn.
 fn first_of_low_period(inputs: &PrintedInputs, count: usize) -> Result<LowPeriod, ExperimentError> {
-    let drawn = inputs.drawn(MOST_DRAWN, SEED);
+    let drawn = inputs.drawn(MOST_DRAWN.min(30 * count), SEED);
     let cycles = drawn
         .par_iter()
         .map(|motor| motor.cycle(ChatterPolicy::Complete))

@@ -46,7 +46,7 @@ const SHORT_CYCLE: f64 = 0.01;
 pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
     let section = paper::section_five()?;
     let motor = MotorCase::default_of(&paper::table_three()?, &section);
-    let members = quality.choose(4, 16);
+    let members = quality.choose(3, 12);
     let impacts = quality.choose(4_000, 40_000);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
     let grids = Parameter::ALL.map(|parameter| values(parameter, &section.amplitudes_of_fig10_m, quality));
@@ -155,7 +155,7 @@ fn predict(case: &MotorCase, impulses: &Impulses) -> (f64, Option<f64>) {
 /// The motors of Table III, every input but ε anywhere between what still rounds to the printed one; and each of them with other values of one of the others.
 fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
     let inputs = PrintedInputs::table_three()?;
-    let count = quality.choose(DRAWN / 5, DRAWN);
+    let count = quality.choose(DRAWN / 10, DRAWN);
     let steps = quality.choose(4, 10);
     let restitutions: Vec<f64> =
         (0..steps).map(|step| LARGEST_RESTITUTION * f64::from(step) / f64::from(steps - 1)).collect();

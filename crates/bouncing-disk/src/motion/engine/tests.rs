@@ -306,9 +306,9 @@ proptest! {
                     prop_assert_eq!(record.span.remainder.to_bits(), impact.remainder.to_bits());
                 }
                 Event::Attachment { .. } => {
-                    let Some(OrbitEvent::Attachment(stick)) = orbit.advance().unwrap() else { panic!("{record:?}") };
-                    prop_assert_eq!(record.time.phase, stick.attachment.phase);
-                    separation = stick.separation;
+                    let Some(OrbitEvent::Attachment(rest)) = orbit.advance().unwrap() else { panic!("{record:?}") };
+                    prop_assert_eq!(record.time.phase, rest.attachment.phase);
+                    separation = rest.separation;
                 }
                 Event::Separation => prop_assert_eq!(Some(record.time.phase), separation.map(|at| at.0)),
                 _ => {}
