@@ -21,7 +21,7 @@ pub struct Fig10Data {
     pub(super) exception: Exception,
     /// Many motors that print alike, for the verdicts.
     pub(super) alike: Alike,
-    /// The first half of these draws with μ, ε, A and ωΦ exactly as printed.
+    /// The first of these draws with μ, ε, A and ωΦ exactly as printed.
     pub(super) exact_settings: Alike,
     pub(super) perturbations: Vec<PerturbationEffect>,
     pub(super) own_motor_axial_forcing: f64,

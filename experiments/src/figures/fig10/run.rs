@@ -65,7 +65,8 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
     let inputs = PrintedInputs::table_three()?;
     let count = quality.choose(DRAWN / 10, DRAWN);
     let alike = drawn_alike(inputs, |inputs| inputs, count)?;
-    let exact_settings = drawn_alike(inputs, PrintedInputs::exact_settings, count / 2)?;
+    let exact_settings =
+        drawn_alike(inputs, PrintedInputs::exact_settings, quality.choose(count / 2, count / 4))?;
     progress.advance(1);
     let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
     let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;

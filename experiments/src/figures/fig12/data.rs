@@ -24,7 +24,7 @@ pub struct Fig12Data {
     pub(super) perturbations: Vec<PerturbationEffect>,
     /// Motors that print like those of both cases.
     pub(super) alike: [Alike; 2],
-    /// The first half of these draws with μ, ε, A and ωΦ exactly as printed.
+    /// The first of these draws with μ, ε, A and ωΦ exactly as printed.
     pub(super) exact_settings: [Alike; 2],
     /// Motors of low period among those that print like the low-period case.
     pub(super) alike_of_low_period: LowPeriod,

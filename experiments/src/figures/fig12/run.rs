@@ -104,7 +104,8 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
         Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
     };
     let [long_like, low_like] = both.map(|inputs| drawn(inputs, count));
-    let [long_exactly, low_exactly] = both.map(|inputs| drawn(inputs.exact_settings(), count / 2));
+    let [long_exactly, low_exactly] =
+        both.map(|inputs| drawn(inputs.exact_settings(), quality.choose(count / 2, count / 4)));
     let alike_of_low_period = first_of_low_period(&both[1], count)?;
     progress.advance(1);
     Ok(Fig12Data {
