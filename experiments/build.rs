@@ -3,7 +3,7 @@
 //! A figure depends on the libraries, on all shared code of this crate, on the lock file and the data, and on its
 //! own module `src/figures/ID.rs`. A module that names another one (`fig06::`, a shared helper) depends on that
 //! one too. Naming is what counts: depending on too much only recomputes too much. A user's own measurements are not
-//! known when this is built; `src/stamp.rs` sees them when a figure is made.
+//! known when this is built; `src/cache_key.rs` sees them when a figure is made.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;

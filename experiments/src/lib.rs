@@ -11,6 +11,8 @@
 //! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery, [`results`] the
 //! committed page.
 
+pub mod artifacts;
+pub mod cache_key;
 pub mod claim;
 pub mod count;
 pub mod errata;
@@ -24,12 +26,10 @@ pub mod output;
 pub mod page;
 pub mod paper;
 pub mod printed;
-pub mod product;
 pub mod progress;
 pub mod registry;
 pub mod regular_file;
 pub mod results;
-pub mod stamp;
 pub mod summary;
 pub mod table;
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! disturb each other.
 //!
 //! Every file is written under another name and renamed. Whoever writes holds the [lock](OutputFolder::lock) of the folder
-//! meanwhile, so that the files and the stamp of a figure are of one run, the common files describe what is
+//! meanwhile, so that the files and the cache key of a figure are of one run, the common files describe what is
 //! there, and a partial file that somebody finds while holding the lock is one of a run that was killed.
 
 mod error;
@@ -19,8 +19,8 @@ use lock::Lock;
 use partial::Partial;
 
 use crate::Quality;
+use crate::cache_key::{CacheKey, Stale};
 use crate::regular_file;
-use crate::stamp::{Stale, Stamp};
 
 /// How long a run waits for others to finish writing: they take seconds, unless they are suspended.
 const LONGEST_WAIT: Duration = Duration::from_secs(600);
@@ -108,13 +108,13 @@ impl OutputFolder {
         }
     }
 
-    /// Writes all files of one figure and its stamp, with the digest of the measurements in them. Files of an
+    /// Writes all files of one figure and its cache key, with the digest of the measurements in them. Files of an
     /// earlier run that are no longer made are removed.
     ///
     /// # Errors
     ///
     /// When the system refuses. If a file cannot be written, as on a full disk, the files of an earlier run
-    /// are all still there; if one cannot get its name, there is no stamp.
+    /// are all still there; if one cannot get its name, there is no cache key.
     pub fn write_set(
         &self,
         id: &str,
@@ -124,29 +124,29 @@ impl OutputFolder {
         files: &[(String, Vec<u8>)],
     ) -> Result<(), OutputError> {
         let contents = || files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
-        let stamp = Stamp::new(id, quality, measured, run_time_s, contents());
-        let text = serde_json::to_vec_pretty(&stamp)
-            .map_err(|source| OutputError::Stamp { id: id.to_owned(), source })?;
-        let stamp_name = stamp_name(id);
+        let cache_key = CacheKey::new(id, quality, measured, run_time_s, contents());
+        let text = serde_json::to_vec_pretty(&cache_key)
+            .map_err(|source| OutputError::CacheKey { id: id.to_owned(), source })?;
+        let cache_key_name = cache_key_name(id);
         let locked = self.lock()?;
         let mut partials = Vec::new();
-        // The stamp is the last one to get its name.
-        for (name, bytes) in contents().chain([(stamp_name.as_str(), text.as_slice())]) {
+        // The cache key is the last one to get its name.
+        for (name, bytes) in contents().chain([(cache_key_name.as_str(), text.as_slice())]) {
             partials.push(locked.partial(name, bytes)?);
         }
-        // As long as the stamp of the earlier run lists them; a killed run would leave them for ever.
-        for name in self.stamp(id).iter().flat_map(Stamp::names) {
+        // As long as the cache key of the earlier run lists them; a killed run would leave them for ever.
+        for name in self.cache_key(id).iter().flat_map(CacheKey::names) {
             if is_of_figure(id, name) && !files.iter().any(|(kept, _)| kept == name) {
                 locked.remove(name)?;
             }
         }
-        locked.remove(&stamp_name)?;
+        locked.remove(&cache_key_name)?;
         partials.into_iter().try_for_each(publish)
     }
 
-    /// The stamp of a figure; `None` when there is none or it cannot be read.
-    pub fn stamp(&self, id: &str) -> Option<Stamp> {
-        let bytes = self.read(&stamp_name(id)).ok()??;
+    /// The cache key of a figure; `None` when there is none or it cannot be read.
+    pub fn cache_key(&self, id: &str) -> Option<CacheKey> {
+        let bytes = self.read(&cache_key_name(id)).ok()??;
         serde_json::from_slice(&bytes).ok()
     }
 
@@ -156,8 +156,8 @@ impl OutputFolder {
     ///
     /// The first reason to make it again.
     pub fn check(&self, id: &str, quality: Quality, measured: &str) -> Result<(), Stale> {
-        let stamp = self.stamp(id).ok_or(Stale::Missing)?;
-        stamp.check(id, quality, measured, |name| self.read(name).ok().flatten())
+        let cache_key = self.cache_key(id).ok_or(Stale::Missing)?;
+        cache_key.check(id, quality, measured, |name| self.read(name).ok().flatten())
     }
 }
 
@@ -201,11 +201,11 @@ fn publish(partial: Partial<'_>) -> Result<(), OutputError> {
     partial.publish().map_err(|source| OutputError::Write { path, source })
 }
 
-fn stamp_name(id: &str) -> String {
-    format!("{id}.stamp")
+fn cache_key_name(id: &str) -> String {
+    format!("{id}.cache-key")
 }
 
-/// Whether a stamp may name this file. A stamp is a file like others: what it says must not remove anything
+/// Whether a cache key may name this file. A cache key is a file like others: what it says must not remove anything
 /// else.
 fn is_of_figure(id: &str, name: &str) -> bool {
     let own = name.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));
@@ -242,7 +242,7 @@ mod tests {
         fs::write(folder.path().join("demo2.json"), b"of another figure").expect("writable");
         let files = [("demo.json".to_owned(), b"{}".to_vec()), ("demo.svg".to_owned(), b"<svg/>".to_vec())];
         folder.write_set("demo", Quality::Draft, "", 0.1, &files).expect("writable");
-        assert_eq!(names(&folder), ["demo.json", "demo.stamp", "demo.svg", "demo.txt", "demo2.json"]);
+        assert_eq!(names(&folder), ["demo.json", "demo.cache-key", "demo.svg", "demo.txt", "demo2.json"]);
         assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
         fs::write(folder.path().join("demo.svg"), b"edited").expect("writable");
         let name = "demo.svg".to_owned();
@@ -292,7 +292,7 @@ mod tests {
         set(b"new", "none/demo.svg").expect_err("refused");
         assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
         assert_eq!(folder.read("demo.json").expect("readable").as_deref(), Some(b"old".as_slice()));
-        assert_eq!(names(&folder), ["demo.json", "demo.stamp", "demo.svg"]);
+        assert_eq!(names(&folder), ["demo.json", "demo.cache-key", "demo.svg"]);
         fs::remove_dir_all(folder.path()).expect("removable");
     }
 

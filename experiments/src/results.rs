@@ -10,13 +10,13 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
+use crate::artifacts;
 use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::count::Counts;
 use crate::errata::{self, ERRATA_FILE, ErrataError};
 use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
 use crate::output::{OutputError, OutputFolder};
 use crate::page::{ClaimTexts, class_words, like, name, verdict_words};
-use crate::product;
 
 /// The page, in the folder of the documentation.
 pub const RESULTS_FILE: &str = "results.md";
@@ -121,14 +121,15 @@ fn made(
     let missing = || ResultsError::Missing { id: id.to_owned() };
     let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
     let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
-    let stamp = folder.stamp(id).ok_or_else(missing)?;
+    let cache_key = folder.cache_key(id).ok_or_else(missing)?;
     // What the program did not write itself may have any form.
-    let whole = stamp.holds(&format!("{id}.json"), &data) && stamp.holds(&format!("{id}.svg"), &drawing);
-    if !(whole && stamp.quality == quality && !stamp.shows_measurements()) {
+    let whole =
+        cache_key.holds(&format!("{id}.json"), &data) && cache_key.holds(&format!("{id}.svg"), &drawing);
+    if !(whole && cache_key.quality == quality && !cache_key.shows_measurements()) {
         return Err(ResultsError::Changed { id: id.to_owned() });
     }
     let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
-    let outcome = product::read(entry, &data).map_err(failed)?.outcome;
+    let outcome = artifacts::read(entry, &data).map_err(failed)?.outcome;
     let section = section(entry, &*outcome)?;
     let mut all = data;
     all.extend(drawing);
@@ -373,7 +374,8 @@ mod tests {
         let mut entries = demo_entries();
         entries.truncate(1);
         for (folder, quality) in [(&folders.paper, Quality::Paper), (&folders.draft, Quality::Draft)] {
-            let files = product::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
+            let files =
+                artifacts::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
             folder.write_set("demo", quality, "", 0.1, &files).expect("writable");
         }
         write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs).expect("writable");
@@ -452,7 +454,8 @@ mod tests {
     fn the_page_is_not_made_of_drafts_or_measurements() {
         let (folders, entries) = folders("other");
         let again = |quality: Quality, measured: &str| {
-            let files = product::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
+            let files =
+                artifacts::make(&*entries[0], quality, &Measurements::none(), &Silent).expect("works");
             folders.paper.write_set("demo", quality, measured, 0.1, &files).expect("writable");
             write(ERRATA, &entries, &folders.paper, &folders.draft, &folders.docs)
         };

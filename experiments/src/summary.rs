@@ -1,13 +1,13 @@
 //! What is made from all figures together: `claims.json` and the gallery.
 
+use crate::cache_key::Stale;
 use crate::claim::Claim;
 use crate::count::Counts;
 use crate::experiment::{self, RegisteredExperiment};
 use crate::measured::Measurements;
 use crate::output::{LockedFolder, OutputError, OutputFolder};
 use crate::page::{self, Section};
-use crate::stamp::Stale;
-use crate::{json, product};
+use crate::{artifacts, json};
 
 /// The texts of the common files, and the figures that are not in them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,23 +48,24 @@ impl Summary {
             let id = entry.id();
             let name = format!("{id}.json");
             let Some(bytes) = folder.read(&name)? else { continue };
-            // Without a stamp the files may be from different runs.
-            let Some(stamp) = folder.stamp(id) else {
+            // Without a cache key the files may be from different runs.
+            let Some(cache_key) = folder.cache_key(id) else {
                 left_out.push((id.to_owned(), "the run that made it was interrupted".to_owned()));
                 continue;
             };
             // What the program did not write itself may have any form.
-            if !stamp.holds(&name, &bytes) {
+            if !cache_key.holds(&name, &bytes) {
                 left_out.push((id.to_owned(), Stale::File { name }.to_string()));
                 continue;
             }
-            let product::Stored { outcome, quality, warnings: own } = match product::read(&**entry, &bytes) {
-                Ok(read) => read,
-                Err(error) => {
-                    left_out.push((id.to_owned(), experiment::chain(&error)));
-                    continue;
-                }
-            };
+            let artifacts::Stored { outcome, quality, warnings: own } =
+                match artifacts::read(&**entry, &bytes) {
+                    Ok(read) => read,
+                    Err(error) => {
+                        left_out.push((id.to_owned(), experiment::chain(&error)));
+                        continue;
+                    }
+                };
             let state = folder.check(id, quality, &measurements.digest(entry.measurements()));
             // What was wrong with measurements that have been replaced says nothing about the new ones.
             if state != Err(Stale::Measurements) {
@@ -77,10 +78,10 @@ impl Summary {
                 parameters: outcome.parameters(),
                 claims: outcome.claims(),
                 quality,
-                run_time_s: stamp.run_time_s,
+                run_time_s: cache_key.run_time_s,
                 warnings: own,
                 outdated: state.is_err(),
-                has_table: stamp.names().any(|name| name == format!("{id}.csv")),
+                has_table: cache_key.names().any(|name| name == format!("{id}.csv")),
                 width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
             };
             claims.extend(section.claims.iter().cloned());
@@ -150,7 +151,7 @@ mod tests {
         let empty = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
         assert_eq!(empty.claims, "[]\n");
         let files =
-            product::make(&*entries[0], Quality::Draft, &Measurements::none(), &Silent).expect("works");
+            artifacts::make(&*entries[0], Quality::Draft, &Measurements::none(), &Silent).expect("works");
         folder.write_set("demo", Quality::Draft, "", 0.25, &files).expect("writable");
         let summary = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
         assert!(summary.claims.contains("\"verdict\": \"reproduced\""), "{}", summary.claims);
@@ -164,8 +165,8 @@ mod tests {
             Summary::of(&entries, &folder, &Measurements::none()).expect("readable").left_out.len(),
             1
         );
-        // A run that was killed before it wrote its stamp.
-        std::fs::remove_file(path.join("demo.stamp")).expect("removable");
+        // A run that was killed before it wrote its cache key.
+        std::fs::remove_file(path.join("demo.cache-key")).expect("removable");
         let interrupted = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
         assert_eq!(interrupted.left_out.len(), 1, "{interrupted:?}");
         std::fs::remove_dir_all(path).expect("removable");

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
+use bouncing_disk_experiments::cache_key::Stale;
 use bouncing_disk_experiments::count::Counts;
 use bouncing_disk_experiments::errata;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
-use bouncing_disk_experiments::stamp::Stale;
 use bouncing_disk_experiments::summary::Summary;
 use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};

@@ -7,9 +7,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
+use bouncing_disk_experiments::artifacts;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
 use bouncing_disk_experiments::output::OutputFolder;
-use bouncing_disk_experiments::product;
 use bouncing_disk_experiments::{Measurements, Quality};
 
 use crate::report::Report;
@@ -67,7 +67,7 @@ fn make(
     let progress = report.begin(id);
     let start = Instant::now();
     let made =
-        panic::catch_unwind(AssertUnwindSafe(|| product::make(entry, quality, measurements, &progress)));
+        panic::catch_unwind(AssertUnwindSafe(|| artifacts::make(entry, quality, measurements, &progress)));
     let run_time = start.elapsed();
     let result = match made {
         Ok(Ok(files)) => {

@@ -148,10 +148,10 @@ fn what_a_killed_run_left_goes_and_what_others_left_stays() {
     }
     out.write("table1.notes.txt", "mine");
     out.write(".mine.partial", "mine");
-    // A stamp of whoever wrote it.
+    // A cache key of whoever wrote it.
     out.write("victim", "mine");
     out.write(
-        "out/table1.stamp",
+        "out/table1.cache-key",
         r#"{"key":"","quality":"draft","run_time_s":1,"files":{"../victim":"","table1.old":"","table1./../../victim":""}}"#,
     );
     out.write("out/table1.old", "of an earlier version");
@@ -231,7 +231,7 @@ fn malformed_records_are_made_again() {
     let out = Scratch::new("malformed");
     succeed(figures(&out.0).arg("table1"));
     let data = fs::read_to_string(out.join("table1.json")).expect("written");
-    for name in ["table1.stamp", "table1.json", "claims.json", "index.html"] {
+    for name in ["table1.cache-key", "table1.json", "claims.json", "index.html"] {
         for content in
             ["", "{", "[]", "\u{0}", &"[".repeat(100_000), &data.replace("[", "[[],"), "\u{feff}{}"]
         {
@@ -282,7 +282,7 @@ mod unix {
     #[test]
     fn a_pipe_among_the_outputs_does_not_block() {
         let out = Scratch::new("pipes");
-        for name in ["table1.stamp", "table1.json", "claims.json", "index.html"] {
+        for name in ["table1.cache-key", "table1.json", "claims.json", "index.html"] {
             succeed(figures(&out.0).arg("table1"));
             fs::remove_file(out.join(name)).expect("removable");
             pipe(&out.join(name));

@@ -50,7 +50,7 @@ pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use analysis::sweep::{
-    Landing, MAX_RECORDED, SweepEvent, lyapunov_exponents, orbit_diagram, survival_times, sweep,
+    MAX_RECORDED, SweepEvent, SweepImpact, lyapunov_exponents, orbit_diagram, survival_times, sweep,
 };
 pub use chatter::accumulation::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,

@@ -243,7 +243,7 @@ fn orbits_with_chatter() {
                 match event.expect("no failure") {
                     OrbitEvent::Impact(impact) => digest.state(impact.into()),
                     OrbitEvent::Attachment(stick) => {
-                        digest.number(stick.attachment.phase.angle());
+                        digest.number(stick.accumulation.phase.angle());
                         digest.number(stick.last_speed);
                     }
                     _ => digest.bytes(b"another event"),

@@ -219,7 +219,7 @@ fn still_platform_returns_restitution_squared_of_every_height() {
                     time += impact.duration();
                 }
                 OrbitEvent::Attachment(stick) => {
-                    time += stick.attachment.duration;
+                    time += stick.accumulation.duration;
                     assert!(stick.separation.is_none(), "a still platform never throws the disk");
                 }
                 _ => unreachable!("no other events"),
@@ -468,7 +468,7 @@ fn a_disk_next_to_weightlessness_comes_to_rest() {
             match event.unwrap() {
                 OrbitEvent::Impact(_) => impacts += 1,
                 OrbitEvent::Attachment(stick) => {
-                    assert!(stick.attachment.error_bound <= 1.0e-16, "{stick:?}");
+                    assert!(stick.accumulation.error_bound <= 1.0e-16, "{stick:?}");
                     break;
                 }
                 event => panic!("{event:?}"),
@@ -486,7 +486,7 @@ fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
             map(0.2, restitution).orbit(state(3.0, -2.0), ChatterPolicy::Paper).find_map(|event| match event
                 .expect("no failure")
             {
-                OrbitEvent::Attachment(stick) => Some(stick.attachment.error_bound),
+                OrbitEvent::Attachment(stick) => Some(stick.accumulation.error_bound),
                 _ => None,
             });
         assert_eq!(attached, Some(bound), "{restitution}");

@@ -22,7 +22,7 @@ pub enum Error {
         /// Peak acceleration of the platform in units of the preload acceleration.
         peak_acceleration: f64,
     },
-    /// A spell of sliding would last longer than its end can be resolved.
+    /// A segment of sliding would last longer than its end can be resolved.
     #[error("the disk slides for {duration} rad, more than the largest duration {limit} rad")]
     SlipTooLong {
         /// Estimated duration in radians.

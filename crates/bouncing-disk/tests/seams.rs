@@ -115,16 +115,16 @@ fn contradiction(system: &DimensionlessSystem, record: &EventRecord) -> Option<S
     let separation = if peak > 1.0 { peak / ((peak - 1.0) * (peak + 1.0)).sqrt() } else { 0.0 };
     let platform = peak * f64::EPSILON * (TAU + separation);
     // Energies of the platform follow from the carried pairs, its time from the angles.
-    let parted = parting(record.spell.start.phase) + parting(record.time.phase);
+    let parted = parting(record.segment.start.phase) + parting(record.time.phase);
     if parted > LARGEST_PARTING {
         return Some(format!("a carried pair is {parted:e} off its angle"));
     }
-    let fastest = record.spell.state.axial_velocity.abs().max(record.before.axial_velocity.abs());
+    let fastest = record.segment.state.axial_velocity.abs().max(record.before.axial_velocity.abs());
     let carried = parted * peak * (1.0 + fastest);
     // A speed is what friction and load leave of each other, known to the rounding of what each of them could do.
     let pulls = system.friction() * (1.0 + system.peak_acceleration()) + system.load().abs();
     let speeds = pulls * record.span.radians()
-        + record.spell.state.angular_speed.abs()
+        + record.segment.state.angular_speed.abs()
         + record.before.angular_speed.abs()
         + system.twist_speed();
     let spin = 16.0 * f64::EPSILON * speeds * speeds;
@@ -135,16 +135,16 @@ fn contradiction(system: &DimensionlessSystem, record: &EventRecord) -> Option<S
         return Some(format!("the energy balance leaves {axial:e} and {rotary:e}"));
     }
     let span = record.span.radians();
-    let by_times = record.time.since(&record.spell.start).radians();
+    let by_times = record.time.since(&record.segment.start).radians();
     let rounding = CLOCK * (1.0 + span);
     if (by_times - span).abs() > rounding {
         return Some(format!("{by_times:e} rad by the times, {span:e} by the span"));
     }
-    let flew = record.spell.state.mode == Mode::Flight && record.spell.chatter_speed.is_none();
+    let flew = record.segment.state.mode == Mode::Flight && record.segment.chatter_speed.is_none();
     if !(flew && matches!(record.event, Event::Impact { .. })) {
         return None;
     }
-    let (left, landed) = (record.spell.state, record.before);
+    let (left, landed) = (record.segment.state, record.before);
     let lost = left.axial_velocity - landed.axial_velocity;
     // How well the velocities tell the time.
     let doubt = CLOCK * (1.0 + span + left.axial_velocity.abs() + system.peak_acceleration());

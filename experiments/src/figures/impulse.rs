@@ -18,7 +18,7 @@ use super::circular::Concentration;
 use super::motor_case::core_error;
 use crate::experiment::ExperimentError;
 
-/// Parts into which a spell of contact is divided.
+/// Parts into which a segment of contact is divided.
 const CONTACT_PARTS: u32 = 32;
 
 /// Impacts after which a motion that does not come to rest is given up.
@@ -66,7 +66,7 @@ impl Impulses {
                 }
                 OrbitEvent::Attachment(rest) => {
                     let Some((leaves, turns)) = rest.separation else { break };
-                    let attached = rest.attachment;
+                    let attached = rest.accumulation;
                     let from = impulses.impacts.last().map_or(phase.angle(), |impact| impact.0);
                     let chatter = attached.duration - rest.last_speed
                         + map.vibration().peak_acceleration() * (cos(attached.phase.angle()) - cos(from));

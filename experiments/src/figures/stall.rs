@@ -1,7 +1,7 @@
 //! The load at which a motor stalls.
 //!
 //! A constant load torque T takes T/(m a_g²) of angular speed per time. The *stall load* is the T/(m a_g²) at which the rotor's mean speed over a long run is
-//! zero. The vertical motion knows no load, so all loads share one seeded list of collisions and spells of contact, along which the speed is carried and the load
+//! zero. The vertical motion knows no load, so all loads share one seeded list of collisions and segments of contact, along which the speed is carried and the load
 //! bisected. Friction never holds the rotor meanwhile: at speed zero it would have to follow the stator, whose angular acceleration is some thousand
 //! times what friction can give ([`Stall::hold_share`] is the inverse), so that there is no range of loads that all stall it.
 //!
@@ -28,7 +28,7 @@ const TRANSIENT_RISES: f64 = 6.0;
 /// Halvings of the range of loads, from minus to plus the most that friction can give: to 2e-6 of it, far below the statistical error.
 const HALVINGS: u32 = 20;
 
-/// Parts into which a spell of contact is divided.
+/// Parts into which a segment of contact is divided.
 const CONTACT_PARTS: u32 = 16;
 
 /// Points of the transient that the balance of the impulse predicts.
@@ -206,7 +206,7 @@ fn kicks(
             }
             OrbitEvent::Attachment(rest) => {
                 let Some((leaves, turns)) = rest.separation else { break };
-                let (at, from) = (rest.attachment, rest.attachment.phase.angle());
+                let (at, from) = (rest.accumulation, rest.accumulation.phase.angle());
                 // Impulse is change of velocity plus weight times time.
                 let peak = map.vibration().peak_acceleration();
                 let impulse = at.duration - rest.last_speed + peak * (cos(from) - cos(last));

@@ -14,7 +14,7 @@ use crate::regular_file;
 /// The most unknown files that are named one by one.
 const NAMED: usize = 10;
 
-/// The content of a user's files, read once, so that a figure and its stamp see the same bytes.
+/// The content of a user's files, read once, so that a figure and its cache key see the same bytes.
 #[derive(Clone, Debug, Default)]
 pub struct Measurements {
     files: BTreeMap<&'static str, Result<Vec<u8>, Arc<io::Error>>>,

@@ -52,9 +52,9 @@ pub enum OutputError {
         /// What the system reported.
         source: io::Error,
     },
-    /// A stamp cannot be written as JSON.
-    #[error("cannot write the stamp of {id}")]
-    Stamp {
+    /// A cache key cannot be written as JSON.
+    #[error("cannot write the cache_key of {id}")]
+    CacheKey {
         /// The figure.
         id: String,
         /// What the writer reported.

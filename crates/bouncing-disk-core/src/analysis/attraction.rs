@@ -24,7 +24,7 @@ const SHARE_OF_WIDEST: f64 = 0.7;
 /// A start that ends nearer than this has been caught.
 const CAUGHT: f64 = 1.0e-6;
 
-/// Starts on each circle of [`PeriodicOrbit::catching_radius`], and the circles inside the largest one.
+/// Starts on each circle of [`PeriodicOrbit::attraction_radius`], and the circles inside the largest one.
 const CIRCLE_SAMPLES: u32 = 32;
 const CIRCLES: [f64; 4] = [1.0, 0.7, 0.4, 0.2];
 
@@ -59,7 +59,7 @@ impl PeriodicOrbit {
     /// starts each stay within four radii and end nearer than they began. Where that holds at 0.1 rad, wider circles are
     /// tried, each 1.15 times the last and with four times as many starts, that must come within 0.1 rad; the radius is
     /// then 0.7 times the widest that passes. `None` if even 1e-5 rad fails (the orbit does not attract, or only
-    /// after long excursions: see [`Self::catching_radius`]).
+    /// after long excursions: see [`Self::attraction_radius`]).
     #[must_use]
     pub fn trapping_radius(&self, map: &ImpactMap, samples: u32) -> Option<f64> {
         let (scale, samples) = (map.vibration().peak_acceleration(), samples.max(1));
@@ -117,7 +117,7 @@ impl PeriodicOrbit {
     /// Half a radius within which starts on four circles about each impact end on this orbit, however far they
     /// stray before: for orbits with strong shear, whose basin is thin. `None` if even 1e-5 rad fails.
     #[must_use]
-    pub fn catching_radius(&self, map: &ImpactMap) -> Option<f64> {
+    pub fn attraction_radius(&self, map: &ImpactMap) -> Option<f64> {
         let scale = map.vibration().peak_acceleration();
         let ends_here = |start: ImpactState| {
             let end = map.state_after(start, 100 * self.period(), ChatterPolicy::Complete);
@@ -149,12 +149,12 @@ mod tests {
     fn a_stable_orbit_has_both_radii_and_a_saddle_has_none() {
         let stable = map(0.45);
         let orbit = stable.refine(&[stable.period_one(1).expect("exists")]).expect("refines");
-        let (trapping, catching) = (orbit.trapping_radius(&stable, 64), orbit.catching_radius(&stable));
+        let (trapping, catching) = (orbit.trapping_radius(&stable, 64), orbit.attraction_radius(&stable));
         assert!(trapping.is_some_and(|radius| radius > 1e-3), "{trapping:?}");
         assert!(catching.is_some_and(|radius| radius > 1e-3), "{catching:?}");
         let doubled = map(0.50);
         let saddle = doubled.refine(&[doubled.period_one(1).expect("exists")]).expect("refines");
-        assert_eq!((saddle.trapping_radius(&doubled, 64), saddle.catching_radius(&doubled)), (None, None));
+        assert_eq!((saddle.trapping_radius(&doubled, 64), saddle.attraction_radius(&doubled)), (None, None));
     }
 
     /// The attractor of four impacts at Gamma = 0.486 that docs/errata.md describes.
@@ -165,7 +165,7 @@ mod tests {
         let orbit = map.settled_orbit(start, 4_000, 64, 1.0e-8).expect("no failure").expect("settles");
         assert_eq!(orbit.period(), 4);
         assert_eq!(orbit.trapping_radius(&map, 64), None);
-        assert!(orbit.catching_radius(&map).is_some());
+        assert!(orbit.attraction_radius(&map).is_some());
     }
 
     #[test]

@@ -21,7 +21,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 /// ```
 #[derive(Debug, Clone)]
 pub struct OrbitBatch {
-    flyer: Box<FlightScheduler>,
+    scheduler: Box<FlightScheduler>,
     batches: Vec<Batch>,
     len: usize,
 }
@@ -39,8 +39,11 @@ impl OrbitBatch {
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
     ) -> Self {
-        let mut batch =
-            Self { flyer: Box::new(FlightScheduler::new(set, Purpose::Orbits)), batches: Vec::new(), len: 0 };
+        let mut batch = Self {
+            scheduler: Box::new(FlightScheduler::new(set, Purpose::Orbits)),
+            batches: Vec::new(),
+            len: 0,
+        };
         for (map, state) in starts {
             let lane = batch.len % LANES;
             if lane == 0 {
@@ -82,7 +85,7 @@ impl OrbitBatch {
     /// go on.
     pub fn step(&mut self) -> Result<(), Error> {
         let (mut first, mut failed) = (None, Vec::new());
-        self.flyer.fly(&mut self.batches, self.len, |index, error| {
+        self.scheduler.fly(&mut self.batches, self.len, |index, error| {
             failed.push(index);
             first.get_or_insert(error);
         });

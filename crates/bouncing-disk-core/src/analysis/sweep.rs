@@ -21,14 +21,14 @@ pub use measures::{MAX_RECORDED, lyapunov_exponents, orbit_diagram, survival_tim
 #[non_exhaustive]
 pub enum SweepEvent {
     /// The disk hits the platform.
-    Impact(Landing),
+    Impact(SweepImpact),
     /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
     Attachment(Attachment),
 }
 
 /// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Landing {
+pub struct SweepImpact {
     /// The impact.
     pub state: ImpactState,
     /// How often the phase passed 0 (mod 2 pi) during the flight.
@@ -38,7 +38,7 @@ pub struct Landing {
     pub duration: f64,
 }
 
-impl Landing {
+impl SweepImpact {
     #[inline(always)]
     fn new(from: Phase, state: ImpactState, turns: u64) -> Self {
         let ahead = state.phase().angle() - from.angle();
@@ -75,7 +75,7 @@ impl Landing {
 fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
     let from = orbit.launch().map(|(phase, _)| phase);
     Ok(orbit.advance()?.map(|event| match event {
-        OrbitEvent::Impact(impact) => SweepEvent::Impact(Landing::of(from, impact)),
+        OrbitEvent::Impact(impact) => SweepEvent::Impact(SweepImpact::of(from, impact)),
         OrbitEvent::Attachment(rest) => SweepEvent::Attachment(rest),
     }))
 }

@@ -118,7 +118,7 @@ mod tests {
             match event.expect("no failure") {
                 OrbitEvent::Impact(impact) => time += impact.duration(),
                 OrbitEvent::Attachment(stick) => {
-                    time += stick.attachment.duration;
+                    time += stick.accumulation.duration;
                     return (time <= window * (1.0 + 1.0e-12)).then_some(time);
                 }
             }

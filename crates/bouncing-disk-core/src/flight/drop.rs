@@ -178,7 +178,7 @@ impl DropForm {
 
     /// The gap's second derivative.
     fn curvature(&self, t: f64) -> f64 {
-        if t <= SHORT_FLIGHT { self.short.curvature(t) } else { self.long.jet(t).0.curvature }
+        if t <= SHORT_FLIGHT { self.short.curvature(t) } else { self.long.taylor(t).0.curvature }
     }
 
     /// Where a parabola with the pull at the start would end.
@@ -272,7 +272,7 @@ impl DropForm {
             let (phase, turns) = turned_by(from, h);
             return Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations };
         }
-        let (_, (sin, cos)) = self.long.jet(h);
+        let (_, (sin, cos)) = self.long.taylor(h);
         landed_within_a_turn(from.angle(), Root { time: h, sin, cos, velocity, evaluations })
     }
 }

@@ -165,7 +165,7 @@ impl GapTaylor {
 /// A way to evaluate the gap.
 pub(crate) trait GapForm: Copy {
     /// Gap and derivatives at time `t` from the form's reference, with sine and cosine of the phase there.
-    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64));
+    fn taylor(&self, t: f64) -> (GapTaylor, (f64, f64));
     /// Relative velocity at `t`, where the phase has this cosine.
     fn velocity(&self, t: f64, cos: f64) -> f64;
     /// Bound on the rounding error of the gap at `t`.
@@ -181,11 +181,11 @@ pub(crate) trait GapForm: Copy {
         let mut t = guess;
         let mut used = evaluations;
         loop {
-            let (jet, (sin, cos)) = self.jet(t);
+            let (taylor, (sin, cos)) = self.taylor(t);
             used += 1;
-            let GapTaylor { gap, slope, .. } = jet;
-            if jet.is_near_root() {
-                let delta = jet.last_step();
+            let GapTaylor { gap, slope, .. } = taylor;
+            if taylor.is_near_root() {
+                let delta = taylor.last_step();
                 let time = t + delta;
                 let (sin, cos) = rotated(sin, cos, delta);
                 return Ok(Root { time, sin, cos, velocity: self.velocity(time, cos), evaluations: used });
@@ -202,10 +202,10 @@ pub(crate) trait GapForm: Copy {
             if used >= MAX_EVALUATIONS {
                 return Err(Error::NoConvergence { evaluations: used, time: t, gap });
             }
-            let radicand = jet.radicand();
+            let radicand = taylor.radicand();
             let step = if radicand > 0.0 {
                 let root = radicand.sqrt();
-                jet.corrected_step(jet.quadratic_step(root), root)
+                taylor.corrected_step(taylor.quadratic_step(root), root)
             } else {
                 -(gap * (1.0 / slope))
             };
@@ -234,7 +234,7 @@ pub(crate) trait GapForm: Copy {
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let mut t = 0.5 * (lo + hi);
         loop {
-            let (GapTaylor { gap, slope, curvature, .. }, _) = self.jet(t);
+            let (GapTaylor { gap, slope, curvature, .. }, _) = self.taylor(t);
             *evaluations += 1;
             if gap <= 0.0 {
                 return Some(t);
@@ -302,7 +302,7 @@ impl CrestForm {
 
 impl GapForm for CrestForm {
     #[inline(always)]
-    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64)) {
+    fn taylor(&self, t: f64) -> (GapTaylor, (f64, f64)) {
         let (sin, cos) = sin_cos_bounded(self.angle + t);
         (self.jet_of_pair(t, sin, cos), (sin, cos))
     }
@@ -381,7 +381,7 @@ impl LaunchForm {
 
 impl GapForm for LaunchForm {
     #[inline(always)]
-    fn jet(&self, t: f64) -> (GapTaylor, (f64, f64)) {
+    fn taylor(&self, t: f64) -> (GapTaylor, (f64, f64)) {
         let pair = sin_cos_bounded(self.angle + t);
         (self.jet_of_pairs(t, pair, Self::versine_and_sine(t)), pair)
     }
@@ -551,7 +551,7 @@ mod tests {
     use crate::testing::spread;
 
     /// Jets of gaps of every size, above platforms of every strength.
-    fn jets() -> impl Iterator<Item = (f64, GapTaylor)> {
+    fn taylors() -> impl Iterator<Item = (f64, GapTaylor)> {
         (0..400_000).map(|k| {
             let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0);
             let (sin, cos) = sin_cos_bounded(core::f64::consts::TAU * spread(k, 0.569_840_29));
@@ -566,10 +566,10 @@ mod tests {
     #[test]
     fn a_root_that_is_surely_near_is_near() {
         let (mut surely, mut near) = (0, 0);
-        for (peak, jet) in jets() {
-            assert!(!jet.is_surely_near_root(peak) || jet.is_near_root());
-            surely += u32::from(jet.is_surely_near_root(peak));
-            near += u32::from(jet.is_near_root());
+        for (peak, taylor) in taylors() {
+            assert!(!taylor.is_surely_near_root(peak) || taylor.is_near_root());
+            surely += u32::from(taylor.is_surely_near_root(peak));
+            near += u32::from(taylor.is_near_root());
         }
         assert!(near > 100_000 && surely > near - near / 10, "{surely} of {near}");
         // A gap that does not fall has no root ahead, however small it is.
@@ -588,22 +588,22 @@ mod tests {
             let (sin, cos) = sin_cos_bounded(0.65 + 0.3 * spread(k, 0.569_840_29));
             let slope = if still { -10.0 } else { -0.2 - 0.3 * spread(k, 0.618_033_99) };
             let (platform, third) = (peak * sin, peak * cos);
-            let jet = |gap: f64| GapTaylor { gap, slope, curvature: platform - 1.0, third, platform };
+            let taylor = |gap: f64| GapTaylor { gap, slope, curvature: platform - 1.0, third, platform };
             let (mut accepted, mut refused) = (0.0, 1.0);
             while refused - accepted > 1e-12 * refused {
                 let middle = 0.5 * (accepted + refused);
-                if jet(middle).is_surely_near_root(peak) {
+                if taylor(middle).is_surely_near_root(peak) {
                     accepted = middle;
                 } else {
                     refused = middle;
                 }
             }
             assert!(
-                jet(accepted).is_near_root() && jet(-accepted).is_near_root(),
+                taylor(accepted).is_near_root() && taylor(-accepted).is_near_root(),
                 "{peak} {slope} {accepted}"
             );
             // Not idle: nearly all that is near is accepted.
-            limits += u32::from(!jet(1.06 * accepted).is_near_root());
+            limits += u32::from(!taylor(1.06 * accepted).is_near_root());
         }
         assert!(limits > 1_000, "{limits}");
     }
@@ -611,10 +611,11 @@ mod tests {
     #[test]
     fn steps_of_lanes_are_those_of_single_flights() {
         let mut corrected = 0;
-        for (_, jet) in jets() {
-            let root = jet.radicand().sqrt();
-            let step = jet.quadratic_step(root);
-            let (alone, lane) = (jet.corrected_step(step, root), jet.corrected_step_of_lane(step, root));
+        for (_, taylor) in taylors() {
+            let root = taylor.radicand().sqrt();
+            let step = taylor.quadratic_step(root);
+            let (alone, lane) =
+                (taylor.corrected_step(step, root), taylor.corrected_step_of_lane(step, root));
             assert!(alone.to_bits() == lane.to_bits() || (alone.is_nan() && lane.is_nan()), "{alone} {lane}");
             corrected += u32::from(alone.to_bits() != step.to_bits() && !alone.is_nan());
         }

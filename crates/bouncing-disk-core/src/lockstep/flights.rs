@@ -44,7 +44,7 @@ pub trait LaneLoop {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Flights {
-    flyer: Box<FlightScheduler>,
+    scheduler: Box<FlightScheduler>,
     batches: Vec<Batch>,
     /// Whether a lane of the batch has been put on a platform.
     placed: Vec<bool>,
@@ -112,7 +112,7 @@ impl Flights {
         batches.resize(count, Batch::new(Vibration::still()));
         let mut placed = room_for("batches of lanes", room.0, room.1)?;
         placed.resize(count, false);
-        Ok(Self { flyer: Box::new(FlightScheduler::new(set, Purpose::Launches)), batches, placed })
+        Ok(Self { scheduler: Box::new(FlightScheduler::new(set, Purpose::Launches)), batches, placed })
     }
 
     /// Number of batches.
@@ -154,14 +154,14 @@ impl Flights {
     /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
-        self.flyer.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
+        self.scheduler.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
     }
 
     /// Computes the impacts of the first `lanes` launches. `failed` is told of each lane that has none (see
     /// [`Vibration::first_impact`]), in order; its impact means nothing then.
     pub fn fly(&mut self, lanes: usize, mut failed: impl FnMut(usize, Error)) {
         let lanes = lanes.min(LANES * self.batches.len());
-        self.flyer.fly(&mut self.batches, lanes, &mut failed);
+        self.scheduler.fly(&mut self.batches, lanes, &mut failed);
     }
 
     /// The impacts of a batch.
@@ -189,7 +189,7 @@ impl Flights {
     /// Runs a loop with the instructions of the flights.
     #[inline(always)]
     pub fn run(&self, operation: impl LaneLoop) {
-        self.flyer.dispatch().run(Vectorised(operation));
+        self.scheduler.dispatch().run(Vectorised(operation));
     }
 }
 

@@ -8,12 +8,12 @@
 //! that solver (docs/numerics.md, section 9).
 
 mod above;
+mod awaiting;
 mod classify;
-mod fallen;
-mod flyer;
 mod instructions;
 mod low;
 mod platform;
+mod scheduler;
 mod search;
 mod short;
 mod subset;
@@ -27,9 +27,9 @@ use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 use platform::{Platform, PlatformLanes, Platforms};
 
-pub(crate) use flyer::{FlightScheduler, Purpose};
 pub(crate) use instructions::Dispatch;
 pub use instructions::InstructionSet;
+pub(crate) use scheduler::{FlightScheduler, Purpose};
 pub(crate) use subset::{Lanes, lanes_of};
 
 /// Flights in one batch.

@@ -213,7 +213,7 @@ pub enum OrbitEvent {
 pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Paper`] the last impact itself,
     /// with duration zero and no bound on what was cut off (`error_bound` is infinite unless the speed was 0).
-    pub attachment: Accumulation,
+    pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega: what the chatter started from.
     pub last_speed: f64,
     /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to there;
@@ -355,14 +355,14 @@ impl Orbit {
                 }
             },
             Next::Report(impact) => Ok(Some(self.report(impact))),
-            Next::Attach(attachment, last_speed) => {
+            Next::Attach(accumulation, last_speed) => {
                 let separation = self
                     .map
                     .vibration
                     .separation_phase()
-                    .map(|phase| (phase, u64::from(phase.angle() <= attachment.phase.angle())));
+                    .map(|phase| (phase, u64::from(phase.angle() <= accumulation.phase.angle())));
                 self.next = separation.map_or(Next::End, |(phase, _)| Next::Launch(phase, 0.0));
-                Ok(Some(OrbitEvent::Attachment(Attachment { attachment, last_speed, separation })))
+                Ok(Some(OrbitEvent::Attachment(Attachment { accumulation, last_speed, separation })))
             }
             Next::End => Ok(None),
         }

@@ -392,8 +392,14 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
                         ));
                     }
                     Ok(Some(OrbitEvent::Attachment(stick))) => {
-                        assert!(stick.attachment.duration.is_finite() && stick.attachment.duration >= 0.0);
-                        events.push((stick.attachment.phase.angle().to_bits(), 0, stick.attachment.turns));
+                        assert!(
+                            stick.accumulation.duration.is_finite() && stick.accumulation.duration >= 0.0
+                        );
+                        events.push((
+                            stick.accumulation.phase.angle().to_bits(),
+                            0,
+                            stick.accumulation.turns,
+                        ));
                     }
                     Ok(Some(event)) => panic!("{event:?}"),
                     Ok(None) => break,
@@ -419,7 +425,11 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
                         events.push((phase.angle().to_bits(), velocity.to_bits(), landing.turns));
                     }
                     SweepEvent::Attachment(stick) => {
-                        events.push((stick.attachment.phase.angle().to_bits(), 0, stick.attachment.turns));
+                        events.push((
+                            stick.accumulation.phase.angle().to_bits(),
+                            0,
+                            stick.accumulation.turns,
+                        ));
                     }
                     _ => {}
                 }

@@ -1,4 +1,4 @@
-//! The integrals over a spell of contact, in forms that lose nothing in short spells and at large accelerations.
+//! The integrals over a segment of contact, in forms that lose nothing in short segments and at large accelerations.
 
 use std::iter::Sum;
 

@@ -5,7 +5,7 @@ use bouncing_disk_core::{ChatterImpact, ChatterSeries, Phase};
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
-use crate::motion::rotary_change::{flight_turn, record_flight_load};
+use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 mod summed;
@@ -76,13 +76,13 @@ impl Chatter {
     }
 
     fn advance(&mut self, system: &DimensionlessSystem, impact: &ChatterImpact) {
-        let turn = flight_turn(system, self.angular_speed, impact.time - self.time);
-        record_flight_load(&mut self.ledger, system, self.angular_speed, &turn);
+        let change = change_in_flight(system, self.angular_speed, impact.time - self.time);
+        record_flight_load(&mut self.ledger, system, self.angular_speed, &change);
         let platform_speed = system.angular_speed_at(impact.pair);
         let axial = axial_impulse(system.restitution(), -impact.speed);
-        let slip = turn.speed - platform_speed;
+        let slip = change.speed - platform_speed;
         let rotary = friction_impact(system.friction(), axial, slip);
-        let after = if rotary.capped { platform_speed } else { turn.speed + rotary.impulse };
+        let after = if rotary.capped { platform_speed } else { change.speed + rotary.impulse };
         record_impact(
             &mut self.ledger,
             ImpactEnergy {
@@ -95,12 +95,12 @@ impl Chatter {
                 platform_speed,
             },
         );
-        self.ledger.record_rotary_change(turn.speed, after);
+        self.ledger.record_rotary_change(change.speed, after);
         self.time = impact.time;
         self.pair = impact.pair;
         self.launch_speed = rebound_velocity(system.restitution(), -impact.speed);
         self.angular_speed = after;
-        self.angle += turn.angle;
+        self.angle += change.angle;
         self.capped = rotary.capped;
         self.impacts += 1;
         self.axial_impulse += axial;

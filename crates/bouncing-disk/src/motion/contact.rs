@@ -381,11 +381,11 @@ impl SlipPath {
     }
 }
 
-/// Largest number of contact events (slips that begin, end or reverse) in one spell of contact of at most one period.
+/// Largest number of contact events (slips that begin, end or reverse) in one segment of contact of at most one period.
 ///
-/// A slip that begins at the platform's speed begins inside its direction's window and ends after it, and a spell
+/// A slip that begins at the platform's speed begins inside its direction's window and ends after it, and a segment
 /// that short meets each of the two windows at most twice (once cut in two by its ends): four slips, each with a
-/// beginning and an end, and the end of a slip that the spell began with.
+/// beginning and an end, and the end of a slip that the segment began with.
 pub const MAX_CONTACT_EVENTS: usize = 9;
 
 #[cfg(test)]

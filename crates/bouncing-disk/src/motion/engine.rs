@@ -17,7 +17,7 @@ use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{
-    RotaryChange, contact_ledger, contact_turn, flight_turn, record_flight_load,
+    RotaryChange, change_in_contact, change_in_flight, contact_ledger, record_flight_load,
 };
 use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection, Snapshot};
@@ -149,7 +149,7 @@ impl Engine {
     /// Disk and platform `span` after the last event, on the assumption that the next event does not come before.
     #[must_use]
     pub fn state_after(&self, span: PhaseSpan) -> Snapshot {
-        self.spell(None).state_after(&self.system, span)
+        self.segment(None).state_after(&self.system, span)
     }
 
     /// Whether the next event is the impact of a flight that starts now: just after a separation or an impact that
@@ -202,10 +202,10 @@ impl Engine {
     fn hit(&mut self, impact: &Impact) -> EventRecord {
         let system = &self.system;
         let span = PhaseSpan { periods: impact.periods, remainder: impact.remainder };
-        let turn = flight_turn(system, self.state.angular_speed, span.radians());
+        let change = change_in_flight(system, self.state.angular_speed, span.radians());
         let platform_velocity = system.vibration().velocity(impact.phase);
         let platform_speed = system.platform_angular_speed(impact.phase);
-        let slip = turn.speed - platform_speed;
+        let slip = change.speed - platform_speed;
         let mut axial = axial_impulse(system.restitution(), impact.velocity);
         let rotary = friction_impact(system.friction(), axial, slip);
         let rebound = rebound_velocity(system.restitution(), impact.velocity);
@@ -214,28 +214,28 @@ impl Engine {
         let cut = launch.is_some_and(|(_, speed)| speed <= 0.0 && rebound > 0.0);
         let rebound_left = if cut { 0.0 } else { rebound };
 
-        let spell = self.spell(None);
-        self.angle.add(turn.angle);
+        let segment = self.segment(None);
+        self.angle.add(change.angle);
         let before = DiskState {
             mode: Mode::Flight,
             height: system.vibration().height(impact.phase),
             axial_velocity: impact.velocity + platform_velocity,
             angle: self.angle.value(),
-            angular_speed: turn.speed,
+            angular_speed: change.speed,
         };
         let after = DiskState {
             axial_velocity: rebound_left + platform_velocity,
-            angular_speed: if rotary.capped { platform_speed } else { turn.speed + rotary.impulse },
+            angular_speed: if rotary.capped { platform_speed } else { change.speed + rotary.impulse },
             ..before
         };
 
         let mut ledger = EnergyLedger::default();
-        let start = spell.state;
+        let start = segment.state;
         ledger.record_axial_change(
             [start.axial_velocity, before.axial_velocity],
             [start.height, before.height],
         );
-        record_flight_load(&mut ledger, system, start.angular_speed, &turn);
+        record_flight_load(&mut ledger, system, start.angular_speed, &change);
         record_impact(
             &mut ledger,
             ImpactEnergy {
@@ -269,35 +269,35 @@ impl Engine {
             axial_impulse: axial,
             angular_impulse: rotary.impulse,
             ledger,
-            spell,
+            segment,
             span,
         }
     }
 
     fn attach(&mut self, rest: &Attachment) -> EventRecord {
         let system = &self.system;
-        let accumulation = rest.attachment;
+        let accumulation = rest.accumulation;
         let from = self.now.phase;
         let cut = accumulation.error_bound.is_infinite();
-        let spell = self.spell((!cut).then_some(rest.last_speed));
+        let segment = self.segment((!cut).then_some(rest.last_speed));
         let duration = accumulation.duration;
         // The paper's cut takes the last launch speed away by an impulse of its own.
         let chatter_speed = if cut { 0.0 } else { rest.last_speed };
         let chatter = Chatter::new(system, from, chatter_speed, self.state.angular_speed, duration);
-        let turn = flight_turn(system, chatter.angular_speed, duration - chatter.time);
+        let change = change_in_flight(system, chatter.angular_speed, duration - chatter.time);
         let platform_speed = system.platform_angular_speed(accumulation.phase);
         let platform_velocity = system.vibration().velocity(accumulation.phase);
         let mut ledger = chatter.ledger;
-        record_flight_load(&mut ledger, system, chatter.angular_speed, &turn);
+        record_flight_load(&mut ledger, system, chatter.angular_speed, &change);
 
-        self.angle.add(chatter.angle + turn.angle);
-        let start = spell.state;
+        self.angle.add(chatter.angle + change.angle);
+        let start = segment.state;
         let before = DiskState {
             mode: Mode::Flight,
             height: system.vibration().height(accumulation.phase),
             axial_velocity: if cut { start.axial_velocity } else { platform_velocity },
             angle: self.angle.value(),
-            angular_speed: turn.speed,
+            angular_speed: change.speed,
         };
         ledger.record_axial_change(
             [start.axial_velocity, before.axial_velocity],
@@ -305,7 +305,7 @@ impl Engine {
         );
         let mut axial = chatter.axial_impulse;
         let mut rotary = chatter.angular_impulse;
-        let mut angular_speed = turn.speed;
+        let mut angular_speed = change.speed;
         if cut {
             let speed = rest.last_speed;
             axial -= speed;
@@ -349,7 +349,7 @@ impl Engine {
             axial_impulse: axial,
             angular_impulse: rotary,
             ledger,
-            spell,
+            segment,
             span: PhaseSpan { periods: 0, remainder: duration },
         }
     }
@@ -386,27 +386,27 @@ impl Engine {
         let system = &self.system;
         let span = time.since(&self.now);
         let from = self.now.phase;
-        let spell = self.spell(None);
-        let turn = contact_turn(system, &spell.state, from, time.phase, span);
+        let segment = self.segment(None);
+        let change = change_in_contact(system, &segment.state, from, time.phase, span);
         let mut ledger =
-            contact_ledger(system, &self.friction, &spell.state, (from, time.phase), span, &turn);
+            contact_ledger(system, &self.friction, &segment.state, (from, time.phase), span, &change);
         let platform_speed = system.platform_angular_speed(time.phase);
-        self.angle.add(turn.angle);
+        self.angle.add(change.angle);
         let mut before = DiskState {
-            mode: spell.state.mode,
+            mode: segment.state.mode,
             height: system.vibration().height(time.phase),
             axial_velocity: system.vibration().velocity(time.phase),
             angle: self.angle.value(),
-            angular_speed: turn.speed,
+            angular_speed: change.speed,
         };
-        let (event, mode) = match (event, spell.state.mode) {
+        let (event, mode) = match (event, segment.state.mode) {
             (Event::StickToSlip(direction), _) => (event, Mode::Sliding(direction)),
             (Event::SlipToStick, Mode::Sliding(direction)) => {
-                self.settle(&mut ledger, turn, platform_speed);
+                self.settle(&mut ledger, change, platform_speed);
                 before.angular_speed = platform_speed;
                 // A slip that begins and ends at the same instant is one of rounding: let nothing slip again here.
                 let idle = span == PhaseSpan::ZERO
-                    && SlipDirection::of(spell.state.angular_speed - system.platform_angular_speed(from))
+                    && SlipDirection::of(segment.state.angular_speed - system.platform_angular_speed(from))
                         .is_none();
                 let spent = if idle { Spent::Both } else { Spent::One(direction) };
                 match self.friction.onset(time.phase, spent) {
@@ -427,14 +427,14 @@ impl Engine {
             axial_impulse: 0.0,
             angular_impulse: 0.0,
             ledger,
-            spell,
+            segment,
             span,
         }
     }
 
     /// Records what rounding has left between the disk's speed at the end of a slip and the platform's.
-    fn settle(&self, ledger: &mut EnergyLedger, turn: RotaryChange, platform_speed: f64) {
-        let slip = turn.speed - platform_speed;
+    fn settle(&self, ledger: &mut EnergyLedger, change: RotaryChange, platform_speed: f64) {
+        let slip = change.speed - platform_speed;
         let rest = ImpactEnergy {
             axial: 0.0,
             relative_velocity: 0.0,
@@ -445,7 +445,7 @@ impl Engine {
             platform_speed,
         };
         record_impact(ledger, rest);
-        ledger.record_rotary_change(turn.speed, platform_speed);
+        ledger.record_rotary_change(change.speed, platform_speed);
     }
 
     /// The mode of a disk on the platform with this angular speed.
@@ -456,7 +456,7 @@ impl Engine {
             .map_or(Mode::Sticking, Mode::Sliding)
     }
 
-    const fn spell(&self, chatter_speed: Option<f64>) -> Segment {
+    const fn segment(&self, chatter_speed: Option<f64>) -> Segment {
         Segment { start: self.now, state: self.state, chatter_speed }
     }
 

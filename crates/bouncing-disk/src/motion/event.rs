@@ -1,4 +1,4 @@
-//! What ends a spell of motion.
+//! What ends a segment of motion.
 
 use serde::Serialize;
 
@@ -38,7 +38,7 @@ pub enum Event {
     SlipReversal(SlipDirection),
 }
 
-/// An event, with the spell of motion that it ended.
+/// An event, with the segment of motion that it ended.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct EventRecord {
     /// When it happened.
@@ -53,18 +53,18 @@ pub struct EventRecord {
     pub axial_impulse: f64,
     /// Angular impulse per moment of inertia in units of g a_e/(a_g^2 omega).
     pub angular_impulse: f64,
-    /// Energy balance of the spell and the event.
+    /// Energy balance of the segment and the event.
     pub ledger: EnergyLedger,
-    /// The spell since the event before.
-    pub spell: Segment,
+    /// The segment since the event before.
+    pub segment: Segment,
     /// Its duration.
     pub span: PhaseSpan,
 }
 
 impl EventRecord {
-    /// Disk and platform during the spell, `fraction` of it in [0, 1] after its start.
+    /// Disk and platform during the segment, `fraction` of it in [0, 1] after its start.
     #[must_use]
     pub fn evaluate(&self, system: &DimensionlessSystem, fraction: f64) -> Snapshot {
-        self.spell.evaluate(system, self.span, fraction)
+        self.segment.evaluate(system, self.span, fraction)
     }
 }

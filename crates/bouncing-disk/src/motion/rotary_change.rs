@@ -9,7 +9,7 @@ use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Change of the rotary state over a spell.
+/// Change of the rotary state over a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RotaryChange {
     /// Angular speed at the end.
@@ -19,13 +19,13 @@ pub(crate) struct RotaryChange {
 }
 
 /// The rotary motion of a flight: only the load acts.
-pub(crate) fn flight_turn(system: &DimensionlessSystem, speed: f64, duration: f64) -> RotaryChange {
+pub(crate) fn change_in_flight(system: &DimensionlessSystem, speed: f64, duration: f64) -> RotaryChange {
     let lost = system.load() * duration;
     RotaryChange { speed: speed - lost, angle: duration * (speed - 0.5 * lost) }
 }
 
-/// The rotary motion of a spell of contact that starts in `state`.
-pub(crate) fn contact_turn(
+/// The rotary motion of a segment of contact that starts in `state`.
+pub(crate) fn change_in_contact(
     system: &DimensionlessSystem,
     state: &DiskState,
     from: Phase,
@@ -34,7 +34,7 @@ pub(crate) fn contact_turn(
 ) -> RotaryChange {
     let arc = Arc::new(system.peak_acceleration(), from, span);
     match state.mode {
-        Mode::Sliding(direction) => sliding_turn(system, direction, state.angular_speed, &arc),
+        Mode::Sliding(direction) => change_while_sliding(system, direction, state.angular_speed, &arc),
         Mode::Sticking | Mode::Flight => {
             let (cosine, sine) = system.twist_components();
             RotaryChange {
@@ -46,7 +46,7 @@ pub(crate) fn contact_turn(
 }
 
 /// Sliding contact (Eq. 12): d(angular speed)/d tau = -s mu N - l with N = 1 - P sin tau, integrated.
-fn sliding_turn(
+fn change_while_sliding(
     system: &DimensionlessSystem,
     direction: SlipDirection,
     speed: f64,
@@ -66,21 +66,21 @@ pub(crate) fn record_flight_load(
     ledger: &mut EnergyLedger,
     system: &DimensionlessSystem,
     speed: f64,
-    turn: &RotaryChange,
+    change: &RotaryChange,
 ) {
-    let work = system.load() * turn.angle;
-    ledger.record_rotary_change(speed, turn.speed);
+    let work = system.load() * change.angle;
+    ledger.record_rotary_change(speed, change.speed);
     ledger.record_load(work, work.abs());
 }
 
-/// Energy balance of a spell of contact from `state` at `from` to `to`, where the disk has turned by `turn`.
+/// Energy balance of a segment of contact from `state` at `from` to `to`, where the disk has turned by `turn`.
 pub(crate) fn contact_ledger(
     system: &DimensionlessSystem,
     friction: &Friction,
     state: &DiskState,
     (from, to): (Phase, Phase),
     span: PhaseSpan,
-    turn: &RotaryChange,
+    change: &RotaryChange,
 ) -> EnergyLedger {
     let mut ledger = EnergyLedger::default();
     let arc = Arc::new(system.peak_acceleration(), from, span);
@@ -91,7 +91,7 @@ pub(crate) fn contact_ledger(
     ledger.record_normal(peak * arc.sine_change - peak * peak * arc.sine_cosine, 0.0);
 
     let load = system.load();
-    ledger.record_rotary_change(state.angular_speed, turn.speed);
+    ledger.record_rotary_change(state.angular_speed, change.speed);
     let (cosine, sine) = system.twist_components();
     match state.mode {
         Mode::Sliding(direction) => {
@@ -100,7 +100,7 @@ pub(crate) fn contact_ledger(
             let t = arc.duration;
             let angle_size =
                 t * (state.angular_speed.abs() + 0.5 * load.abs() * t) + mu * arc.force_twice().size;
-            ledger.record_load(load * turn.angle, load.abs() * angle_size);
+            ledger.record_load(load * change.angle, load.abs() * angle_size);
             // Work of the platform: integral of -s mu N Q cos(tau + theta).
             let force = arc.force();
             let (force_cosine, force_sine) = (arc.force_cosine(), arc.force_sine());
@@ -123,7 +123,7 @@ pub(crate) fn contact_ledger(
             ledger.record_friction(work, mu * slipped.value, mu * (platform.size + slipped.size));
         }
         Mode::Sticking | Mode::Flight => {
-            ledger.record_load(load * turn.angle, (load * turn.angle).abs());
+            ledger.record_load(load * change.angle, (load * change.angle).abs());
             // The friction torque is l + d(platform angular speed)/d tau: integrated times the platform's speed.
             let angle_change = cosine * arc.sine_change + sine * arc.cosine_change;
             let (before, after) = (start.angular_speed, end.angular_speed);

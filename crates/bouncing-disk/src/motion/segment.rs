@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::motion::chatter::Chatter;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::{contact_turn, flight_turn};
+use crate::motion::rotary_change::{change_in_contact, change_in_flight};
 use crate::motion::state::{DiskState, Mode, PlatformState, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -15,7 +15,7 @@ pub struct Segment {
     pub start: PhaseTime,
     /// The state just after that event.
     pub state: DiskState,
-    /// Launch speed of a chattering sequence that fills the spell (mode flight), in units of g/omega.
+    /// Launch speed of a chattering sequence that fills the segment (mode flight), in units of g/omega.
     pub chatter_speed: Option<f64>,
 }
 
@@ -46,13 +46,13 @@ impl Segment {
             (Mode::Flight, None) => self.flown(system, span),
             (Mode::Flight, Some(speed)) => self.chattered(system, speed, span),
             (Mode::Sticking | Mode::Sliding(_), _) => {
-                let turn = contact_turn(system, &self.state, self.start.phase, time.phase, span);
+                let change = change_in_contact(system, &self.state, self.start.phase, time.phase, span);
                 DiskState {
                     mode: self.state.mode,
                     height: platform.height,
                     axial_velocity: platform.axial_velocity,
-                    angle: self.state.angle + turn.angle,
-                    angular_speed: turn.speed,
+                    angle: self.state.angle + change.angle,
+                    angular_speed: change.speed,
                 }
             }
         };
@@ -61,28 +61,28 @@ impl Segment {
 
     fn flown(&self, system: &DimensionlessSystem, span: PhaseSpan) -> DiskState {
         let duration = span.radians();
-        let turn = flight_turn(system, self.state.angular_speed, duration);
+        let change = change_in_flight(system, self.state.angular_speed, duration);
         DiskState {
             mode: Mode::Flight,
             height: self.state.height + duration * (self.state.axial_velocity - 0.5 * duration),
             axial_velocity: self.state.axial_velocity - duration,
-            angle: self.state.angle + turn.angle,
-            angular_speed: turn.speed,
+            angle: self.state.angle + change.angle,
+            angular_speed: change.speed,
         }
     }
 
     fn chattered(&self, system: &DimensionlessSystem, speed: f64, span: PhaseSpan) -> DiskState {
         let duration = span.radians();
         let chatter = Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
-        let turn = flight_turn(system, chatter.angular_speed, duration - chatter.time);
+        let change = change_in_flight(system, chatter.angular_speed, duration - chatter.time);
         let rest = duration - chatter.time;
         DiskState {
             mode: Mode::Flight,
             height: system.peak_acceleration() * chatter.pair.0
                 + rest * (chatter.launch_velocity(system) - 0.5 * rest),
             axial_velocity: chatter.launch_velocity(system) - rest,
-            angle: self.state.angle + (chatter.angle + turn.angle),
-            angular_speed: turn.speed,
+            angle: self.state.angle + (chatter.angle + change.angle),
+            angular_speed: change.speed,
         }
     }
 }
@@ -119,22 +119,22 @@ mod tests {
         let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
         let (mut flights, mut chatters, mut contacts) = (0, 0, 0);
         for _ in 0..200 {
-            let spell = engine.advance().expect("no failure").expect("goes on").spell;
-            match (spell.state.mode, spell.chatter_speed) {
+            let segment = engine.advance().expect("no failure").expect("goes on").segment;
+            match (segment.state.mode, segment.chatter_speed) {
                 (Mode::Flight, Some(_)) => chatters += 1,
                 (Mode::Flight, None) => flights += 1,
                 _ => contacts += 1,
             }
             for span in spans() {
                 for snapshot in [
-                    spell.state_after(&system(), span),
+                    segment.state_after(&system(), span),
                     engine.state_after(span),
-                    spell.evaluate(&system(), span, f64::NAN),
-                    spell.evaluate(&system(), span, 0.5),
+                    segment.evaluate(&system(), span, f64::NAN),
+                    segment.evaluate(&system(), span, 0.5),
                 ] {
                     let DiskState { height, axial_velocity, angle, angular_speed, .. } = snapshot.disk;
                     for number in [height, axial_velocity, angle, angular_speed, snapshot.platform.angle] {
-                        assert!(number.is_finite(), "{spell:?} {span:?}");
+                        assert!(number.is_finite(), "{segment:?} {span:?}");
                     }
                 }
             }
@@ -148,11 +148,11 @@ mod tests {
         let phase = Phase::new(1.0).expect("finite");
         let start = InitialCondition::Launch { phase, relative_speed: 1.0, angular_speed: 0.0 };
         let mut engine = Engine::new(system(), start, ChatterPolicy::Complete).expect("legal");
-        let flight = engine.advance().expect("no failure").expect("lands").spell;
+        let flight = engine.advance().expect("no failure").expect("lands").segment;
         let span = PhaseSpan { periods: 3, remainder: 1.0 };
         for speed in [f64::NAN, f64::INFINITY, -1.0, 1.0, 1e300] {
-            let spell = Segment { chatter_speed: Some(speed), ..flight };
-            assert_eq!(spell.state_after(&system(), span), flight.state_after(&system(), span), "{speed}");
+            let segment = Segment { chatter_speed: Some(speed), ..flight };
+            assert_eq!(segment.state_after(&system(), span), flight.state_after(&system(), span), "{speed}");
         }
     }
 }

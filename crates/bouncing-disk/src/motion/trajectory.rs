@@ -75,11 +75,11 @@ impl Trajectory {
         let index = self.records.partition_point(|record| record.time.order(&time) != Ordering::Greater);
         let Some(record) = self.records.get(index) else {
             let last = self.records.last()?;
-            let mut snapshot = last.spell.state_after(&self.system, last.span);
+            let mut snapshot = last.segment.state_after(&self.system, last.span);
             (snapshot.time, snapshot.disk) = (last.time, last.after);
             return Some(snapshot);
         };
-        Some(record.spell.state_after(&self.system, time.since(&record.spell.start)))
+        Some(record.segment.state_after(&self.system, time.since(&record.segment.start)))
     }
 
     /// Disk and platform at those of `times` that lie within the recorded motion.

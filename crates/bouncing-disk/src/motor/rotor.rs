@@ -11,7 +11,7 @@ use crate::motion::contact::{Friction, Spent};
 use crate::motion::engine::SAME_SPEED;
 use crate::motion::impact::{axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::contact_turn;
+use crate::motion::rotary_change::change_in_contact;
 use crate::motion::state::{DiskState, Mode, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -47,7 +47,7 @@ impl Bounce {
     #[inline(always)]
     pub(crate) fn after(self, speed: f64) -> (f64, f64) {
         let Self { duration, platform_speed, velocity, restitution, friction, load } = self;
-        // As `flight_turn`, but the angle is needed to the accuracy of a mean speed only.
+        // As `change_in_flight`, but the angle is needed to the accuracy of a mean speed only.
         let arrival = speed - load * duration;
         let turned = duration * (speed - 0.5 * load * duration);
         let rotary =
@@ -202,7 +202,7 @@ impl Rotor {
     }
 
     fn attach(&mut self, rest: &Attachment) {
-        let at = rest.attachment;
+        let at = rest.accumulation;
         let start = self.speed;
         if !at.error_bound.is_infinite() && rest.last_speed > 0.0 {
             self.speed = match self.slide_throughout(rest) {
@@ -222,7 +222,7 @@ impl Rotor {
     /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less the
     /// launch speed: in relative velocity, 0 = w - integral of N + sum.
     fn slide_throughout(&self, rest: &Attachment) -> Option<f64> {
-        let duration = rest.attachment.duration;
+        let duration = rest.accumulation.duration;
         let vibration = self.system.vibration();
         let from = self.now.phase;
         // N = a - b t + (1 - a) t^2/2 about the start, to the accuracy of the duration itself.
@@ -245,7 +245,7 @@ impl Rotor {
     /// The speed after a chattering sequence, impact by impact.
     #[cold]
     fn sum_chatter(&self, rest: &Attachment) -> f64 {
-        let at = rest.attachment;
+        let at = rest.accumulation;
         let chatter = Chatter::new(&self.system, self.now.phase, rest.last_speed, self.speed, at.duration);
         if chatter.capped {
             self.system.platform_angular_speed(at.phase)
@@ -259,7 +259,7 @@ impl Rotor {
         let Some((mode, _)) = self.contact else { return 0.0 };
         let state =
             DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
-        contact_turn(&self.system, &state, self.now.phase, self.now.after(span).phase, span).angle
+        change_in_contact(&self.system, &state, self.now.phase, self.now.after(span).phase, span).angle
     }
 
     fn contact_mode(&self, phase: Phase) -> Mode {
@@ -296,9 +296,9 @@ impl Rotor {
         let span = time.since(&self.now);
         let state =
             DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
-        let turn = contact_turn(&self.system, &state, phase, time.phase, span);
-        self.turned = turn.angle;
-        self.speed = turn.speed;
+        let change = change_in_contact(&self.system, &state, phase, time.phase, span);
+        self.turned = change.angle;
+        self.speed = change.speed;
         self.now = time;
         let Some((_, slips)) = next else {
             self.contact = None;

@@ -237,7 +237,7 @@ mod tests {
             prop_assume!(system.peak_acceleration() > 1.0);
             let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest).unwrap();
             let first = trajectory.records()[0];
-            // One spell of sliding from start to separation.
+            // One segment of sliding from start to separation.
             prop_assume!(first.event == Event::Separation && matches!(first.before.mode, Mode::Sliding(_)));
             let toss = single_toss(&system, InitialSpin::AbsoluteRest).unwrap();
             let leaves = asin(1.0 / system.peak_acceleration());

@@ -5,7 +5,7 @@ use bouncing_disk::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Points of a spell at which the equations are checked, besides its ends.
+/// Points of a segment at which the equations are checked, besides its ends.
 const CHECKS: u32 = 4;
 
 /// The largest faults found, each as a share of the sizes of the terms that should balance.
@@ -78,7 +78,7 @@ impl Laws {
         let shots: Vec<_> =
             (0..=CHECKS).map(|step| record.evaluate(system, f64::from(step) / f64::from(CHECKS))).collect();
         match record.before.mode {
-            Mode::Flight if record.spell.chatter_speed.is_none() => self.flight(record, &shots),
+            Mode::Flight if record.segment.chatter_speed.is_none() => self.flight(record, &shots),
             Mode::Flight => {}
             Mode::Sticking => {
                 self.checked.sticking += 1;
@@ -139,7 +139,7 @@ impl Laws {
 
     fn flight(&mut self, record: &EventRecord, shots: &[Snapshot]) {
         self.checked.flights += 1;
-        let start = record.spell.state;
+        let start = record.segment.state;
         let parabola = |time: f64| {
             let (rise, fall) = (start.axial_velocity * time, 0.5 * time * time);
             (start.height + rise - fall, [start.height, rise, fall])
@@ -198,14 +198,14 @@ impl Laws {
             }
             Event::SlipToStick | Event::SlipReversal(_) => {
                 self.checked.slip_ends += 1;
-                // The spell's own end, before the speed is set to the platform's.
+                // The segment's own end, before the speed is set to the platform's.
                 let end = record.evaluate(system, 1.0);
                 let slip = (end.disk.angular_speed - end.platform.angular_speed).abs();
                 // The terms whose sum vanishes: the speed at the start, what friction and load have changed, and
                 // the platform's speed.
                 let pushed = friction * (record.span.radians() + peak);
                 let pulled = load * record.span.radians();
-                let sizes = [record.spell.state.angular_speed, pushed, pulled, system.twist_speed()];
+                let sizes = [record.segment.state.angular_speed, pushed, pulled, system.twist_speed()];
                 raise(&mut self.slip_end, share(slip, &sizes));
             }
             _ => {}

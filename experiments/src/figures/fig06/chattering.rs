@@ -60,7 +60,7 @@ pub(super) fn cycles(
             }
             SweepEvent::Attachment(rest) => {
                 cycle.platform_periods +=
-                    rest.attachment.turns + rest.separation.map_or(0, |(_, turns)| turns);
+                    rest.accumulation.turns + rest.separation.map_or(0, |(_, turns)| turns);
                 *rests = true;
                 ControlFlow::Break(())
             }

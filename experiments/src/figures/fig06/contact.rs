@@ -165,7 +165,7 @@ pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, E
 /// Impacts over which the angular impulses are added up, from a disk that does not turn: once it turns in step with the
 /// platform, nothing is transferred in period 1.
 const TRANSFERS: usize = 600;
-/// Parts into which a spell on the platform is divided: the impulse of friction may change its sign within a spell.
+/// Parts into which a segment on the platform is divided: the impulse of friction may change its sign within a segment.
 const PARTS: usize = 16;
 
 /// The share of the angular impulses, by size, that impacts transfer; `None` where there are none.
@@ -188,7 +188,7 @@ fn share_in_impacts(
 /// The sum of the sizes of the changes of angular speed on the platform; zero in flight.
 fn turned_in_contact(record: &EventRecord, system: &DimensionlessSystem) -> f64 {
     let speed = |part: usize| record.evaluate(system, part as f64 / PARTS as f64).disk.angular_speed;
-    if record.spell.state.mode == bouncing_disk::Mode::Flight {
+    if record.segment.state.mode == bouncing_disk::Mode::Flight {
         return 0.0;
     }
     (0..PARTS).map(|part| (speed(part + 1) - speed(part)).abs()).sum()

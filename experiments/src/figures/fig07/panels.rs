@@ -80,7 +80,7 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
             let settled =
                 map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
             if let Some(orbit) = settled
-                && let Some(radius) = orbit.catching_radius(map)
+                && let Some(radius) = orbit.attraction_radius(map)
             {
                 known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
                 continue 'search;

@@ -69,7 +69,7 @@ pub(super) struct Lockstep<'a> {
     settings: BasinSettings,
     targets: Vec<Target>,
     proof: RestProof,
-    flyer: Box<FlightScheduler>,
+    scheduler: Box<FlightScheduler>,
     batches: Vec<Batch>,
     /// The cell of each lane, and the round before its first flight.
     cell: Vec<Cell>,
@@ -97,7 +97,7 @@ impl<'a> Lockstep<'a> {
             settings,
             targets: targets.collect(),
             proof: RestProof::new(map.vibration(), map.restitution()),
-            flyer: Box::new(FlightScheduler::new(InstructionSet::best(), Purpose::Orbits)),
+            scheduler: Box::new(FlightScheduler::new(InstructionSet::best(), Purpose::Orbits)),
             batches: vec![Batch::of_map(map); capacity.div_ceil(LANES)],
             cell: vec![Cell::NONE; capacity],
             begun: vec![0; capacity],
@@ -112,12 +112,12 @@ impl<'a> Lockstep<'a> {
         self.round += 1;
         let batches = &mut self.batches[..self.lanes.div_ceil(LANES)];
         let mut failure = None;
-        self.flyer.fly(batches, self.lanes, |_, error| failure = Some(error));
+        self.scheduler.fly(batches, self.lanes, |_, error| failure = Some(error));
         failure.map_or(Ok(()), Err)
     }
 
     pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
-        self.flyer.dispatch().run(Screen {
+        self.scheduler.dispatch().run(Screen {
             impacts,
             targets: &self.targets,
             proof: self.proof,
@@ -209,7 +209,7 @@ mod tests {
             .settled_orbit(ImpactState::from_normalised(0.8, 1.3).expect("legal"), 4_000, 16, 1e-8)
             .expect("no failure");
         let known: Vec<_> = orbit
-            .and_then(|orbit| orbit.catching_radius(&map).map(|radius| (orbit, radius)))
+            .and_then(|orbit| orbit.attraction_radius(&map).map(|radius| (orbit, radius)))
             .into_iter()
             // The same orbit again, with more room: the first one that catches a start has it.
             .flat_map(|(orbit, radius)| {

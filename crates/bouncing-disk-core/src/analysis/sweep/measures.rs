@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::{Landing, SweepEvent, sweep};
+use super::{SweepEvent, SweepImpact, sweep};
 use crate::chatter::accumulation::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
@@ -93,7 +93,7 @@ impl Growth {
     }
 
     /// Follows the tangent through one impact.
-    fn grow(&mut self, map: &ImpactMap, landing: &Landing) {
+    fn grow(&mut self, map: &ImpactMap, landing: &SweepImpact) {
         let jacobian = map.derivative(self.state, landing.state, landing.duration);
         let (by_phase, by_velocity) = (jacobian.x_axis, jacobian.y_axis);
         let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;

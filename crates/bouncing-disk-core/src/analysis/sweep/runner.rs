@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-use super::{Landing, SweepEvent, advance};
+use super::{SweepEvent, SweepImpact, advance};
 use crate::error::Error;
 use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 use crate::map::impact_map::Orbit;
@@ -133,7 +133,7 @@ where
         // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates from rest has no
         // impact that leads to it.
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return };
-        let mut flyer = Box::new(FlightScheduler::new(set, Purpose::Launches));
+        let mut scheduler = Box::new(FlightScheduler::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
@@ -153,10 +153,10 @@ where
                     *speed = -velocity;
                 }
             }
-            flyer.fly(used, self.runs.len(), |lane, error| failures.push((lane, error)));
+            scheduler.fly(used, self.runs.len(), |lane, error| failures.push((lane, error)));
             // From the last lane, so that an orbit that is moved into a gap has been advanced.
             for lane in (0..self.runs.len()).rev() {
-                // The flyer names the lanes in their order.
+                // The scheduler names the lanes in their order.
                 let done = match failures.pop_if(|(failed, _)| *failed == lane) {
                     Some((_, error)) => Some(Err(error)),
                     None => self.runs[lane].landed(&mut batches, lane, self.visit),
@@ -204,7 +204,7 @@ impl<S> Run<S> {
     ) -> Done {
         let (batch, own) = (&batches[lane / LANES], lane % LANES);
         let state = batch.impact_state(own);
-        let landing = Landing::new(batch.launch_phase(own), state, batch.impacts().turns[own] as u64);
+        let landing = SweepImpact::new(batch.launch_phase(own), state, batch.impacts().turns[own] as u64);
         self.orbit.land(state, landing.decisive_duration(&self.orbit));
         if visit(&mut self.value, &SweepEvent::Impact(landing)).is_break() {
             return Some(Ok(()));

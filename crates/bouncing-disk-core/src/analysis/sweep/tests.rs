@@ -43,8 +43,8 @@ fn bits(event: &SweepEvent) -> Vec<u64> {
             bits
         }
         SweepEvent::Attachment(stick) => {
-            let mut bits = of_phase(stick.attachment.phase).to_vec();
-            bits.extend([stick.attachment.duration.to_bits(), stick.last_speed.to_bits()]);
+            let mut bits = of_phase(stick.accumulation.phase).to_vec();
+            bits.extend([stick.accumulation.duration.to_bits(), stick.last_speed.to_bits()]);
             bits
         }
     }

@@ -135,7 +135,7 @@ fn first_jet<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize)
 
 /// Gap and derivatives at the time reached.
 #[inline(always)]
-fn jet<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
+fn taylor<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
     form(platforms, arcs, k).jet_of_pair(work.time[k], work.sin[k], work.cos[k])
 }
 
@@ -155,12 +155,12 @@ fn meets_no_crest(start: f64, time: f64) -> u64 {
 
 /// The step of the model from where the gap is known, given the square roots of its radicands.
 #[inline(always)]
-fn model_step(width: impl Width, work: &mut Work, jet: impl Fn(&Work, usize) -> GapTaylor) {
+fn model_step(width: impl Width, work: &mut Work, taylor: impl Fn(&Work, usize) -> GapTaylor) {
     for k in 0..width.lanes() {
-        work.quadratic[k] = jet(work, k).quadratic_step(work.root[k]);
+        work.quadratic[k] = taylor(work, k).quadratic_step(work.root[k]);
     }
     for k in 0..width.lanes() {
-        work.step[k] = jet(work, k).corrected_step_of_lane(work.quadratic[k], work.root[k]);
+        work.step[k] = taylor(work, k).corrected_step_of_lane(work.quadratic[k], work.root[k]);
     }
 }
 
@@ -168,11 +168,11 @@ fn model_step(width: impl Width, work: &mut Work, jet: impl Fn(&Work, usize) -> 
 #[inline(always)]
 fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     for k in 0..width.lanes() {
-        let jet = first_jet(platforms, arcs, work, k);
-        let one_window = !two_windows(platforms, arcs, &jet, k);
-        let radicand = jet.radicand();
-        let usable = one_window & mask(jet.slope < 0.0) & mask(radicand > 0.0);
-        work.near[k] = one_window & mask(jet.is_near_root());
+        let taylor = first_jet(platforms, arcs, work, k);
+        let one_window = !two_windows(platforms, arcs, &taylor, k);
+        let radicand = taylor.radicand();
+        let usable = one_window & mask(taylor.slope < 0.0) & mask(radicand > 0.0);
+        work.near[k] = one_window & mask(taylor.is_near_root());
         // Not a number where the model is of no use: nor is the step then, and no comparison with it holds.
         work.root[k] = f64::from_bits(radicand.sqrt().to_bits() | !usable);
     }
@@ -191,9 +191,11 @@ fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, wo
 
 /// Lanes behind a crest, the platform falling away faster than the disk may fall: two windows.
 #[inline(always)]
-fn two_windows<P: PlatformLanes>(platforms: P, arcs: &Arcs, jet: &GapTaylor, k: usize) -> u64 {
+fn two_windows<P: PlatformLanes>(platforms: P, arcs: &Arcs, taylor: &GapTaylor, k: usize) -> u64 {
     let peak = platforms.lane(k).peak;
-    mask(jet.curvature > -CLEAR * (1.0 + peak)) & mask(jet.third < CLEAR * peak) & mask(arcs.speed[k] > -peak)
+    mask(taylor.curvature > -CLEAR * (1.0 + peak))
+        & mask(taylor.third < CLEAR * peak)
+        & mask(arcs.speed[k] > -peak)
 }
 
 /// The first step of the search where the model leads nowhere: Newton's, or half way to the crest.
@@ -201,16 +203,16 @@ fn two_windows<P: PlatformLanes>(platforms: P, arcs: &Arcs, jet: &GapTaylor, k: 
 fn other_first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     let (time, followed) = (work.time, work.followed);
     for k in 0..width.lanes() {
-        let jet = first_jet(platforms, arcs, work, k);
+        let taylor = first_jet(platforms, arcs, work, k);
         let (turned, _) = nearby_wrapped_of_lane(arcs.start[k]);
         let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
         let model = mask(work.root[k] > 0.0);
-        let newton = -(jet.gap * (1.0 / jet.slope));
+        let newton = -(taylor.gap * (1.0 / taylor.slope));
         let step = if model != 0 { work.step[k] } else { newton };
-        let fine = mask(jet.slope < 0.0) & mask(step > 0.0) & mask(step < crest);
+        let fine = mask(taylor.slope < 0.0) & mask(step > 0.0) & mask(step < crest);
         let next = if fine != 0 { step } else { 0.5 * crest };
-        let one_window = !two_windows(platforms, arcs, &jet, k);
-        let astray = !followed[k] & one_window & mask(jet.gap > 0.0);
+        let one_window = !two_windows(platforms, arcs, &taylor, k);
+        let astray = !followed[k] & one_window & mask(taylor.gap > 0.0);
         work.time[k] = if astray != 0 { next } else { time[k] };
         work.followed[k] = followed[k] | astray;
     }
@@ -222,19 +224,19 @@ fn second_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, w
     work.second = work.time;
     work.stepped = true;
     for k in 0..width.lanes() {
-        work.root[k] = jet(platforms, arcs, work, k).radicand().sqrt();
+        work.root[k] = taylor(platforms, arcs, work, k).radicand().sqrt();
     }
-    model_step(width, work, |work, k| jet(platforms, arcs, work, k));
+    model_step(width, work, |work, k| taylor(platforms, arcs, work, k));
     for k in 0..width.lanes() {
-        let jet = jet(platforms, arcs, work, k);
+        let taylor = taylor(platforms, arcs, work, k);
         let time = work.second[k];
         let next = time + work.step[k];
         // The window ends where the last evaluation was, or at the crest.
-        let later = mask(jet.gap > 0.0);
+        let later = mask(taylor.gap > 0.0);
         let within = (later & mask(next > time) & meets_no_crest(arcs.start[k], next))
             | (!later & mask(next > 0.0) & mask(next < time));
-        let inside = mask(jet.slope < 0.0) & mask(work.root[k] > 0.0) & within;
-        let moves = !mask(jet.is_near_root()) & inside;
+        let inside = mask(taylor.slope < 0.0) & mask(work.root[k] > 0.0) & within;
+        let moves = !mask(taylor.is_near_root()) & inside;
         work.time[k] = if moves != 0 { next } else { time };
     }
 }
@@ -251,11 +253,11 @@ fn evaluate<S: Simd, P: PlatformLanes>(
     pairs::<S>(width, sin, cos, |k| arcs.start[k] + time[k]);
     let mut all = u64::MAX;
     for k in 0..width.lanes() {
-        let jet = jet(platforms, arcs, work, k);
-        let inverse = 1.0 / jet.slope;
+        let taylor = taylor(platforms, arcs, work, k);
+        let inverse = 1.0 / taylor.slope;
         work.inverse[k] = inverse;
-        work.step[k] = -(jet.gap * inverse);
-        let near = work.followed[k] & mask(jet.is_surely_near_root(platforms.lane(k).peak));
+        work.step[k] = -(taylor.gap * inverse);
+        let near = work.followed[k] & mask(taylor.is_surely_near_root(platforms.lane(k).peak));
         work.near[k] = near;
         all &= near;
     }
@@ -266,8 +268,8 @@ fn evaluate<S: Simd, P: PlatformLanes>(
 #[inline(always)]
 fn last_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     for k in 0..width.lanes() {
-        let jet = jet(platforms, arcs, work, k);
-        work.step[k] = jet.reverted(work.step[k], work.inverse[k]);
+        let taylor = taylor(platforms, arcs, work, k);
+        work.step[k] = taylor.reverted(work.step[k], work.inverse[k]);
     }
 }
 

@@ -181,7 +181,7 @@ impl WithSimd for Dips<'_> {
                 let clears = undecided & mask(gap > 0.0) & mask(gap + slope * (far - t) > 0.0);
                 let shorter_lo = if undecided & falls != 0 { t } else { lo };
                 let shorter_hi = if undecided & !falls | open != 0 { t } else { hi };
-                let newton = t - slope / times.jet(k).curvature;
+                let newton = t - slope / times.taylor(k).curvature;
                 let inside = mask(newton > shorter_lo) & mask(newton < shorter_hi);
                 let next = if inside != 0 { newton } else { 0.5 * (shorter_lo + shorter_hi) };
                 // What is below the platform by less than the rounding, or in too short a window, is left to one flight.

@@ -69,7 +69,7 @@ impl Times {
 
     /// Gap and derivatives at the time evaluated last.
     #[inline(always)]
-    pub(super) fn jet(&self, k: usize) -> GapTaylor {
+    pub(super) fn taylor(&self, k: usize) -> GapTaylor {
         let platform = self.peak[k] * self.sin[k];
         GapTaylor {
             gap: self.gap[k],
@@ -107,7 +107,7 @@ impl<F: Forms> WithSimd for Advance<'_, F> {
         for evaluation in 1..=evaluations {
             forms.evaluate::<S>(width, times);
             for k in 0..width.lanes() {
-                times.near[k] = mask(times.jet(k).is_near_root());
+                times.near[k] = mask(times.taylor(k).is_near_root());
             }
             if steps_on || evaluation < evaluations {
                 step(width, times);
@@ -119,16 +119,16 @@ impl<F: Forms> WithSimd for Advance<'_, F> {
 #[inline(always)]
 fn step(width: impl Width, times: &mut Times) {
     for k in 0..width.lanes() {
-        times.root[k] = times.jet(k).radicand().sqrt();
+        times.root[k] = times.taylor(k).radicand().sqrt();
     }
     for k in 0..width.lanes() {
-        times.step[k] = times.jet(k).quadratic_step(times.root[k]);
+        times.step[k] = times.taylor(k).quadratic_step(times.root[k]);
     }
     for k in 0..width.lanes() {
-        let jet = times.jet(k);
+        let taylor = times.taylor(k);
         let root = times.root[k];
-        let model = jet.corrected_step_of_lane(times.step[k], root);
-        let newton = -(jet.gap * (1.0 / jet.slope));
+        let model = taylor.corrected_step_of_lane(times.step[k], root);
+        let newton = -(taylor.gap * (1.0 / taylor.slope));
         times.step[k] = if root > 0.0 { model } else { newton };
     }
     for k in 0..width.lanes() {
@@ -152,7 +152,7 @@ impl<F: Forms> WithSimd for Finish<'_, F> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { width, forms, times, impacts } = self;
         for k in 0..width.lanes() {
-            times.step[k] = times.jet(k).last_step();
+            times.step[k] = times.taylor(k).last_step();
         }
         for k in 0..width.lanes() {
             let delta = times.step[k];

@@ -5,7 +5,7 @@ use bouncing_disk_core::{ChatterSeries, ImpactRange, Phase, PowerSeries};
 
 use super::Chatter;
 use crate::motion::impact::friction_impact;
-use crate::motion::rotary_change::{RotaryChange, flight_turn, record_flight_load};
+use crate::motion::rotary_change::{RotaryChange, change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics.md, section 4). More arise only
@@ -190,17 +190,17 @@ impl<'a> Rotation<'a> {
         let slip = self.slip + range.change(&self.gain);
         let axial = range.change(&self.impulses);
         let rotary = friction_impact(self.system.friction(), axial, slip);
-        let turn = flight_turn(self.system, self.chatter.angular_speed, duration);
-        record_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &turn);
+        let change = change_in_flight(self.system, self.chatter.angular_speed, duration);
+        record_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &change);
         let platform_speed = self.platform_speed(Some(self.impacts + 1));
-        let after = if rotary.capped { platform_speed } else { turn.speed + rotary.impulse };
+        let after = if rotary.capped { platform_speed } else { change.speed + rotary.impulse };
         let work = rotary.impulse * platform_speed;
         let loss = -rotary.impulse * (slip + 0.5 * rotary.impulse);
         let ledger = &mut self.chatter.ledger;
         ledger.record_friction(work, loss, work.abs() + (rotary.impulse * slip).abs());
-        ledger.record_rotary_change(turn.speed, after);
+        ledger.record_rotary_change(change.speed, after);
         self.slip = if rotary.capped { 0.0 } else { slip + rotary.impulse };
-        self.chatter.angle += turn.angle;
+        self.chatter.angle += change.angle;
         self.chatter.angular_impulse += rotary.impulse;
         self.chatter.capped = rotary.capped;
         self.chatter.angular_speed = after;
@@ -219,7 +219,7 @@ impl<'a> Rotation<'a> {
         let delay = range.moment(&self.impulse, self.series.remaining());
         let slowed = range.moment(&self.impulse, &self.platform);
         let rotary = -grip * impulse;
-        let turn = RotaryChange {
+        let change = RotaryChange {
             speed: speed - load * duration + rotary,
             angle: duration * (speed - 0.5 * load * duration) - grip * (impulse * duration - delay),
         };
@@ -227,11 +227,11 @@ impl<'a> Rotation<'a> {
         let loss = [grip * self.slip * impulse, -grip * load * delay, grip * slowed, -0.5 * rotary * rotary];
         let size = work.iter().chain(&loss).map(|term| term.abs()).sum();
         let ledger = &mut self.chatter.ledger;
-        record_flight_load(ledger, self.system, speed, &turn);
+        record_flight_load(ledger, self.system, speed, &change);
         ledger.record_friction(work.iter().sum(), loss.iter().sum(), size);
-        self.chatter.angle += turn.angle;
+        self.chatter.angle += change.angle;
         self.chatter.angular_impulse += rotary;
-        self.chatter.angular_speed = turn.speed;
+        self.chatter.angular_speed = change.speed;
         let slip = self.slip + (range.change(&self.gain) + rotary);
         // At the accumulation point a slip that has not ended before it may do so.
         self.chatter.capped = until.is_none() && slip * self.slip <= 0.0;
@@ -253,18 +253,18 @@ impl<'a> Rotation<'a> {
         // The disk keeps in a flight the platform's speed at the launch.
         let lag = range.moment(&self.flight, &self.platform)
             - range.product(&self.flight, &self.series.per_flight(&self.platform));
-        let turn = RotaryChange {
+        let change = RotaryChange {
             speed: after,
             angle: (before * duration - lag) - 0.5 * load * range.product(&self.flight, &self.flight),
         };
         let ledger = &mut self.chatter.ledger;
-        record_flight_load(ledger, self.system, before, &turn);
+        record_flight_load(ledger, self.system, before, &change);
         ledger.record_friction(
             work.iter().sum(),
             loss,
             work.iter().map(|term| term.abs()).sum::<f64>() + loss,
         );
-        self.chatter.angle += turn.angle;
+        self.chatter.angle += change.angle;
         self.chatter.angular_impulse += rotary;
         self.chatter.angular_speed = after;
         self.chatter.capped = true;

@@ -71,14 +71,14 @@ fn every_attachment_closes_its_balance() {
                 let ledger = &record.ledger;
                 assert!(ledger.relative_closure() <= CLOSURE, "{:e} {record:?}", ledger.relative_closure());
                 assert!(ledger.friction_loss >= -CLOSURE * ledger.rotary_magnitude, "{record:?}");
-                let momentum = record.after.axial_velocity - record.spell.state.axial_velocity;
+                let momentum = record.after.axial_velocity - record.segment.state.axial_velocity;
                 let expected = record.axial_impulse - record.span.radians();
                 let scale = peak + record.axial_impulse;
                 assert!((momentum - expected).abs() <= CLOSURE * scale + 1e-300, "{record:?}");
-                let spin = record.after.angular_speed - record.spell.state.angular_speed;
+                let spin = record.after.angular_speed - record.segment.state.angular_speed;
                 let expected = record.angular_impulse - system.load() * record.span.radians();
                 let scale = system.twist_speed()
-                    + record.spell.state.angular_speed.abs()
+                    + record.segment.state.angular_speed.abs()
                     + record.axial_impulse
                     + system.load().abs() * record.span.radians();
                 assert!((spin - expected).abs() <= CLOSURE * scale + 1e-300, "{record:?}");
@@ -96,7 +96,7 @@ fn the_middle_of_every_chatter_is_known() {
     for restitution in [0.9, 1.0 - 1e-4, 1.0 - 1e-7, LAST] {
         for peak in [0.0, 0.5, 2.0] {
             for (system, record) in attachments(restitution, peak) {
-                let speed = record.spell.chatter_speed.unwrap();
+                let speed = record.segment.chatter_speed.unwrap();
                 for share in [0.0, 1e-6, 0.25, 0.5, 0.999_999, 1.0] {
                     let now = record.evaluate(&system, share);
                     let gap = now.disk.height - now.platform.height;
@@ -111,8 +111,8 @@ fn the_middle_of_every_chatter_is_known() {
                     let most = (system.friction() * record.axial_impulse
                         + (system.load().abs() + system.twist_speed()) * record.span.radians())
                         * (1.0 + 1e-9);
-                    let spin = now.disk.angular_speed - record.spell.state.angular_speed;
-                    let size = record.spell.state.angular_speed.abs() + system.twist_speed();
+                    let spin = now.disk.angular_speed - record.segment.state.angular_speed;
+                    let size = record.segment.state.angular_speed.abs() + system.twist_speed();
                     assert!(spin.abs() <= most + 1e-15 * size, "{share} {now:?} {record:?}");
                 }
             }

@@ -84,7 +84,7 @@ fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
                 if peak_acceleration == 0.0 && twist_speed == 0.0 {
                     let net = friction + system.load();
                     let expected = speed * speed / (2.0 * net);
-                    let turned = slip.after.angle - slip.spell.state.angle;
+                    let turned = slip.after.angle - slip.segment.state.angle;
                     let known = 8.0 * f64::EPSILON * (friction / net) * expected
                         + f64::EPSILON * slip.after.angle.abs();
                     assert!((turned - expected).abs() <= known, "{turned} {expected} {slip:?}");
@@ -113,7 +113,7 @@ proptest! {
     #[test]
     fn ledgers_tell_the_change_of_the_states((system, start, policy) in testing::motion()) {
         for record in records(&system, start, policy, 40) {
-            let (axial, rotary) = energy(&record.spell.state);
+            let (axial, rotary) = energy(&record.segment.state);
             let (axial_after, rotary_after) = energy(&record.after);
             let ledger = &record.ledger;
             let axial_change = ledger.axial_kinetic_change + ledger.potential_change;
@@ -130,13 +130,13 @@ proptest! {
     fn flights_conserve_energy((system, start, policy) in testing::motion()) {
         for record in records(&system, start, policy, 40) {
             if let Event::Impact { .. } = record.event {
-                let (before, after) = (energy(&record.spell.state).0, energy(&record.before).0);
-                let scale = record.spell.state.axial_velocity.abs().max(record.before.axial_velocity.abs());
-                let height = record.spell.state.height.abs().max(record.before.height.abs());
+                let (before, after) = (energy(&record.segment.state).0, energy(&record.before).0);
+                let scale = record.segment.state.axial_velocity.abs().max(record.before.axial_velocity.abs());
+                let height = record.segment.state.height.abs().max(record.before.height.abs());
                 // A velocity is the sum of the relative one and the platform's, and is known to their rounding.
                 let speeds = scale + system.peak_acceleration() + record.axial_impulse;
                 prop_assert!((after - before).abs() <= CLOSURE * (scale * speeds + height), "{record:?}");
-                let change = record.after.axial_velocity - record.spell.state.axial_velocity;
+                let change = record.after.axial_velocity - record.segment.state.axial_velocity;
                 let expected = record.axial_impulse - record.span.radians();
                 prop_assert!(
                     (change - expected).abs() <= CLOSURE * (scale + record.axial_impulse + record.span.radians()),
@@ -144,7 +144,7 @@ proptest! {
                 );
             }
             if let Event::Attachment { .. } = record.event {
-                let change = record.after.axial_velocity - record.spell.state.axial_velocity;
+                let change = record.after.axial_velocity - record.segment.state.axial_velocity;
                 let expected = record.axial_impulse - record.span.radians();
                 let scale = system.peak_acceleration() + record.axial_impulse.abs();
                 prop_assert!((change - expected).abs() <= CLOSURE * scale, "{record:?}");
@@ -176,7 +176,7 @@ proptest! {
         let system = DimensionlessParameters { twist_speed: 0.0, load: 0.0, ..system.parameters() }.build().unwrap();
         let start = InitialCondition::Flight { phase, gap, relative_velocity: 0.0, angular_speed: spin };
         for record in records(&system, start, policy, 100) {
-            let (axial, rotary) = energy(&record.spell.state);
+            let (axial, rotary) = energy(&record.segment.state);
             let (axial_after, rotary_after) = energy(&record.after);
             prop_assert!(axial_after <= axial * (1.0 + 1e-14) + 1e-300, "{record:?}");
             prop_assert!(rotary_after <= rotary);
@@ -192,14 +192,14 @@ proptest! {
         let spin = system.twist_speed();
         let (twist_cosine, twist_sine) = system.twist_components();
         for record in records(&system, start, policy, 40) {
-            prop_assert_eq!(record.spell.state, last);
+            prop_assert_eq!(record.segment.state, last);
             last = record.after;
             let end = record.evaluate(&system, 1.0);
-            let speed = peak + 1.0 + record.spell.state.axial_velocity.abs();
+            let speed = peak + 1.0 + record.segment.state.axial_velocity.abs();
             prop_assert!((end.disk.height - record.before.height).abs() <= ROUNDING * speed * speed, "{record:?}");
             // The rates count for a radian at least: the ends are known to the rounding of their phases.
             let turned = spin
-                + record.spell.state.angular_speed.abs()
+                + record.segment.state.angular_speed.abs()
                 + (system.load().abs() + system.friction() * (1.0 + peak)) * (1.0 + record.span.radians());
             prop_assert!(
                 (end.disk.angular_speed - record.before.angular_speed).abs() <= ROUNDING * turned,
@@ -211,7 +211,7 @@ proptest! {
                 let now = record.evaluate(&system, f64::from(step) / 16.0);
                 let slip = now.disk.angular_speed - now.platform.angular_speed;
                 let gap = now.disk.height - now.platform.height;
-                match record.spell.state.mode {
+                match record.segment.state.mode {
                     Mode::Flight => prop_assert!(gap >= -ROUNDING * speed * speed, "{gap} {record:?} {now:?}"),
                     Mode::Sticking => {
                         let phase = now.time.phase;
@@ -224,7 +224,7 @@ proptest! {
                         prop_assert!(direction.sign() * slip >= -ROUNDING * turned, "{slip} {record:?} {now:?}");
                     }
                 }
-                if record.spell.state.mode != Mode::Flight {
+                if record.segment.state.mode != Mode::Flight {
                     let force = system.vibration().contact_force(now.time.phase);
                     prop_assert!(force >= -ROUNDING * peak, "{record:?} {now:?}");
                 }
@@ -232,7 +232,7 @@ proptest! {
         }
     }
 
-    /// Time never runs back, and a spell of contact has a bounded number of events.
+    /// Time never runs back, and a segment of contact has a bounded number of events.
     #[test]
     fn contact_events_are_few((system, start, policy) in testing::motion()) {
         let mut time = PhaseTime::in_first_period(Phase::new(0.0).unwrap());
@@ -264,7 +264,7 @@ proptest! {
             // The end of a slip meets the platform's speed to the rounding of its phase.
             let rounding = ROUNDING
                 * (twist_speed + system.load().abs() * (1.0 + record.span.radians())
-                    + record.spell.state.angular_speed.abs());
+                    + record.segment.state.angular_speed.abs());
             prop_assert!(record.ledger.friction_loss.abs() <= rounding * rounding, "{record:?}");
         }
     }
@@ -307,7 +307,7 @@ proptest! {
                 }
                 Event::Attachment { .. } => {
                     let Some(OrbitEvent::Attachment(rest)) = orbit.advance().unwrap() else { panic!("{record:?}") };
-                    prop_assert_eq!(record.time.phase, rest.attachment.phase);
+                    prop_assert_eq!(record.time.phase, rest.accumulation.phase);
                     separation = rest.separation;
                 }
                 Event::Separation => prop_assert_eq!(Some(record.time.phase), separation.map(|at| at.0)),
@@ -563,7 +563,7 @@ fn a_perturbed_launch_flies_with_its_new_speed() {
     let record = engine.advance().unwrap().unwrap();
     assert!(record.ledger.relative_closure() < CLOSURE);
     let vibration = Vibration::from_axial_forcing(0.6).unwrap();
-    let launch = bouncing_disk_core::Launch::new(record.spell.start.phase, 1e-3).unwrap();
+    let launch = bouncing_disk_core::Launch::new(record.segment.start.phase, 1e-3).unwrap();
     assert_eq!(vibration.first_impact(launch).unwrap().phase, record.time.phase);
     assert!(engine.perturb_launch(-1.0).is_err());
 }
@@ -592,10 +592,10 @@ fn motor_flights_close_and_the_angle_does_not_drift() {
                 let record = record.unwrap();
                 worst.0 = worst.0.max(record.ledger.relative_closure());
                 if let Event::Impact { .. } = record.event {
-                    let (from, to) = (energy(&record.spell.state).0, energy(&record.before).0);
+                    let (from, to) = (energy(&record.segment.state).0, energy(&record.before).0);
                     energy_error =
                         energy_error.max((from - to).abs() / (from.abs() + system.peak_acceleration()));
-                    let mean = 0.5 * (record.spell.state.angular_speed + record.before.angular_speed);
+                    let mean = 0.5 * (record.segment.state.angular_speed + record.before.angular_speed);
                     let expected = angle.angle + mean * record.span.radians();
                     worst.2 = worst.2.max((record.before.angle - expected).abs() / (1.0 + expected.abs()));
                 }

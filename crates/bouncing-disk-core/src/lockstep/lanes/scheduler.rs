@@ -4,8 +4,8 @@ mod queue;
 mod stages;
 
 use super::above::{Fly, Work};
+use super::awaiting::{AwaitingSearch, FallingPlatform};
 use super::classify::{Classify, Kinds};
-use super::fallen::{AwaitingSearch, FallingPlatform};
 use super::low::{Low, Verdicts};
 use super::platform::{Platform, PlatformLanes, Platforms};
 use super::search::{Search, Times};
@@ -39,23 +39,23 @@ pub(crate) struct FlightScheduler {
     low: Queue<Low>,
     dips: Queue<Low>,
     above: Queue<Arcs>,
-    fallen: Queue<AwaitingSearch>,
+    awaiting: Queue<AwaitingSearch>,
     low_search: Search<Low>,
-    fallen_search: Search<AwaitingSearch>,
+    awaiting_search: Search<AwaitingSearch>,
     verdicts: Verdicts,
     dip_verdicts: Verdicts,
-    behind: FallingPlatform,
+    falling_platform: FallingPlatform,
     /// Windows: flights of one kind are added to another while their own are read.
     low_windows: Times,
     dip_windows: Times,
-    fallen_windows: Times,
+    awaiting_windows: Times,
     /// The platforms of `low` and of `above`, unless all lanes share one.
     low_platforms: Platforms,
     above_platforms: Platforms,
     slow_impacts: Impacts,
     low_impacts: Impacts,
     above_impacts: Impacts,
-    fallen_impacts: Impacts,
+    awaiting_impacts: Impacts,
     hard: Vec<Who>,
 }
 
@@ -71,21 +71,21 @@ impl FlightScheduler {
             low: Queue::new(Low::new()),
             dips: Queue::new(Low::new()),
             above: Queue::new(Arcs::new()),
-            fallen: Queue::new(AwaitingSearch::new()),
+            awaiting: Queue::new(AwaitingSearch::new()),
             low_search: Search::new(Low::new()),
-            fallen_search: Search::new(AwaitingSearch::new()),
+            awaiting_search: Search::new(AwaitingSearch::new()),
             verdicts: Verdicts::new(),
             dip_verdicts: Verdicts::new(),
-            behind: FallingPlatform::new(),
+            falling_platform: FallingPlatform::new(),
             low_windows: Times::new(),
             dip_windows: Times::new(),
-            fallen_windows: Times::new(),
+            awaiting_windows: Times::new(),
             low_platforms: Platforms::new(),
             above_platforms: Platforms::new(),
             slow_impacts: Impacts::new(),
             low_impacts: Impacts::new(),
             above_impacts: Impacts::new(),
-            fallen_impacts: Impacts::new(),
+            awaiting_impacts: Impacts::new(),
             hard: Vec::new(),
         }
     }
@@ -109,8 +109,8 @@ impl FlightScheduler {
         self.settle_dips(batches, shared);
         self.search_low(batches, 0);
         self.fly_above(batches, shared);
-        self.fly_fallen(batches);
-        self.search_fallen(batches, 0);
+        self.fly_awaiting(batches);
+        self.search_awaiting(batches, 0);
         // In the order of the lanes, so that the first failure does not depend on how flights were collected.
         self.hard.sort_unstable_by_key(|who| (who.batch, who.lane));
         for &who in &self.hard {

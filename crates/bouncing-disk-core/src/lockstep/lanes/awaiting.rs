@@ -30,9 +30,9 @@ impl Forms for AwaitingSearch {
         for k in 0..width.lanes() {
             let form =
                 CrestForm { peak: times.peak[k], angle: self.start[k], speed: self.speed[k], depth: 0.0 };
-            let jet = form.jet_of_pair(times.time[k], times.sin[k], times.cos[k]);
-            times.gap[k] = jet.gap;
-            times.slope[k] = jet.slope;
+            let taylor = form.jet_of_pair(times.time[k], times.sin[k], times.cos[k]);
+            times.gap[k] = taylor.gap;
+            times.slope[k] = taylor.slope;
         }
     }
 
@@ -83,8 +83,8 @@ pub(super) struct FallingPlatform {
 /// The windows of arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must be searched.
 pub(super) struct Windows<'a> {
     pub(super) width: Sixteens,
-    pub(super) fallen: &'a AwaitingSearch,
-    pub(super) behind: &'a mut FallingPlatform,
+    pub(super) awaiting: &'a AwaitingSearch,
+    pub(super) falling_platform: &'a mut FallingPlatform,
     pub(super) times: &'a mut Times,
 }
 
@@ -93,10 +93,10 @@ impl WithSimd for Windows<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { width, fallen, behind: platforms, times } = self;
+        let Self { width, awaiting, falling_platform: platforms, times } = self;
         for k in 0..width.lanes() {
-            let (speed, peak, retention) = (fallen.speed[k], platforms.peak[k], platforms.retention[k]);
-            let (turned, _) = nearby_wrapped_of_lane(fallen.start[k]);
+            let (speed, peak, retention) = (awaiting.speed[k], platforms.peak[k], platforms.retention[k]);
+            let (turned, _) = nearby_wrapped_of_lane(awaiting.start[k]);
             let behind = mask(turned > CREST) & mask(turned < retention) & mask(speed > -peak);
             let end = retention - turned;
             let falling = CrestForm { peak, angle: turned, speed, depth: 0.0 };
@@ -110,7 +110,7 @@ impl WithSimd for Windows<'_> {
             let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
             times.peak[k] = peak;
             times.lo[k] = kept(behind & !passed, end);
-            times.time[k] = if fallen.reached[k] > 0.0 { fallen.reached[k] } else { times.lo[k] };
+            times.time[k] = if awaiting.reached[k] > 0.0 { awaiting.reached[k] } else { times.lo[k] };
             times.hi[k] = if behind & passed != 0 { end } else { crest };
             platforms.open[k] = !behind | passed | !dips;
         }

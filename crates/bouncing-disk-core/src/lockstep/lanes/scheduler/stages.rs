@@ -3,7 +3,7 @@
 use super::FlightScheduler;
 use super::queue::Queue;
 use crate::lockstep::lanes::above::Fly;
-use crate::lockstep::lanes::fallen;
+use crate::lockstep::lanes::awaiting;
 use crate::lockstep::lanes::low::{self, Dips};
 use crate::lockstep::lanes::platform::Platform;
 use crate::lockstep::lanes::search::{Advance, Finish, Forms, Search};
@@ -144,48 +144,54 @@ impl FlightScheduler {
     pub(super) fn keep_falling(&mut self, batches: &mut [Batch], who: Who, reached: f64) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         let platform = batch.platform(lane);
-        let place = self.fallen.place(who);
-        self.fallen.rows.set(place, &batch.arcs, lane, reached);
-        self.behind.set(place, &platform);
-        if self.fallen.len == LANES {
-            self.fly_fallen(batches);
+        let place = self.awaiting.place(who);
+        self.awaiting.rows.set(place, &batch.arcs, lane, reached);
+        self.falling_platform.set(place, &platform);
+        if self.awaiting.len == LANES {
+            self.fly_awaiting(batches);
         }
     }
 
-    pub(super) fn fly_fallen(&mut self, batches: &mut [Batch]) {
-        let count = self.fallen.len;
+    pub(super) fn fly_awaiting(&mut self, batches: &mut [Batch]) {
+        let count = self.awaiting.len;
         if count == 0 {
             return;
         }
         let width = Sixteens::holding(count);
-        let Self { dispatch, fallen: Queue { rows: fallen, .. }, behind, fallen_windows: times, .. } = self;
-        dispatch.run(fallen::Windows { width, fallen, behind, times });
+        let Self {
+            dispatch,
+            awaiting: Queue { rows: awaiting, .. },
+            falling_platform,
+            awaiting_windows: times,
+            ..
+        } = self;
+        dispatch.run(awaiting::Windows { width, awaiting, falling_platform, times });
         let (evaluations, steps_on) = (AT_ONCE, false);
-        dispatch.run(Advance { width, forms: fallen, times, evaluations, steps_on });
-        self.fallen.len = 0;
+        dispatch.run(Advance { width, forms: awaiting, times, evaluations, steps_on });
+        self.awaiting.len = 0;
         let all = Lanes::first(count);
-        let open = lanes_of(&behind.open) & all;
+        let open = lanes_of(&falling_platform.open) & all;
         let near = lanes_of(&times.near) & open;
         for k in all.without(open) {
-            self.hard.push(self.fallen.who[k]);
+            self.hard.push(self.awaiting.who[k]);
         }
         for k in open.without(near) {
-            let (who, forms, windows) = (self.fallen.who[k], &self.fallen.rows, &self.fallen_windows);
-            self.fallen_search.add(who, forms, windows, k, forms.evaluations(k) + (AT_ONCE - 1));
-            if self.fallen_search.is_full() {
-                self.search_fallen(batches, LEFT);
+            let (who, forms, windows) = (self.awaiting.who[k], &self.awaiting.rows, &self.awaiting_windows);
+            self.awaiting_search.add(who, forms, windows, k, forms.evaluations(k) + (AT_ONCE - 1));
+            if self.awaiting_search.is_full() {
+                self.search_awaiting(batches, LEFT);
             }
         }
         let Self {
             dispatch,
-            fallen: Queue { rows: forms, .. },
-            fallen_windows: times,
-            fallen_impacts: impacts,
+            awaiting: Queue { rows: forms, .. },
+            awaiting_windows: times,
+            awaiting_impacts: impacts,
             ..
         } = self;
         dispatch.run(Finish { width, forms, times, impacts });
         for k in near {
-            land(batches, self.fallen.who[k], &self.fallen_impacts, k, self.timed);
+            land(batches, self.awaiting.who[k], &self.awaiting_impacts, k, self.timed);
         }
     }
 
@@ -194,9 +200,9 @@ impl FlightScheduler {
         go_on(low_search, *dispatch, left, batches, *timed, hard);
     }
 
-    pub(super) fn search_fallen(&mut self, batches: &mut [Batch], left: usize) {
-        let Self { dispatch, fallen_search, hard, timed, .. } = self;
-        go_on(fallen_search, *dispatch, left, batches, *timed, hard);
+    pub(super) fn search_awaiting(&mut self, batches: &mut [Batch], left: usize) {
+        let Self { dispatch, awaiting_search, hard, timed, .. } = self;
+        go_on(awaiting_search, *dispatch, left, batches, *timed, hard);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Recognises finished figures that are up to date.
 //!
-//! A stamp is written after all files of a figure. It holds the digest of the sources that determine the result,
+//! A cache key is written after all files of a figure. It holds the digest of the sources that determine the result,
 //! the quality, and a digest of every file: a changed source, a killed run and an edited or missing file are all
 //! seen.
 
@@ -15,7 +15,7 @@ include!(concat!(env!("OUT_DIR"), "/digests.rs"));
 
 /// What a finished figure was made from, and its files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Stamp {
+pub struct CacheKey {
     key: String,
     /// The digest of the user's measurements in it; empty when there were none.
     #[serde(default)]
@@ -31,7 +31,7 @@ pub struct Stamp {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stale {
-    /// There is no stamp: never made, or the run was interrupted.
+    /// There is no cache key: never made, or the run was interrupted.
     Missing,
     /// Made in another quality.
     Quality {
@@ -61,8 +61,8 @@ impl std::fmt::Display for Stale {
     }
 }
 
-impl Stamp {
-    /// A stamp of files made by this version with the user's measurements of the digest `measured`.
+impl CacheKey {
+    /// A cache key of files made by this version with the user's measurements of the digest `measured`.
     pub fn new<'a>(
         id: &str,
         quality: Quality,
@@ -89,7 +89,7 @@ impl Stamp {
         self.files.get(name).is_some_and(|expected| digest(bytes) == *expected)
     }
 
-    /// Compares the stamp with this version, with the digest of the measurements and with the files; `read` gives the
+    /// Compares the cache key with this version, with the digest of the measurements and with the files; `read` gives the
     /// content of a file.
     ///
     /// # Errors
@@ -145,19 +145,22 @@ mod tests {
 
     #[test]
     fn every_change_is_seen() {
-        let stamp = Stamp::new("demo", Quality::Draft, "d1", 1.5, [("demo.json", b"{}".as_slice())]);
+        let cache_key = CacheKey::new("demo", Quality::Draft, "d1", 1.5, [("demo.json", b"{}".as_slice())]);
         let same = |name: &str| (name == "demo.json").then(|| b"{}".to_vec());
-        assert_eq!(stamp.check("demo", Quality::Draft, "d1", same), Ok(()));
+        assert_eq!(cache_key.check("demo", Quality::Draft, "d1", same), Ok(()));
         let found = Quality::Draft;
-        assert_eq!(stamp.check("demo", Quality::Paper, "d1", same), Err(Stale::Quality { found }));
-        assert_eq!(stamp.check("demo", Quality::Draft, "", same), Err(Stale::Measurements));
+        assert_eq!(cache_key.check("demo", Quality::Paper, "d1", same), Err(Stale::Quality { found }));
+        assert_eq!(cache_key.check("demo", Quality::Draft, "", same), Err(Stale::Measurements));
         let name = "demo.json".to_owned();
         assert_eq!(
-            stamp.check("demo", Quality::Draft, "d1", |_| None),
+            cache_key.check("demo", Quality::Draft, "d1", |_| None),
             Err(Stale::File { name: name.clone() })
         );
-        assert_eq!(stamp.check("demo", Quality::Draft, "d1", |_| Some(vec![0])), Err(Stale::File { name }));
-        let older = Stamp { key: "0".to_owned(), ..stamp };
+        assert_eq!(
+            cache_key.check("demo", Quality::Draft, "d1", |_| Some(vec![0])),
+            Err(Stale::File { name })
+        );
+        let older = CacheKey { key: "0".to_owned(), ..cache_key };
         assert_eq!(older.check("demo", Quality::Draft, "d1", same), Err(Stale::Sources));
     }
 
