@@ -3,6 +3,7 @@
 pub(crate) mod attraction;
 pub(crate) mod basin;
 pub(crate) mod follow_attractor;
+pub(crate) mod lyapunov;
 pub(crate) mod orbit_batch;
 pub(crate) mod periodic;
 pub(crate) mod sweep;

@@ -47,11 +47,10 @@ pub use analysis::basin::{
     ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
 };
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
+pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents};
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
-pub use analysis::sweep::{
-    MAX_RECORDED, SweepEvent, SweepImpact, lyapunov_exponents, orbit_diagram, survival_times, sweep,
-};
+pub use analysis::sweep::{MAX_RECORDED, SweepEvent, SweepImpact, orbit_diagram, survival_times, sweep};
 pub use chatter::accumulation::{
     Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
 };

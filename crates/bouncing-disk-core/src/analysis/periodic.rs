@@ -2,15 +2,14 @@
 
 use core::f64::consts::{PI, TAU};
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
-use glam::DMat2;
+use glam::{DMat2, DVec2};
 use roots::{Convergency, SearchError, find_root_brent};
 use serde::Serialize;
 
 use crate::chatter::accumulation::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::acos;
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
@@ -94,11 +93,12 @@ impl PeriodicOrbit {
     }
 }
 
-/// A step of the multiple shooting: the equations matrix * step = right for the changes of all impacts, the derivative of the
-/// map around the orbit, the turns of the phase, and the largest distance of an impact from its target.
+/// A step of the multiple shooting: the derivatives of the map at all impacts and the distances of their successors from the
+/// next impacts, which the changes of all impacts must make up; the derivative of the map around the orbit, the turns of the
+/// phase, and the largest distance of an impact from its target.
 struct Shooting {
-    matrix: Mat<f64>,
-    right: Mat<f64>,
+    derivatives: Vec<DMat2>,
+    right: Vec<DVec2>,
     monodromy: DMat2,
     turns: u64,
     worst: f64,
@@ -204,7 +204,7 @@ impl ImpactMap {
         // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
         let mut found = None;
         for iterations in 1..=MAX_NEWTON_STEPS {
-            let Shooting { matrix, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
+            let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
                 Ok(shooting) => shooting,
                 Err(error) => return found.map_or(Err(error), accepted),
             };
@@ -219,10 +219,10 @@ impl ImpactMap {
                 return accepted(found);
             }
             residual = worst;
-            let step = matrix.partial_piv_lu().solve(&right);
-            let moved = states.iter().enumerate().map(|(i, state)| {
-                let angle = state.phase().angle() + step[(2 * i, 0)];
-                let velocity = (state.velocity() + step[(2 * i + 1, 0)]).min(0.0);
+            let steps = solve_block_cyclic(&derivatives, &right);
+            let moved = states.iter().zip(&steps).map(|(state, step)| {
+                let angle = state.phase().angle() + step.x;
+                let velocity = (state.velocity() + step.y).min(0.0);
                 ImpactState::new(Phase::new(angle)?, velocity)
             });
             states = match moved.collect::<Result<_, _>>() {
@@ -241,20 +241,18 @@ impl ImpactMap {
     fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
         let n = states.len();
         let mut shooting = Shooting {
-            matrix: Mat::zeros(2 * n, 2 * n),
-            right: Mat::zeros(2 * n, 1),
+            derivatives: Vec::with_capacity(n),
+            right: Vec::with_capacity(n),
             monodromy: DMat2::IDENTITY,
             turns: 0,
             worst: 0.0,
         };
         let mut turns = 0;
         for (i, &state) in states.iter().enumerate() {
-            let impact = self.step(state)?;
-            let jacobian = self.jacobian(state, &impact);
-            shooting.monodromy = jacobian * shooting.monodromy;
+            let (impact, derivative) = self.step_with_derivative(state)?;
+            shooting.monodromy = derivative * shooting.monodromy;
             turns += impact.turns as i64;
-            let j = (i + 1) % n;
-            let target = states[j];
+            let target = states[(i + 1) % n];
             let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
             let phase = phase_difference(landed, aimed);
             // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
@@ -265,15 +263,8 @@ impl ImpactMap {
             }
             let velocity = impact.velocity - target.velocity();
             shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
-            // jacobian * d_i - d_j = -(residual)
-            for row in 0..2 {
-                for column in 0..2 {
-                    shooting.matrix[(2 * i + row, 2 * i + column)] += jacobian.col(column)[row];
-                }
-                shooting.matrix[(2 * i + row, 2 * j + row)] -= 1.0;
-            }
-            shooting.right[(2 * i, 0)] = -phase;
-            shooting.right[(2 * i + 1, 0)] = -velocity;
+            shooting.derivatives.push(derivative);
+            shooting.right.push(DVec2::new(-phase, -velocity));
         }
         shooting.turns = turns.max(0) as u64;
         Ok(shooting)

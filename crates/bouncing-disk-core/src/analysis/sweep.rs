@@ -14,7 +14,7 @@ use crate::flight::first_impact::Impact;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 use crate::platform::phase::Phase;
 
-pub use measures::{MAX_RECORDED, lyapunov_exponents, orbit_diagram, survival_times};
+pub use measures::{MAX_RECORDED, orbit_diagram, survival_times};
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -140,16 +140,30 @@ impl ImpactMap {
         Ok(state)
     }
 
-    /// The derivative of the next (phase, velocity) by the present (phase, velocity), with `impact` the result of
-    /// [`Self::step`] from `state`. Column-major: `x_axis` is the derivative by the phase.
+    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity), in radians and units
+    /// of g/omega. Column-major: `x_axis` is the derivative by the phase.
     ///
     /// It is singular at a graze (impact velocity zero): the entries are infinite there.
-    #[must_use]
-    pub fn jacobian(&self, state: ImpactState, impact: &Impact) -> DMat2 {
-        self.derivative(state, (*impact).into(), impact.duration())
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{ImpactMap, Multipliers, Vibration};
+    /// // The period-1 orbit closes after one impact: the derivative is its monodromy, and it attracts.
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let (_, derivative) = map.step_with_derivative(map.period_one(1).expect("it exists"))?;
+    /// assert!(Multipliers::of(derivative).spectral_radius() < 1.0);
+    /// // The map contracts areas by the square of the restitution.
+    /// assert!((derivative.determinant() - 0.25).abs() < 1e-12);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Self::step`].
+    pub fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
+        let impact = self.step(state)?;
+        Ok((impact, self.derivative(state, impact.into(), impact.duration())))
     }
 
-    /// [`Self::jacobian`] for the impact in `next` after a flight of the duration `h`.
+    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`.
     pub(crate) fn derivative(&self, state: ImpactState, next: ImpactState, h: f64) -> DMat2 {
         let p = self.vibration.peak_acceleration();
         let (s, c) = (state.phase.sin(), state.phase.cos());

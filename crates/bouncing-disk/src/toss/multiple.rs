@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, TangentGrowth};
 use serde::Serialize;
 
 use crate::error::{Error, room_for};
@@ -268,25 +268,12 @@ fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
 
 /// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is unbounded.
 fn growth_rate(map: &ImpactMap, collisions: &[Collision]) -> Option<f64> {
-    let mut tangent = (1.0, 0.0);
-    let mut sum = 0.0;
-    let mut steps = 0;
+    let mut growth = TangentGrowth::default();
     for collision in collisions.split_last()?.1 {
-        let state = collision.state.vertical().ok()?;
-        let impact = map.step(state).ok()?;
-        let jacobian = map.jacobian(state, &impact);
-        let (along, across) = (jacobian.x_axis, jacobian.y_axis);
-        let x = along.x * tangent.0 + across.x * tangent.1;
-        let y = along.y * tangent.0 + across.y * tangent.1;
-        let length = (x * x + y * y).sqrt();
-        if !(length > 0.0 && length.is_finite()) {
-            return None;
-        }
-        sum += bouncing_disk_core::elementary::ln(length);
-        tangent = (x / length, y / length);
-        steps += 1;
+        let (_, derivative) = map.step_with_derivative(collision.state.vertical().ok()?).ok()?;
+        growth.grow(derivative);
     }
-    Some(sum / f64::from(steps))
+    growth.exponent()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::*;
+use crate::analysis::lyapunov::lyapunov_exponents;
 use crate::chatter::accumulation::ChatterPolicy;
 use crate::lockstep::lanes::InstructionSet;
 use crate::map::impact_map::ImpactMap;

@@ -1,0 +1,128 @@
+//! The largest Lyapunov exponent of an orbit.
+
+use core::ops::ControlFlow;
+
+use glam::DMat2;
+
+use crate::analysis::sweep::{SweepEvent, SweepImpact, sweep};
+use crate::chatter::accumulation::ChatterPolicy;
+use crate::error::Error;
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::numerics::elementary::ln;
+
+/// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
+///
+/// ```
+/// use bouncing_disk_core::{ImpactMap, TangentGrowth, Vibration};
+///
+/// // Along a periodic orbit the exponent is the logarithm of the larger Floquet multiplier, here 1/2 in modulus.
+/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+/// let mut state = map.period_one(1).expect("it exists");
+/// let mut growth = TangentGrowth::default();
+/// for _ in 0..1_000 {
+///     let (impact, derivative) = map.step_with_derivative(state)?;
+///     growth.grow(derivative);
+///     state = impact.into();
+/// }
+/// assert!((growth.exponent().expect("no graze") - 0.5_f64.ln()).abs() < 1e-2);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct TangentGrowth {
+    impacts: usize,
+    tangent: (f64, f64),
+    sum: f64,
+    bounded: bool,
+}
+
+impl Default for TangentGrowth {
+    fn default() -> Self {
+        Self { impacts: 0, tangent: (1.0, 0.0), sum: 0.0, bounded: true }
+    }
+}
+
+impl TangentGrowth {
+    /// Follows the perturbation through one impact, where the map has this derivative
+    /// ([`ImpactMap::step_with_derivative`]).
+    pub fn grow(&mut self, derivative: DMat2) {
+        let (by_phase, by_velocity) = (derivative.x_axis, derivative.y_axis);
+        let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;
+        let y = by_phase.y * self.tangent.0 + by_velocity.y * self.tangent.1;
+        let length = (x * x + y * y).sqrt();
+        self.bounded &= length > 0.0 && length.is_finite();
+        self.sum += ln(length);
+        self.tangent = (x / length, y / length);
+        self.impacts += 1;
+    }
+
+    /// Impacts that it was followed through.
+    #[must_use]
+    pub const fn impacts(&self) -> usize {
+        self.impacts
+    }
+
+    /// Whether no derivative was without bound (a graze) or without effect so far.
+    #[must_use]
+    pub const fn is_bounded(&self) -> bool {
+        self.bounded
+    }
+
+    /// The mean logarithmic growth per impact; `None` before the first impact and from a graze on.
+    #[must_use]
+    pub fn exponent(&self) -> Option<f64> {
+        (self.bounded && self.impacts > 0).then(|| self.sum / self.impacts as f64)
+    }
+}
+
+/// What is known of an orbit whose exponent is sought.
+#[derive(Debug, Clone, Copy)]
+struct Followed {
+    state: ImpactState,
+    skipped: usize,
+    growth: TangentGrowth,
+    rested: bool,
+}
+
+/// The largest Lyapunov exponent per impact of each orbit of `starts`: the mean logarithmic growth of a small perturbation
+/// over `impacts` impacts after `transient` ones. `None` where the disk comes to rest (the motion after a rest does not
+/// depend on the one before) or grazes the platform (the derivative is unbounded there).
+///
+/// # Errors
+/// Those of [`sweep`].
+pub fn lyapunov_exponents(
+    starts: &[(ImpactMap, ImpactState)],
+    transient: usize,
+    impacts: usize,
+) -> Result<Vec<Option<f64>>, Error> {
+    let orbits: Vec<Orbit> =
+        starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+    if impacts == 0 {
+        return Ok(vec![None; orbits.len()]);
+    }
+    let followed = sweep(
+        &orbits,
+        |index| {
+            let (map, state) = starts[index];
+            (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
+        },
+        |(map, followed), event| {
+            let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
+                followed.rested = true;
+                return ControlFlow::Break(());
+            };
+            if followed.skipped < transient {
+                followed.skipped += 1;
+            } else {
+                followed.growth.grow(map.derivative(followed.state, state, duration));
+            }
+            followed.state = state;
+            if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        },
+    )?;
+    let exponent = |of: Followed| if of.rested { None } else { of.growth.exponent() };
+    Ok(followed.into_iter().map(|(_, followed)| exponent(followed)).collect())
+}
