@@ -305,11 +305,11 @@ mod tests {
 
     #[test]
     fn the_core_cuts_chattering_where_the_paper_does() {
-        use bouncing_disk::core::{PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED};
+        use bouncing_disk::PAPER_CUT;
         let value = |key| number(key, 0).expect("a number").value;
-        assert_eq!(value("section4.cut_speed").to_bits(), PAPER_SMALLEST_SPEED.to_bits());
-        assert_eq!(value("section4.cut_duration").to_bits(), PAPER_SHORT_FLIGHT.to_bits());
-        assert_eq!(value("section4.cut_flights").to_bits(), f64::from(PAPER_SHORT_FLIGHTS).to_bits());
+        assert_eq!(value("section4.cut_speed").to_bits(), PAPER_CUT.smallest_speed().to_bits());
+        assert_eq!(value("section4.cut_duration").to_bits(), PAPER_CUT.short_flight().to_bits());
+        assert_eq!(value("section4.cut_flights").to_bits(), f64::from(PAPER_CUT.short_flights()).to_bits());
     }
 
     #[test]

@@ -25,7 +25,7 @@
 //! | --- | --- |
 //! | the platform | [`Phase`], [`Vibration`] |
 //! | one flight | [`Launch`], [`Impact`], [`Vibration::first_impact`], [`Vibration::first_impact_of_drop`], [`mod@reference`] |
-//! | chattering | [`Vibration::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`Vibration::chatters_to_rest`] |
+//! | chattering | [`Vibration::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`Vibration::chatters_to_rest`] |
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
@@ -51,12 +51,13 @@ pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents};
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
 pub use analysis::sweep::{MAX_RECORDED, SweepEvent, SweepImpact, orbit_diagram, survival_times, sweep};
-pub use chatter::accumulation::{
-    Accumulation, ChatterImpact, ChatterPolicy, PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED,
-};
+pub use chatter::accumulation::{Accumulation, ChatterImpact};
+pub use chatter::policy::{ChatterCut, ChatterPolicy};
 pub use chatter::series::{ChatterSeries, ImpactRange, PowerSeries};
 pub use error::Error;
-pub use flight::first_impact::{Impact, Launch, MAX_FLIGHT_DURATION};
+pub use flight::first_impact::MAX_FLIGHT_DURATION;
+pub use flight::impact::Impact;
+pub use flight::launch::Launch;
 pub use flight::reference;
 pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop};
 pub use lockstep::lanes::InstructionSet;

@@ -1,7 +1,17 @@
 //! Numbers for tests that must meet every kind of case.
 
+use crate::chatter::policy::{ChatterCut, ChatterPolicy};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
+
+/// The paper's cut (Sec. IV A).
+pub(crate) const PAPER_CUT: ChatterCut = match ChatterCut::new(1.0e-6, 1.0e-4, 20) {
+    Ok(cut) => cut,
+    Err(_) => panic!("legal"),
+};
+
+/// [`PAPER_CUT`] as a policy.
+pub(crate) const PAPER_POLICY: ChatterPolicy = ChatterPolicy::Cut(PAPER_CUT);
 
 /// Well spread numbers in [0, 1): multiples of a `stride` without short periods, less their whole parts.
 pub(crate) fn spread(k: u32, stride: f64) -> f64 {

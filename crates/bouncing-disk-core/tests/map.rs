@@ -1,5 +1,7 @@
 //! The impact map, its orbits and what is done with them: laws, closed forms and independent derivatives.
 
+mod paper;
+
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::{
@@ -8,6 +10,7 @@ use bouncing_disk_core::{
 };
 use glam::{DMat2, DVec2};
 use num_dual::{Dual64, DualNum};
+use paper::PAPER_POLICY;
 use proptest::prelude::*;
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -300,7 +303,8 @@ fn policies_agree_where_the_cut_does_not_matter() {
     let map = map(0.4, 0.5);
     let separation = map.vibration().separation_phase().expect("lifts off");
     let impacts = |policy| -> Vec<f64> {
-        map.orbit_from_launch(separation, 0.0, policy)
+        Launch::new(separation, 0.0)
+            .map(|launch| map.orbit_from_launch(launch, policy))
             .expect("legal")
             .take(12)
             .filter_map(|event| match event.expect("no failure") {
@@ -309,7 +313,7 @@ fn policies_agree_where_the_cut_does_not_matter() {
             })
             .collect()
     };
-    let (complete, paper) = (impacts(ChatterPolicy::Complete), impacts(ChatterPolicy::Paper));
+    let (complete, paper) = (impacts(ChatterPolicy::Complete), impacts(PAPER_POLICY));
     for (a, b) in complete.iter().zip(&paper) {
         assert!((a - b).abs() <= 1e-5 * a.abs(), "{a} {b}");
     }
@@ -319,9 +323,9 @@ fn policies_agree_where_the_cut_does_not_matter() {
 fn restitution_zero_sticks_at_every_impact() {
     let map = map(0.6, 0.0);
     let separation = map.vibration().separation_phase().expect("lifts off");
-    for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
-        let kinds: Vec<bool> = map
-            .orbit_from_launch(separation, 0.0, policy)
+    for policy in [ChatterPolicy::Complete, PAPER_POLICY] {
+        let kinds: Vec<bool> = Launch::new(separation, 0.0)
+            .map(|launch| map.orbit_from_launch(launch, policy))
             .expect("legal")
             .take(8)
             .map(|event| matches!(event.expect("no failure"), OrbitEvent::Impact(_)))
@@ -480,13 +484,12 @@ fn a_disk_next_to_weightlessness_comes_to_rest() {
 #[test]
 fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
     for (restitution, bound) in [(0.5, f64::INFINITY), (0.0, 0.0)] {
-        let attached =
-            map(0.2, restitution).orbit(state(3.0, -2.0), ChatterPolicy::Paper).find_map(|event| match event
-                .expect("no failure")
-            {
+        let attached = map(0.2, restitution).orbit(state(3.0, -2.0), PAPER_POLICY).find_map(|event| {
+            match event.expect("no failure") {
                 OrbitEvent::Attachment(stick) => Some(stick.accumulation.error_bound),
                 _ => None,
-            });
+            }
+        });
         assert_eq!(attached, Some(bound), "{restitution}");
     }
 }

@@ -43,6 +43,7 @@ pub use motion::energy::EnergyLedger;
 pub use motion::engine::Engine;
 pub use motion::event::{Event, EventRecord};
 pub use motion::initial_condition::InitialCondition;
+pub use motion::paper_chatter::{PAPER_CHATTER, PAPER_CUT};
 pub use motion::phase_time::{PhaseSpan, PhaseTime};
 pub use motion::segment::Segment;
 pub use motion::si::{SiEnergy, SiState};

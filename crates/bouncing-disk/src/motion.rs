@@ -8,6 +8,7 @@ pub(crate) mod engine;
 pub(crate) mod event;
 pub(crate) mod impact;
 pub(crate) mod initial_condition;
+pub(crate) mod paper_chatter;
 pub(crate) mod phase_time;
 pub(crate) mod rotary_change;
 pub(crate) mod segment;

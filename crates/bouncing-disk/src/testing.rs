@@ -46,7 +46,7 @@ pub(crate) fn phase() -> impl Strategy<Value = Phase> {
 }
 
 pub(crate) fn policy() -> impl Strategy<Value = ChatterPolicy> {
-    prop_oneof![Just(ChatterPolicy::Complete), Just(ChatterPolicy::Paper)]
+    prop_oneof![Just(ChatterPolicy::Complete), Just(crate::PAPER_CHATTER)]
 }
 
 /// Systems of every kind: still, gentle, lively, violent; without twist, friction, rebound or load.

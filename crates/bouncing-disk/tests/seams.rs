@@ -183,8 +183,10 @@ fn attack(seed: u64, motions: u64, events: usize) -> Tally {
     for motion in 0..motions {
         let system = system(&mut random);
         let start = start(&mut random, &system);
-        let policy =
-            one_of(&mut random, &[ChatterPolicy::Complete, ChatterPolicy::Complete, ChatterPolicy::Paper]);
+        let policy = one_of(
+            &mut random,
+            &[ChatterPolicy::Complete, ChatterPolicy::Complete, bouncing_disk::PAPER_CHATTER],
+        );
         let told =
             |what: String| format!("seed {seed}, motion {motion}: {system:?} {start:?} {policy:?}: {what}");
         let mut engine = match Engine::new(system, start, policy) {

@@ -12,7 +12,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::elementary::cos;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, Orbit, OrbitEvent, Phase};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
 
 use super::circular::Concentration;
 use super::motor_case::core_error;
@@ -46,7 +46,8 @@ impl Impulses {
     pub(crate) fn of(map: &ImpactMap, impacts: usize, perturbation: f64) -> Result<Self, ExperimentError> {
         let mut impulses = Self::default();
         let Some(phase) = map.vibration().separation_phase() else { return Ok(impulses) };
-        let mut orbit = map.orbit_from_launch(phase, 0.0, ChatterPolicy::Complete).map_err(core_error)?;
+        let mut orbit =
+            map.orbit_from_launch(Launch::new(phase, 0.0).map_err(core_error)?, ChatterPolicy::Complete);
         let mut separations = 0_u32;
         // What follows a separation is kept only when the next one comes.
         let mut complete = (0, 0, 0.0);

@@ -9,7 +9,7 @@
 //! (μ a_e g/a_g²) S(0), and a load of this size stalls it as long as its speed strays little from zero.
 
 use bouncing_disk::core::elementary::cos;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, OrbitEvent};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent};
 use bouncing_disk::{ExponentialFit, Spread};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -190,7 +190,8 @@ fn kicks(
     let mut kicks = Vec::new();
     let Some(phase) = map.vibration().separation_phase() else { return Ok(kicks) };
     let first = perturbation * noise.even();
-    let mut orbit = map.orbit_from_launch(phase, first, ChatterPolicy::Complete).map_err(core_error)?;
+    let mut orbit =
+        map.orbit_from_launch(Launch::new(phase, first).map_err(core_error)?, ChatterPolicy::Complete);
     let (mut elapsed, mut last) = (0.0, phase.angle());
     while elapsed < radians {
         let Some(event) = orbit.advance().map_err(core_error)? else { break };

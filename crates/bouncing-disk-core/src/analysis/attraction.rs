@@ -5,7 +5,7 @@
 use core::f64::consts::TAU;
 
 use crate::analysis::periodic::PeriodicOrbit;
-use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::sin_cos;
 use crate::platform::phase::Phase;

@@ -9,7 +9,7 @@ use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::periodic::PeriodicOrbit;
-use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, room_for, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use starts::Cells;
@@ -208,7 +208,7 @@ fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
 }
 
 /// How long a start is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BasinSettings {
     /// Impacts after which a start is left [`UNDECIDED`].
@@ -415,7 +415,7 @@ mod tests {
         refused(Grid::new(ordinary, axis(-1.0, 1.0, 3)), "lowest normalised speed");
         // Too fast for a flight that can be followed, but an error, not a defect.
         let fast = Grid::new(ordinary, axis(0.0, Grid::MAX_SPEED, 3)).expect("legal");
-        for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
+        for policy in [ChatterPolicy::Complete, crate::testing::PAPER_POLICY] {
             let settings = BasinSettings { max_impacts: 3, policy };
             let error = map().basins(fast, &[], settings, || ()).expect_err("too fast");
             assert!(matches!(error, Error::FlightTooLong { .. }), "{error}");

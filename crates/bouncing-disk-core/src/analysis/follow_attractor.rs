@@ -1,6 +1,6 @@
 //! Following an attractor of the impact map in the forcing: the state is carried over from one value to the next.
 
-use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::platform::vibration::Vibration;

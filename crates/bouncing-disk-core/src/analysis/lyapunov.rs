@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use glam::DMat2;
 
 use crate::analysis::sweep::{SweepEvent, SweepImpact, sweep};
-use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::elementary::ln;

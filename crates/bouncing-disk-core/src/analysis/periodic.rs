@@ -6,7 +6,7 @@ use glam::{DMat2, DVec2};
 use roots::{Convergency, SearchError, find_root_brent};
 use serde::Serialize;
 
-use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;

@@ -8,9 +8,9 @@ use core::ops::ControlFlow;
 
 use serde::Serialize;
 
-use crate::chatter::accumulation::PAPER_SHORT_FLIGHT;
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
-use crate::flight::first_impact::Impact;
+use crate::flight::impact::Impact;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 use crate::platform::phase::Phase;
 
@@ -54,15 +54,13 @@ impl SweepImpact {
         })
     }
 
-    /// A duration that decides as the exact one does whether the paper counts the flight as short; `orbit` has not landed.
+    /// A duration that decides as the exact one does whether a cut counts the flight as short; `orbit` has not landed.
     #[inline(always)]
     fn decisive_duration(&self, orbit: &Orbit) -> f64 {
-        const THRESHOLD: f64 = PAPER_SHORT_FLIGHT * TAU;
-        // Far above the rounding of two phases; nearly never, so that the flight can be computed again.
-        const DOUBT: f64 = 1.0e-12;
-        if (self.duration - THRESHOLD).abs() < DOUBT
-            && let Some((phase, speed)) = orbit.launch()
-            && let Ok(impact) = orbit.map().vibration().impact_after(phase, speed)
+        if let ChatterPolicy::Cut(cut) = orbit.policy()
+            && cut.may_hang_on(self.duration)
+            && let Some(launch) = orbit.launch()
+            && let Ok(impact) = orbit.map().vibration().first_impact(launch)
         {
             return impact.duration();
         }
@@ -73,7 +71,7 @@ impl SweepImpact {
 /// The next event of an orbit that is advanced by itself, as a sweep reports it.
 #[inline]
 fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
-    let from = orbit.launch().map(|(phase, _)| phase);
+    let from = orbit.launch().map(|launch| launch.phase());
     Ok(orbit.advance()?.map(|event| match event {
         OrbitEvent::Impact(impact) => SweepEvent::Impact(SweepImpact::of(from, impact)),
         OrbitEvent::Attachment(rest) => SweepEvent::Attachment(rest),

@@ -6,34 +6,15 @@
 //! coefficients satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
 //! The coefficients are derived in docs/numerics.md.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use super::expansion::{Expansion, LAST_SHARE, MAJORANT};
 use super::series::ChatterSeries;
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
-
-/// What is done with the infinite sequence of impacts of a chattering disk.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[non_exhaustive]
-pub enum ChatterPolicy {
-    /// The sequence is summed in closed form and the disk attaches at the accumulation point; only where a bound
-    /// shows that the platform pulls back all the way there.
-    #[default]
-    Complete,
-    /// The paper's cut (Sec. IV A): the disk is put on the platform as soon as the impact speed |w|/pi falls
-    /// below 1e-6, or after 20 consecutive flights shorter than 1e-4 of a period.
-    Paper,
-}
-
-/// The paper's smallest impact speed |w_A Gamma / (omega A)|.
-pub const PAPER_SMALLEST_SPEED: f64 = 1.0e-6;
-/// The paper's "short" flight, in periods.
-pub const PAPER_SHORT_FLIGHT: f64 = 1.0e-4;
-/// The paper's number of consecutive short flights.
-pub const PAPER_SHORT_FLIGHTS: u32 = 20;
 
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
 /// doubles in [pi/2, pi].
@@ -44,20 +25,6 @@ const LARGEST_NEGLIGIBLE_SPEED: f64 = 1.0e-30;
 
 /// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
 const LONGEST_COMPLETION: f64 = 1.0e-2;
-
-/// Largest expansion parameter of the series; its majorant needs it below 1/16.
-const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
-
-/// Factor of the majorant of what the truncated series leaves.
-const MAJORANT: f64 = 32.0;
-
-/// Share of the first launch speed at which the impacts of a chatter are no longer counted.
-pub(super) const LAST_SHARE: f64 = 1.0e-17;
-
-/// Largest restitution, and smallest launch speed, of a chatter whose impacts are gone through one by one: at most 7,600 of
-/// them, as the proof of [`window_holds_all`] leaves every launch less than 1 - (2/3)(1 - r) of the one before.
-pub(super) const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
-pub(super) const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
 
 /// Shares of its first value that the pull cannot leave in a chatter that is summed: 2/3 and 4/3, and rounding.
 const PULL_SHARES: (f64, f64) = (0.6, 1.4);
@@ -293,96 +260,10 @@ fn wrapped(angle: f64) -> (f64, u64) {
     if angle >= TAU { (angle - TAU, 1) } else { (angle, 0) }
 }
 
-/// The power series in the launch speed, about an impact with pull a = 1 - P sin tau and drift b = P cos tau.
-#[derive(Clone, Copy)]
-pub(super) struct Expansion {
-    pub(super) pull: f64,
-    pub(super) drift: f64,
-    pub(super) restitution: f64,
-}
-
-impl Expansion {
-    /// Duration of the next flight and its impact speed, to the fourth order.
-    fn flight(&self, speed: f64) -> (f64, f64) {
-        let (a, b, w) = (self.pull, self.drift, speed);
-        let x = w / a;
-        let beta = b / a;
-        let gamma = (a - 1.0) / a;
-        let h = 2.0
-            * x
-            * (1.0
-                + x * ((2.0 / 3.0) * beta
-                    + x * ((3.0 * gamma + 8.0 * beta * beta) / 9.0
-                        + x * beta * (2.0 / 135.0) * ((66.0 * a - 75.0) / a + 100.0 * beta * beta))));
-        let u = w
-            * (1.0
-                - x * ((2.0 / 3.0) * beta
-                    + x * ((2.0 / 9.0) * (3.0 * gamma + 4.0 * beta * beta)
-                        + x * beta * (2.0 / 135.0) * ((93.0 * a - 120.0) / a + 100.0 * beta * beta))));
-        (h, u)
-    }
-
-    /// Time to the accumulation point, to the fourth order.
-    pub(super) fn duration(&self, speed: f64) -> f64 {
-        let r = self.restitution;
-        let a = self.pull;
-        let x = speed / (a * (1.0 - r));
-        let beta = self.drift / a;
-        let gamma = (a - 1.0) / a;
-        let beta2 = beta * beta;
-        let three = 1.0 + r * (1.0 + r);
-        let third =
-            (3.0 * gamma * (1.0 + r) * (1.0 + r) + beta2 * (8.0 + r * (12.0 + 8.0 * r))) / (9.0 * three);
-        // The fourth-order coefficient is a polynomial in r whose terms in a^2, a and b^2 are symmetric.
-        let symmetric =
-            |ends: f64, next: f64, middle: f64| ends + r * (next + r * (middle + r * (next + r * ends)));
-        let fourth = beta
-            * (symmetric(66.0, 204.0, 60.0) - symmetric(75.0, 240.0, 60.0) / a
-                + beta2 * symmetric(100.0, 260.0, 120.0))
-            * (2.0 / 135.0)
-            / ((1.0 + r * r) * three);
-        2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * (third + x * fourth)))
-    }
-
-    /// Bound on what [`Self::duration`] omits: a majorant of the fifth-order term and what follows it, or `None` if the
-    /// expansion parameter is too large for the majorant.
-    fn error_bound(&self, x: f64) -> Option<f64> {
-        let beta = (self.drift / self.pull).abs();
-        let gamma = ((self.pull - 1.0) / self.pull).abs();
-        let kappa = 1.0 + beta + gamma.sqrt();
-        if x * kappa > LARGEST_EXPANSION_PARAMETER {
-            return None;
-        }
-        let x2 = x * x;
-        Some(MAJORANT * (beta + gamma) * (kappa * kappa * kappa) * (x2 * x2 * x))
-    }
-}
-
-/// Counts what the paper's cut needs to remember.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub(crate) struct ShortFlightCount(u32);
-
-impl ShortFlightCount {
-    /// No short flight yet.
-    pub(crate) const fn new() -> Self {
-        Self(0)
-    }
-
-    /// Whether the paper's rule puts the disk on the platform after an impact with this duration and speed.
-    #[inline]
-    pub(crate) fn attaches(&mut self, duration: f64, impact_speed: f64) -> bool {
-        self.0 = if duration < PAPER_SHORT_FLIGHT * TAU { self.0 + 1 } else { 0 };
-        let cut = impact_speed < PAPER_SMALLEST_SPEED * PI || self.0 >= PAPER_SHORT_FLIGHTS;
-        if cut {
-            self.0 = 0;
-        }
-        cut
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chatter::expansion::LARGEST_COUNTED_RESTITUTION;
     use crate::testing::spread;
 
     /// Launches about the longest expansion parameter with which the bound may be small enough.
@@ -597,158 +478,6 @@ mod tests {
         assert!(summed > 20_000, "{summed}");
     }
 
-    /// Arithmetic of 160 bits: what the expansion leaves is far above its rounding, and far below that of doubles.
-    type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
-
-    fn high(x: f64) -> High {
-        High::try_from(x).expect("finite").with_precision(160).value()
-    }
-
-    fn low(x: &High) -> f64 {
-        x.to_f64().value()
-    }
-
-    /// 1 - cos h and h - sin h of a short h, as their power series.
-    fn versine_and_deficit(h: &High) -> (High, High) {
-        let square = h * h;
-        let (mut term, mut versine, mut deficit) = (high(1.0), high(0.0), high(0.0));
-        for k in 1..10 {
-            term = -(term * &square) / high(f64::from((2 * k - 1) * (2 * k)));
-            versine -= &term;
-            deficit -= &term * h / high(f64::from(2 * k + 1));
-        }
-        (versine, deficit)
-    }
-
-    /// A chatter followed flight by flight in high precision, from the gap itself: it knows nothing of the expansion.
-    struct Bounces {
-        /// P sin and P cos of the phase of the last impact.
-        sine: High,
-        cosine: High,
-    }
-
-    impl Bounces {
-        fn from(expansion: &Expansion) -> Self {
-            Self { sine: high(1.0) - high(expansion.pull), cosine: high(expansion.drift) }
-        }
-
-        /// Duration and impact speed of the flight after a launch with this speed.
-        fn fly(&mut self, launch: &High) -> (High, High) {
-            let pull = high(1.0) - &self.sine;
-            let mut h = high(2.0) * launch / pull;
-            loop {
-                let (versine, deficit) = versine_and_deficit(&h);
-                let gap = &h * (launch - &h / high(2.0)) + &self.sine * &versine + &self.cosine * &deficit;
-                let slope = launch - &h + &self.cosine * &versine + &self.sine * (&h - &deficit);
-                let ratio = &gap / &h;
-                // Newton's step on gap/h.
-                let step = &gap / (&slope - &ratio);
-                if low(&step).abs() <= 1e-36 * low(&h) {
-                    let sin_h = &h - &deficit;
-                    let sine = &self.sine - &self.sine * &versine + &self.cosine * &sin_h;
-                    self.cosine = &self.cosine - &self.cosine * &versine - &self.sine * &sin_h;
-                    self.sine = sine;
-                    return (h, -slope);
-                }
-                h -= step;
-            }
-        }
-
-        /// Time to the accumulation point after a launch with this speed.
-        fn duration(mut self, speed: f64, restitution: f64) -> High {
-            let (mut launch, mut time) = (high(speed), high(0.0));
-            while low(&launch) > 1e-20 * speed {
-                let (flight, impact_speed) = self.fly(&launch);
-                time += flight;
-                launch = impact_speed * high(restitution);
-            }
-            // What is left, to its first order.
-            time + high(2.0) * launch / ((high(1.0) - self.sine) * (high(1.0) - high(restitution)))
-        }
-    }
-
-    /// Pulls about 1 (where the platform is in the middle of its stroke), weak and strong ones, and drifts of both signs.
-    fn expansions() -> impl Iterator<Item = Expansion> {
-        [
-            (1.0, 0.75),
-            (1.0, -1.5),
-            (0.5, 0.5),
-            (0.625, -1.0),
-            (2.5, 1.25),
-            (3.0, -4.0),
-            (1.75, 0.0),
-            (0.0625, 3.0),
-            (0.001_953_125, 32.0),
-        ]
-        .into_iter()
-        .flat_map(|(pull, drift)| {
-            [0.125, 0.5, 0.8125].map(|restitution| Expansion { pull, drift, restitution })
-        })
-    }
-
-    /// 1 + |b|/a + sqrt(|a - 1|/a): the growth of the coefficients from one order to the next.
-    fn growth(expansion: &Expansion) -> f64 {
-        let Expansion { pull, drift, .. } = *expansion;
-        1.0 + (drift / pull).abs() + ((pull - 1.0) / pull).abs().sqrt()
-    }
-
-    /// What a series to the fourth order leaves is of the fifth: half the speed leaves a thirty-second of it. One unit
-    /// less in one coefficient would leave a sixteenth.
-    #[test]
-    fn the_sum_is_exact_to_the_fourth_order() {
-        for expansion in expansions() {
-            let restitution = expansion.restitution;
-            let x = libm::ldexp(1.0, -10) / growth(&expansion);
-            let speed = x * (expansion.pull * (1.0 - restitution));
-            let left = |speed: f64| {
-                low(&(Bounces::from(&expansion).duration(speed, restitution)
-                    - high(expansion.duration(speed))))
-            };
-            let bound = expansion.error_bound(x).expect("small");
-            let (whole, half) = (left(speed), left(0.5 * speed));
-            let odd = (whole - 32.0 * half) / bound;
-            assert!(odd.abs() <= 1e-3, "{odd} of the bound");
-        }
-    }
-
-    #[test]
-    fn a_flight_is_exact_to_the_fourth_order() {
-        for expansion in expansions() {
-            let x = libm::ldexp(1.0, -9) / growth(&expansion);
-            let left = |speed: f64| {
-                let (flight, impact_speed) = Bounces::from(&expansion).fly(&high(speed));
-                let (own_flight, own_speed) = expansion.flight(speed);
-                [low(&(flight - high(own_flight))), low(&(impact_speed - high(own_speed))) / expansion.pull]
-            };
-            let bound = expansion.error_bound(x).expect("small");
-            let (whole, half) = (left(x * expansion.pull), left(0.5 * x * expansion.pull));
-            for (whole, half) in whole.into_iter().zip(half) {
-                let odd = (whole - 32.0 * half) / bound;
-                assert!(odd.abs() <= 1e-3, "{odd} of the bound");
-            }
-        }
-    }
-
-    /// The majorant holds up to the largest expansion parameter, and is not idle: what is left comes near to it.
-    #[test]
-    fn the_error_bound_is_above_the_error_and_of_its_size() {
-        let mut largest = 0.0_f64;
-        for expansion in expansions() {
-            let growth = growth(&expansion);
-            let x = (1.0 - 1e-9) / (32.0 * growth);
-            assert!(expansion.error_bound(x * (1.0 + 2e-9)).is_none(), "too large for the majorant");
-            for x in [x, 0.5 * x] {
-                let speed = x * (expansion.pull * (1.0 - expansion.restitution));
-                let exact = Bounces::from(&expansion).duration(speed, expansion.restitution);
-                let left = low(&(exact - high(expansion.duration(speed)))).abs();
-                let share = left / expansion.error_bound(x).expect("small enough");
-                assert!(share <= 1.0, "{share}");
-                largest = largest.max(share);
-            }
-        }
-        assert!(largest > 0.3, "{largest}");
-    }
-
     /// Where the platform falls away is told by the phase, not by the force, which rounds there.
     #[test]
     fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
@@ -803,24 +532,5 @@ mod tests {
         assert!(sum(0.01 * (1.0 + 1e-12)).is_none());
         let longest = sum(0.01 * (1.0 - 1e-12)).expect("short enough");
         assert!((longest.duration - 0.01).abs() < 1e-13 && longest.error_bound.abs() <= 0.0, "{longest:?}");
-    }
-
-    /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
-    #[test]
-    fn the_cut_of_the_paper_is_where_the_paper_says() {
-        let (short, fast) = (1e-4 * TAU, 1e-6 * PI);
-        let below = |x: f64| f64::from_bits(x.to_bits() - 1);
-        let mut count = ShortFlightCount::new();
-        assert!(!count.attaches(1.0, fast) && count.attaches(1.0, below(fast)));
-        // The first of each twenty after anything else counts anew.
-        for _ in 0..2 {
-            assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
-            assert!(count.attaches(below(short), 1.0), "the twentieth");
-        }
-        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
-        assert!(!count.attaches(short, 1.0), "not shorter");
-        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)));
-        assert!(count.attaches(1.0, 0.0), "too slow");
-        assert!((1..20).all(|_| !count.attaches(below(short), 1.0)), "the cut starts the count again");
     }
 }

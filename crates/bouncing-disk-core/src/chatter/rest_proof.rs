@@ -101,7 +101,7 @@ impl Vibration {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chatter::accumulation::ChatterPolicy;
+    use crate::chatter::policy::ChatterPolicy;
     use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
     use crate::testing::spread;
 

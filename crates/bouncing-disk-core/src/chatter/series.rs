@@ -9,7 +9,7 @@ use crate::numerics::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
-use super::accumulation::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
+use super::expansion::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
 
 /// Order of the power series. The longest chatter is 0.01 rad: what is left out of a sine is below 1e-17 of it.
 const ORDER: usize = 6;

@@ -60,8 +60,8 @@ mod tests {
     use core::f64::consts::TAU;
 
     use super::*;
-    use crate::flight::first_impact::Launch;
     use crate::flight::gap::LaunchForm;
+    use crate::flight::launch::Launch;
     use crate::numerics::elementary::{CREST, sin_cos};
     use crate::platform::phase::Phase;
     use crate::platform::vibration::Vibration;

@@ -12,9 +12,10 @@
 use core::f64::consts::{PI, TAU};
 
 use crate::error::{Error, within};
-use crate::flight::first_impact::{Impact, landed_within_a_turn, turned_by};
+use crate::flight::first_impact::{landed_within_a_turn, turned_by};
 use crate::flight::gap::SHORT_FLIGHT;
 use crate::flight::gap::{BRIEFEST, Bracket, GapForm, LaunchForm, Root, ShortForm};
+use crate::flight::impact::Impact;
 use crate::numerics::elementary::{CREST, hypot};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;

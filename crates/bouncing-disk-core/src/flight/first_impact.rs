@@ -21,13 +21,13 @@
 
 use core::f64::consts::{PI, TAU};
 
-use serde::Serialize;
-
 use crate::error::Error;
 use crate::flight::bounds::{arc_speed, clears_by_tangents, may_return_soon};
 use crate::flight::gap::{
     Bracket, CrestForm, FASTEST_BRIEF, GapForm, LaunchForm, Root, SHORT_FLIGHT, ShortForm, is_brief,
 };
+use crate::flight::impact::Impact;
+use crate::flight::launch::Launch;
 use crate::numerics::elementary::{
     CREST, impact_phase, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
@@ -41,82 +41,6 @@ pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;
 /// [`MAX_FLIGHT_DURATION`]: it was launched at most 2e4 faster, from at most 2e8 below.
 pub(crate) const FASTEST_ARC: f64 = -0.49 * MAX_FLIGHT_DURATION;
 
-/// A launch of the disk from the platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Launch {
-    phase: Phase,
-    relative_speed: f64,
-}
-
-impl Launch {
-    /// A launch at `phase` with `relative_speed` >= 0 (disk minus platform, in units of g/omega).
-    ///
-    /// Speed zero means "from rest on the platform": legal only where the platform falls away, P sin tau >= 1.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for a negative or non-finite speed.
-    pub fn new(phase: Phase, relative_speed: f64) -> Result<Self, Error> {
-        if relative_speed >= 0.0 && relative_speed.is_finite() {
-            Ok(Self { phase, relative_speed })
-        } else {
-            Err(Error::OutOfRange {
-                field: "relative_speed",
-                value: relative_speed,
-                legal: "[0, inf) (units of g/omega)",
-            })
-        }
-    }
-
-    /// A launch with a speed that is known to be legal.
-    pub(crate) const fn known(phase: Phase, relative_speed: f64) -> Self {
-        Self { phase, relative_speed }
-    }
-
-    /// Launch phase.
-    #[must_use]
-    pub const fn phase(&self) -> Phase {
-        self.phase
-    }
-
-    /// Launch speed relative to the platform, in units of g/omega.
-    #[must_use]
-    pub const fn relative_speed(&self) -> f64 {
-        self.relative_speed
-    }
-}
-
-/// The first impact after a launch.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Impact {
-    /// Whole periods of the duration of the flight.
-    pub periods: u64,
-    /// The rest of the duration in radians, in [0, 2 pi).
-    pub remainder: f64,
-    /// How often the phase passed 0 (mod 2 pi) during the flight: what a period counter advances by.
-    pub turns: u64,
-    /// Phase of the impact.
-    pub phase: Phase,
-    /// Relative axial velocity w_A (disk minus platform) just before the impact, <= 0, in units of g/omega.
-    pub velocity: f64,
-    /// Evaluations of the gap.
-    pub evaluations: u32,
-}
-
-impl Impact {
-    /// Duration of the flight in radians (rounded: the exact value is `periods` and `remainder`).
-    #[must_use]
-    pub fn duration(&self) -> f64 {
-        self.periods as f64 * TAU + self.remainder
-    }
-
-    /// The same, field by field: what a function has just written in parts is read whole only after a stall.
-    #[inline(always)]
-    const fn in_parts(self) -> Self {
-        let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
-        Self { periods, remainder, turns, phase: phase.in_parts(), velocity, evaluations }
-    }
-}
-
 impl Vibration {
     /// The first impact after `launch` (Eq. 11).
     ///
@@ -127,7 +51,7 @@ impl Vibration {
     /// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away;
     /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`].
     pub fn first_impact(&self, launch: Launch) -> Result<Impact, Error> {
-        self.impact_after(launch.phase, launch.relative_speed)
+        self.impact_after(launch.phase(), launch.relative_speed())
     }
 
     /// [`Self::first_impact`] for a speed that is known to be finite and not negative.

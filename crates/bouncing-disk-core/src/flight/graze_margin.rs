@@ -2,7 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::flight::first_impact::{Impact, Launch};
+use crate::flight::impact::Impact;
+use crate::flight::launch::Launch;
 use crate::numerics::elementary::sin_cos;
 use crate::platform::vibration::Vibration;
 

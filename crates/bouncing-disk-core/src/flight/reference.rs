@@ -8,7 +8,8 @@ use roots::{Convergency, find_root_brent};
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::flight::first_impact::{Launch, MAX_FLIGHT_DURATION};
+use crate::flight::first_impact::MAX_FLIGHT_DURATION;
+use crate::flight::launch::Launch;
 use crate::numerics::elementary::{sin, sin_cos, wrapped_angle};
 use crate::platform::vibration::Vibration;
 

@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 
 use crate::chatter::accumulation::surely_bounces_on;
 use crate::error::{Error, room_for};
-use crate::flight::first_impact::Launch;
+use crate::flight::launch::Launch;
 use crate::lockstep::lanes::{
     Batch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
 };

@@ -20,7 +20,7 @@ mod subset;
 
 use pulp::Simd;
 
-use crate::flight::first_impact::Impact;
+use crate::flight::impact::Impact;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::platform::phase::Phase;

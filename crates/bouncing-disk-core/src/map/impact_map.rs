@@ -3,9 +3,11 @@
 use glam::{DMat2, DVec2};
 use serde::Serialize;
 
-use crate::chatter::accumulation::{Accumulation, ChatterPolicy, ShortFlightCount};
+use crate::chatter::accumulation::Accumulation;
+use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
 use crate::error::{Error, within};
-use crate::flight::first_impact::Impact;
+use crate::flight::impact::Impact;
+use crate::flight::launch::Launch;
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
@@ -206,9 +208,9 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite speed.
-    pub fn orbit_from_launch(&self, phase: Phase, speed: f64, policy: ChatterPolicy) -> Result<Orbit, Error> {
-        let launch = crate::flight::first_impact::Launch::new(phase, speed)?;
-        Ok(Orbit::from_launch(*self, policy, launch.phase(), launch.relative_speed()))
+    #[must_use]
+    pub const fn orbit_from_launch(&self, launch: Launch, policy: ChatterPolicy) -> Orbit {
+        Orbit::from_launch(*self, policy, launch.phase(), launch.relative_speed())
     }
 }
 
@@ -225,7 +227,7 @@ pub enum OrbitEvent {
 /// A spell of contact between the end of a chattering sequence and the next separation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Attachment {
-    /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Paper`] the last impact itself,
+    /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] the last impact itself,
     /// with duration zero and no bound on what was cut off (`error_bound` is infinite unless the speed was 0).
     pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega: what the chatter started from.
@@ -283,9 +285,9 @@ impl Orbit {
                     None => Next::Launch(phase, speed),
                 }
             }
-            ChatterPolicy::Paper => {
+            ChatterPolicy::Cut(cut) => {
                 // A disk without rebound speed is on the platform, cut or not.
-                if !self.short_flights.attaches(duration, -velocity) && speed > 0.0 {
+                if !self.short_flights.attaches(&cut, duration, -velocity) && speed > 0.0 {
                     Next::Launch(phase, speed)
                 } else if self.map.vibration.falls_away_at(phase.angle()) {
                     // Put on a platform that falls away, the disk is in flight again at once.
@@ -300,9 +302,9 @@ impl Orbit {
 
     /// Where and how fast the disk leaves the platform next: `None` if it is about to attach or has ended.
     #[must_use]
-    pub const fn launch(&self) -> Option<(Phase, f64)> {
+    pub const fn launch(&self) -> Option<Launch> {
         match self.next {
-            Next::Launch(phase, speed) => Some((phase, speed)),
+            Next::Launch(phase, speed) => Some(Launch::known(phase, speed)),
             Next::Report(_) | Next::Attach(..) | Next::End => None,
         }
     }
@@ -313,10 +315,16 @@ impl Orbit {
     /// [`Error::OutOfRange`] for a negative or non-finite speed.
     pub fn perturb_launch(&mut self, speed: f64) -> Result<(), Error> {
         if let Next::Launch(phase, _) = self.next {
-            let launch = crate::flight::first_impact::Launch::new(phase, speed)?;
+            let launch = Launch::new(phase, speed)?;
             self.next = Next::Launch(phase, launch.relative_speed());
         }
         Ok(())
+    }
+
+    /// What ends a chatter.
+    #[must_use]
+    pub const fn policy(&self) -> ChatterPolicy {
+        self.policy
     }
 
     /// The map.

@@ -92,10 +92,9 @@ fn rotate(rows: &mut [Row], upper: usize, lower: usize, column: usize) {
     }
     let length = hypot(a, b);
     let (cos, sin) = (a / length, b / length);
-    for k in 0..7 {
-        let (a, b) = (rows[upper][k], rows[lower][k]);
-        rows[upper][k] = cos * a + sin * b;
-        rows[lower][k] = cos * b - sin * a;
+    let (above, below) = rows.split_at_mut(lower);
+    for (a, b) in above[upper].iter_mut().zip(&mut below[0]) {
+        (*a, *b) = (cos * *a + sin * *b, cos * *b - sin * *a);
     }
     rows[lower][column] = 0.0;
 }

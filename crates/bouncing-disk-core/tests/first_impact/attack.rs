@@ -13,6 +13,7 @@ use bouncing_disk_core::{
 use crate::launches::{self, Case, SplitMix};
 use crate::march::{Finding, Flight};
 use crate::oracle::{self, Exact};
+use crate::paper::PAPER_POLICY;
 use crate::seams;
 use crate::shards::{self, Kind};
 
@@ -367,7 +368,7 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
         let orbits: Vec<_> = (0..100)
             .map(|k| {
                 let (map, state) = map_and_state(&mut random);
-                let policy = if k % 3 == 0 { ChatterPolicy::Paper } else { ChatterPolicy::Complete };
+                let policy = if k % 3 == 0 { PAPER_POLICY } else { ChatterPolicy::Complete };
                 map.orbit(state, policy)
             })
             .collect();
@@ -379,7 +380,8 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
                 let launch = alone.launch();
                 match alone.advance() {
                     Ok(Some(OrbitEvent::Impact(impact))) => {
-                        if let Some((phase, speed)) = launch {
+                        if let Some(launch) = launch {
+                            let (phase, speed) = (launch.phase(), launch.relative_speed());
                             let peak = Orbit::map(&alone).vibration().peak_acceleration();
                             let flight = Flight { peak, phase, gap: 0.0, speed };
                             assert_eq!(flight.agrees(&impact), Ok(()), "{orbit:?}: {impact:?}");

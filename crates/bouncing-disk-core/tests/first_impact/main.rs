@@ -10,6 +10,8 @@ mod elementary;
 mod launches;
 mod march;
 mod oracle;
+#[path = "../paper/mod.rs"]
+mod paper;
 mod properties;
 mod seams;
 mod shards;

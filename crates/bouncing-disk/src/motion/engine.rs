@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Orbit, OrbitEvent, Phase};
+use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::{Error, moderate};
 use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
@@ -92,7 +92,8 @@ impl Engine {
         match start {
             InitialCondition::Contact { .. } => engine.start_in_contact(policy)?,
             InitialCondition::Launch { relative_speed, .. } => {
-                engine.orbit = Some(system.map().orbit_from_launch(phase, relative_speed, policy)?);
+                engine.orbit =
+                    Some(system.map().orbit_from_launch(Launch::new(phase, relative_speed)?, policy));
                 engine.state.axial_velocity += relative_speed;
             }
             InitialCondition::Flight { gap, relative_velocity, .. } => {
@@ -111,7 +112,7 @@ impl Engine {
             // The core's own interval: from separation to its mirror image about the crest.
             let falls_away = phase.angle() >= leaves.angle() && phase.angle() < PI - leaves.angle();
             let from = if falls_away { phase } else { leaves };
-            self.orbit = Some(self.system.map().orbit_from_launch(from, 0.0, policy)?);
+            self.orbit = Some(self.system.map().orbit_from_launch(Launch::new(from, 0.0)?, policy));
             if falls_away {
                 return Ok(());
             }
@@ -211,7 +212,7 @@ impl Engine {
         let rebound = rebound_velocity(system.restitution(), impact.velocity);
         // Where the platform falls away, the paper's cut takes the rebound and lets the disk go at once.
         let launch = self.orbit.as_ref().and_then(Orbit::launch);
-        let cut = launch.is_some_and(|(_, speed)| speed <= 0.0 && rebound > 0.0);
+        let cut = launch.is_some_and(|launch| launch.relative_speed() <= 0.0 && rebound > 0.0);
         let rebound_left = if cut { 0.0 } else { rebound };
 
         let segment = self.segment(None);

@@ -93,7 +93,7 @@ impl Rotor {
             let falls_away =
                 phase.angle() >= leaves.angle() && phase.angle() < std::f64::consts::PI - leaves.angle();
             let from = if falls_away { phase } else { leaves };
-            rotor.orbit = Some(system.map().orbit_from_launch(from, 0.0, policy)?);
+            rotor.orbit = Some(system.map().orbit_from_launch(Launch::new(from, 0.0)?, policy));
             if falls_away {
                 return Ok(rotor);
             }
@@ -127,7 +127,7 @@ impl Rotor {
     }
 
     /// The flight that starts now, if one does.
-    pub(crate) fn launch(&self) -> Option<(Phase, f64)> {
+    pub(crate) fn launch(&self) -> Option<Launch> {
         if self.contact.is_some() {
             return None;
         }
@@ -156,7 +156,7 @@ impl Rotor {
         speed: f64,
     ) -> Result<(), Error> {
         let (phase, relative_speed) = (launch.phase(), launch.relative_speed());
-        self.orbit = Some(self.system.map().orbit_from_launch(phase, relative_speed, policy)?);
+        self.orbit = Some(self.system.map().orbit_from_launch(Launch::new(phase, relative_speed)?, policy));
         self.now = PhaseTime { periods, phase };
         self.speed = speed;
         Ok(())

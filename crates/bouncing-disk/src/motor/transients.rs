@@ -37,7 +37,7 @@ impl TransientMember {
 /// those of [`transient`], several times faster where there are many.
 ///
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
-/// instructions of the processor change a bit. Members under [`ChatterPolicy::Paper`] are computed one by one.
+/// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
 ///
 /// ```
 /// use bouncing_disk::core::Phase;
@@ -243,8 +243,8 @@ impl<'a> Worker<'a> {
 /// Takes a transient to its next flight; `None` if it is done before.
 fn fly_next(run: &mut Run) -> Result<Option<Launch>, Error> {
     while !run.is_done() {
-        if let Some((phase, speed)) = run.rotor.launch() {
-            return Ok(Some(Launch::new(phase, speed)?));
+        if let Some(launch) = run.rotor.launch() {
+            return Ok(Some(launch));
         }
         run.step()?;
     }

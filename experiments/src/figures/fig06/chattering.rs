@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Phase, SweepEvent, Vibration, sweep};
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Vibration, sweep};
 use bouncing_disk::{
     DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit, multi_toss,
 };
@@ -44,7 +44,7 @@ pub(super) fn cycles(
     for (index, &forcing) in forcings.iter().enumerate() {
         let map = ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution)?;
         if let Some(leaves) = map.vibration().separation_phase() {
-            orbits.push(map.orbit_from_launch(leaves, 0.0, policy)?);
+            orbits.push(map.orbit_from_launch(Launch::new(leaves, 0.0)?, policy));
             leaving.push(index);
         }
     }

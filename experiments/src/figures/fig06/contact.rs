@@ -173,7 +173,8 @@ fn share_in_impacts(
     system: &DimensionlessSystem,
     start: InitialCondition,
 ) -> Result<Option<f64>, ExperimentError> {
-    let mut engine = Engine::new(*system, start, ChatterPolicy::Paper).map_err(ExperimentError::model)?;
+    let mut engine =
+        Engine::new(*system, start, bouncing_disk::PAPER_CHATTER).map_err(ExperimentError::model)?;
     let (mut impacts, mut impulsive, mut contact) = (0, 0.0, 0.0);
     while impacts < TRANSFERS {
         let Some(record) = engine.advance().map_err(ExperimentError::model)? else { break };

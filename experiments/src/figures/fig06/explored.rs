@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Phase, follow_attractor, orbit_diagram};
+use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, follow_attractor, orbit_diagram};
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, multi_toss,
 };
@@ -79,7 +79,9 @@ fn visited(axial_forcing: f64, states: &[ImpactState]) -> Visited {
 fn orbit_from_rest(axial_forcing: f64, inputs: Inputs) -> Result<Orbit, ExperimentError> {
     let map = map(axial_forcing, inputs.restitution)?;
     let leaves = map.vibration().separation_phase().ok_or_else(|| no_orbit(axial_forcing))?;
-    map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)
+    Launch::new(leaves, 0.0)
+        .map(|launch| map.orbit_from_launch(launch, bouncing_disk::PAPER_CHATTER))
+        .map_err(ExperimentError::model)
 }
 
 /// The impacts of some orbits, as many of each.
@@ -98,7 +100,7 @@ pub(super) fn explored(
     let crisis = merging.axial_forcing();
     let start = *starts(first, inputs)?.first().ok_or_else(|| no_orbit(crisis))?;
     let orbit_at = |forcing: f64| -> Result<Orbit, ExperimentError> {
-        Ok(map(forcing, inputs.restitution)?.orbit(start, ChatterPolicy::Paper))
+        Ok(map(forcing, inputs.restitution)?.orbit(start, bouncing_disk::PAPER_CHATTER))
     };
     let (before, after) = (crisis - BESIDE, crisis + BESIDE);
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
@@ -152,10 +154,12 @@ pub(super) fn zoom(
     let steps = quality.choose(80, 480);
     let (low, high) = ZOOM;
     let forcings = (0..=steps).map(|step| low + (high - low) * f64::from(step) / f64::from(steps));
-    let followed = follow_attractor(inputs.restitution, forcings, from, ZOOM_TRANSIENT, ChatterPolicy::Paper)
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(ExperimentError::model)?;
-    let orbits: Vec<Orbit> = followed.iter().map(|at| at.map.orbit(at.state, ChatterPolicy::Paper)).collect();
+    let followed =
+        follow_attractor(inputs.restitution, forcings, from, ZOOM_TRANSIENT, bouncing_disk::PAPER_CHATTER)
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(ExperimentError::model)?;
+    let orbits: Vec<Orbit> =
+        followed.iter().map(|at| at.map.orbit(at.state, bouncing_disk::PAPER_CHATTER)).collect();
     let states = recorded(&orbits, ZOOM_IMPACTS)?;
     Ok(followed
         .iter()

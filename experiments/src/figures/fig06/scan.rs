@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    ChatterPolicy, Followed, ImpactMap, ImpactState, Vibration, follow_attractor, lyapunov_exponents,
-    orbit_diagram, period_doublings,
+    Followed, ImpactMap, ImpactState, Launch, Vibration, follow_attractor, lyapunov_exponents, orbit_diagram,
+    period_doublings,
 };
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
@@ -102,7 +102,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
     let Inputs { restitution, followed_from, linear, semielliptical } = inputs;
     let values = quality.choose(200, 2_000);
     let settings = MultiTossSettings {
-        policy: ChatterPolicy::Paper,
+        policy: bouncing_disk::PAPER_CHATTER,
         transient_impacts: quality.choose(1_000, 3_000),
         examined_impacts: quality.choose(100, 300),
         longest_period: quality.choose(50, 128),
@@ -120,7 +120,7 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data
     let first_orbit = first_map.refine(&[first]).map_err(ExperimentError::model)?;
     let above = forcings.iter().copied().filter(|forcing| *forcing >= followed_from);
     let walk: Vec<Followed> =
-        follow_attractor(restitution, above, first, settings.transient_impacts, ChatterPolicy::Paper)
+        follow_attractor(restitution, above, first, settings.transient_impacts, bouncing_disk::PAPER_CHATTER)
             .collect::<Result<_, _>>()
             .map_err(ExperimentError::model)?;
     progress.advance((values - walk.len()) as u64);
@@ -252,8 +252,10 @@ fn bouncing(axial_forcing: f64, restitution: f64) -> Result<Bouncing, Experiment
     let map = map(axial_forcing, restitution)?;
     let mut period = None;
     if let Some(leaves) = map.vibration().separation_phase() {
-        let orbit =
-            map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)?;
+        let orbit = map.orbit_from_launch(
+            Launch::new(leaves, 0.0).map_err(ExperimentError::model)?,
+            bouncing_disk::PAPER_CHATTER,
+        );
         let settled = orbit_diagram(&[orbit], SETTLING, 1).map_err(ExperimentError::model)?;
         if let Some(state) = settled.first().and_then(|states| states.first()) {
             period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk::PAPER_CUT;
 use bouncing_disk::core::elementary::cos;
-use bouncing_disk::core::{PAPER_SHORT_FLIGHT, PAPER_SHORT_FLIGHTS, PAPER_SMALLEST_SPEED};
 
 use super::data::Fig06Data;
 use super::{regimes, rotation};
@@ -60,8 +60,10 @@ pub(super) fn parameters(data: &Fig06Data) -> Vec<(String, String)> {
         pair(
             "chattering",
             format!(
-                "cut at |w_A Γ/(ωA)| < {PAPER_SMALLEST_SPEED:e} or after {PAPER_SHORT_FLIGHTS} flights shorter than \
-                 {PAPER_SHORT_FLIGHT:e} of a period"
+                "cut at |w_A Γ/(ωA)| < {:e} or after {} flights shorter than {:e} of a period",
+                PAPER_CUT.smallest_speed(),
+                PAPER_CUT.short_flights(),
+                PAPER_CUT.short_flight()
             ),
         ),
     ]

@@ -1,8 +1,8 @@
 //! The basins at one forcing.
 
 use bouncing_disk::core::{
-    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Multipliers, OrbitEvent,
-    Phase, UNDECIDED, Vibration, survival_times,
+    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Launch, Multipliers,
+    OrbitEvent, Phase, UNDECIDED, Vibration, survival_times,
 };
 
 use super::data::{Other, Panel, Shares, Spot};
@@ -96,7 +96,10 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
 fn chattering(map: &ImpactMap) -> Result<Vec<Spot>, ExperimentError> {
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(Vec::new()) };
     let mut spots = Vec::new();
-    for event in map.orbit_from_launch(leaves, 0.0, ChatterPolicy::Paper).map_err(ExperimentError::model)? {
+    for event in map.orbit_from_launch(
+        Launch::new(leaves, 0.0).map_err(ExperimentError::model)?,
+        bouncing_disk::PAPER_CHATTER,
+    ) {
         match event.map_err(ExperimentError::model)? {
             OrbitEvent::Impact(impact) => spots.push(spot(impact.into())),
             _ => {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Phase, UNDECIDED,
+    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Launch, Phase, UNDECIDED,
     follow_attractor, survival_times,
 };
 use rayon::prelude::*;
@@ -132,7 +132,8 @@ pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, Expe
                     let angle = leaves.angle() + falling * f64::from(index) / f64::from(REST_PHASES);
                     let phase = if index == 0 { Ok(leaves) } else { Phase::new(angle) };
                     let phase = phase.map_err(ExperimentError::model)?;
-                    let orbit = map.orbit_from_launch(phase, 0.0, ChatterPolicy::Complete);
+                    let orbit = Launch::new(phase, 0.0)
+                        .map(|launch| map.orbit_from_launch(launch, ChatterPolicy::Complete));
                     orbits.push(orbit.map_err(ExperimentError::model)?);
                 }
             }

@@ -6,7 +6,7 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bouncing_disk::core::elementary::acos;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, OrbitEvent, Phase, Vibration};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
 use serde::{Deserialize, Serialize};
 
 use crate::claim::Agreement;
@@ -93,7 +93,8 @@ fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentErro
 /// The impacts until the rotor is at rest for good; `None` if it is not after [`MOST_IMPACTS`].
 fn impacts_to_rest(map: &ImpactMap, phase: f64, speed: f64) -> Result<Option<usize>, ExperimentError> {
     let phase = Phase::new(phase).map_err(core_error)?;
-    let mut orbit = map.orbit_from_launch(phase, speed, ChatterPolicy::Complete).map_err(core_error)?;
+    let mut orbit =
+        map.orbit_from_launch(Launch::new(phase, speed).map_err(core_error)?, ChatterPolicy::Complete);
     let mut impacts = 0;
     while impacts < MOST_IMPACTS {
         match orbit.advance().map_err(core_error)? {

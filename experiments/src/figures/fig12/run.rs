@@ -67,12 +67,12 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data
     for case in [long, low] {
         // ω read as 2π times 70 kHz, and as 70 000 rad/s.
         for frequency_hz in [case.frequency_hz, case.frequency_hz / TAU] {
-            for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
+            for policy in [ChatterPolicy::Complete, bouncing_disk::PAPER_CHATTER] {
                 printed.push(Reading {
                     amplitude_m: case.amplitude_m,
                     preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
                     angular_frequency_rad_per_s: TAU * frequency_hz,
-                    papers_cut: policy == ChatterPolicy::Paper,
+                    papers_cut: policy == bouncing_disk::PAPER_CHATTER,
                     cycle: MotorCase { frequency_hz, ..case }.cycle(policy)?,
                 });
             }

@@ -1,12 +1,11 @@
 //! Labels of many starts at once: as [`ImpactMap::basin_label`], with the flights in lockstep.
 
-use super::screen::{Screen, Target, Verdicts};
+use super::screen::{Judge, Verdicts};
 use super::starts::{Cell, Cells, Starts};
-use super::{BasinSettings, FIRST_ORBIT, KnownOrbit, Label, UNDECIDED};
-use crate::chatter::accumulation::ChatterPolicy;
-use crate::chatter::rest_proof::RestProof;
+use super::{BasinSettings, KnownOrbit, Label, UNDECIDED};
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
-use crate::lockstep::lanes::{Batch, FlightScheduler, Impacts, InstructionSet, LANES, Lanes, Purpose};
+use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 
 /// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better; with these, what a
@@ -63,12 +62,9 @@ impl ImpactMap {
 }
 
 /// The starts under way.
-pub(super) struct Lockstep<'a> {
-    map: &'a ImpactMap,
-    known: &'a [KnownOrbit],
-    settings: BasinSettings,
-    targets: Vec<Target>,
-    proof: RestProof,
+struct Lockstep<'a> {
+    judge: Judge<'a>,
+    max_impacts: u64,
     scheduler: Box<FlightScheduler>,
     batches: Vec<Batch>,
     /// The cell of each lane, and the round before its first flight.
@@ -83,21 +79,11 @@ pub(super) struct Lockstep<'a> {
 
 impl<'a> Lockstep<'a> {
     fn new(map: &'a ImpactMap, known: &'a [KnownOrbit], settings: BasinSettings, capacity: usize) -> Self {
-        let targets = known.iter().zip(FIRST_ORBIT..).flat_map(|(known, label)| {
-            known.orbit().states.iter().map(move |state| Target {
-                label,
-                angle: state.phase().angle(),
-                velocity: state.velocity(),
-                square_radius: known.radius() * known.radius(),
-            })
-        });
+        let scheduler = Box::new(FlightScheduler::new(InstructionSet::best(), Purpose::Orbits));
         Self {
-            map,
-            known,
-            settings,
-            targets: targets.collect(),
-            proof: RestProof::new(map.vibration(), map.restitution()),
-            scheduler: Box::new(FlightScheduler::new(InstructionSet::best(), Purpose::Orbits)),
+            judge: Judge::new(map, known, settings, scheduler.dispatch()),
+            max_impacts: u64::from(settings.max_impacts),
+            scheduler,
             batches: vec![Batch::of_map(map); capacity.div_ceil(LANES)],
             cell: vec![Cell::NONE; capacity],
             begun: vec![0; capacity],
@@ -116,26 +102,6 @@ impl<'a> Lockstep<'a> {
         failure.map_or(Ok(()), Err)
     }
 
-    pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
-        self.scheduler.dispatch().run(Screen {
-            impacts,
-            targets: &self.targets,
-            proof: self.proof,
-            peak: self.map.vibration().peak_acceleration(),
-            restitution: self.map.restitution(),
-            verdicts,
-        });
-    }
-
-    /// The label of a lane that was found settled, if the doubt is resolved so.
-    #[inline(always)]
-    pub(super) fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
-        if verdicts.doubtful[lane] == 0 {
-            return Some(verdicts.labels[lane] as Label);
-        }
-        self.map.settles(batch.impact_state(lane), self.known, self.settings.policy)
-    }
-
     /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
     fn judge<Done: Fn()>(
         &mut self,
@@ -143,11 +109,11 @@ impl<'a> Lockstep<'a> {
         starts: &mut Starts<'_, '_, Done>,
         verdicts: &mut Verdicts,
     ) {
-        self.screen(self.batches[number].impacts(), verdicts);
+        self.judge.screen(self.batches[number].impacts(), verdicts);
         let first = number * LANES;
         let settled = verdicts.settled & Lanes::first((self.lanes - first).min(LANES));
         for lane in settled.rev() {
-            if let Some(label) = self.label(verdicts, &self.batches[number], lane) {
+            if let Some(label) = self.judge.label(verdicts, &self.batches[number], lane) {
                 self.finish(first + lane, label, starts);
             }
         }
@@ -158,7 +124,7 @@ impl<'a> Lockstep<'a> {
         if self.round < self.deadline {
             return;
         }
-        let allowed = u64::from(self.settings.max_impacts);
+        let allowed = self.max_impacts;
         for lane in (0..self.lanes).rev() {
             if self.round - self.begun[lane] >= allowed {
                 self.finish(lane, UNDECIDED, starts);
@@ -182,7 +148,7 @@ impl<'a> Lockstep<'a> {
 
     /// Begins the next start in `lane`; false if there is none.
     fn load<Done: Fn()>(&mut self, lane: usize, starts: &mut Starts<'_, '_, Done>) -> bool {
-        let Some((cell, from)) = starts.next(self) else { return false };
+        let Some((cell, from)) = starts.next(&self.judge) else { return false };
         self.batches[lane / LANES].take_impact(lane % LANES, starts.batch(), from);
         self.cell[lane] = cell;
         self.begun[lane] = self.round;

@@ -4,20 +4,21 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::{ATTACHED, Label};
+use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label};
 use crate::chatter::rest_proof::RestProof;
-use crate::lockstep::lanes::{Impacts, LANES, Lanes, Mask, lanes_of, mask};
+use crate::lockstep::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Mask, lanes_of, mask};
+use crate::map::impact_map::ImpactMap;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
 
 /// An impact of a known orbit.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Target {
-    pub(super) label: Label,
-    pub(super) angle: f64,
-    pub(super) velocity: f64,
-    pub(super) square_radius: f64,
+struct Target {
+    label: Label,
+    angle: f64,
+    velocity: f64,
+    square_radius: f64,
 }
 
 /// The labels that the impacts of lanes decide, as `ImpactMap::settles` finds them.
@@ -31,13 +32,69 @@ pub(super) struct Verdicts {
     pub(super) settled: Lanes,
 }
 
-pub(super) struct Screen<'a> {
-    pub(super) impacts: &'a Impacts,
-    pub(super) targets: &'a [Target],
-    pub(super) proof: RestProof,
-    pub(super) peak: f64,
-    pub(super) restitution: f64,
-    pub(super) verdicts: &'a mut Verdicts,
+/// What decides the label of a start: the known orbits and the proof of rest.
+pub(super) struct Judge<'a> {
+    map: &'a ImpactMap,
+    known: &'a [KnownOrbit],
+    settings: BasinSettings,
+    targets: Vec<Target>,
+    proof: RestProof,
+    dispatch: Dispatch,
+}
+
+impl<'a> Judge<'a> {
+    pub(super) fn new(
+        map: &'a ImpactMap,
+        known: &'a [KnownOrbit],
+        settings: BasinSettings,
+        dispatch: Dispatch,
+    ) -> Self {
+        let targets = known.iter().zip(FIRST_ORBIT..).flat_map(|(known, label)| {
+            known.orbit().states.iter().map(move |state| Target {
+                label,
+                angle: state.phase().angle(),
+                velocity: state.velocity(),
+                square_radius: known.radius() * known.radius(),
+            })
+        });
+        Self {
+            map,
+            known,
+            settings,
+            targets: targets.collect(),
+            proof: RestProof::new(map.vibration(), map.restitution()),
+            dispatch,
+        }
+    }
+
+    pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
+        self.dispatch.run(Screen {
+            impacts,
+            targets: &self.targets,
+            proof: self.proof,
+            peak: self.map.vibration().peak_acceleration(),
+            restitution: self.map.restitution(),
+            verdicts,
+        });
+    }
+
+    /// The label of a lane that was found settled, if the doubt is resolved so.
+    #[inline(always)]
+    pub(super) fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
+        if verdicts.doubtful[lane] == 0 {
+            return Some(verdicts.labels[lane] as Label);
+        }
+        self.map.settles(batch.impact_state(lane), self.known, self.settings.policy)
+    }
+}
+
+struct Screen<'a> {
+    impacts: &'a Impacts,
+    targets: &'a [Target],
+    proof: RestProof,
+    peak: f64,
+    restitution: f64,
+    verdicts: &'a mut Verdicts,
 }
 
 impl WithSimd for Screen<'_> {

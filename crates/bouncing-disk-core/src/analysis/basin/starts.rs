@@ -2,8 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::lockstep::Lockstep;
-use super::screen::Verdicts;
+use super::screen::{Judge, Verdicts};
 use super::{Grid, Label};
 use crate::error::Error;
 use crate::lockstep::lanes::{Batch, LANES, Lanes};
@@ -131,7 +130,7 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
     /// The next start that is not decided at once: its cell, and its lane of [`Self::batch`]. The cells of the others get
     /// their labels.
     #[inline(always)]
-    pub(super) fn next(&mut self, lockstep: &Lockstep<'_>) -> Option<(Cell, usize)> {
+    pub(super) fn next(&mut self, judge: &Judge<'_>) -> Option<(Cell, usize)> {
         let lane = loop {
             if let Some(lane) = self.open.next() {
                 break lane;
@@ -140,7 +139,7 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
             if count == 0 {
                 return None;
             }
-            self.screen(lockstep, count);
+            self.screen(judge, count);
         };
         Some((self.batch_cells[lane], lane))
     }
@@ -175,11 +174,11 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
     }
 
     /// Labels those of the first `count` lanes of the batch that are decided at once, and opens the others.
-    fn screen(&mut self, lockstep: &Lockstep<'_>, count: usize) {
-        lockstep.screen(self.batch.impacts(), &mut self.verdicts);
+    fn screen(&mut self, judge: &Judge<'_>, count: usize) {
+        judge.screen(self.batch.impacts(), &mut self.verdicts);
         self.open = Lanes::first(count);
         for lane in self.verdicts.settled & self.open {
-            if let Some(label) = lockstep.label(&self.verdicts, &self.batch, lane) {
+            if let Some(label) = judge.label(&self.verdicts, &self.batch, lane) {
                 self.settle(self.batch_cells[lane], label);
                 self.open.remove(lane);
             }

@@ -229,7 +229,7 @@ fn place(batches: &mut [Batch], lane: usize, orbit: &Orbit) {
 /// Sets the impact from which a rebound without loss gives the launch of the orbit.
 #[inline]
 fn set_launch(batches: &mut [Batch], lane: usize, orbit: &Orbit) {
-    if let Some((phase, speed)) = orbit.launch() {
-        batches[lane / LANES].set_impact(lane % LANES, phase, -speed);
+    if let Some(launch) = orbit.launch() {
+        batches[lane / LANES].set_impact(lane % LANES, launch.phase(), -launch.relative_speed());
     }
 }

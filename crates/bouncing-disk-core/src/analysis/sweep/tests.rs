@@ -4,13 +4,14 @@ use core::f64::consts::TAU;
 
 use super::*;
 use crate::analysis::lyapunov::lyapunov_exponents;
-use crate::chatter::accumulation::ChatterPolicy;
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::launch::Launch;
 use crate::lockstep::lanes::InstructionSet;
 use crate::map::impact_map::ImpactMap;
 use crate::platform::vibration::Vibration;
-use crate::testing::golden_spread;
+use crate::testing::{PAPER_POLICY, golden_spread};
 
-const POLICIES: [ChatterPolicy; 2] = [ChatterPolicy::Complete, ChatterPolicy::Paper];
+const POLICIES: [ChatterPolicy; 2] = [ChatterPolicy::Complete, PAPER_POLICY];
 
 /// Orbits of both policies from impacts, launches, rest and the air, at forcings from rest to chaos; many chatter.
 fn orbits(count: u64) -> Vec<Orbit> {
@@ -26,8 +27,8 @@ fn orbits(count: u64) -> Vec<Orbit> {
         let phase = Phase::new(TAU * golden_spread(13 * k + k / 64))?;
         let speed = (1.0 + peak) * libm::exp10(1.0 - 6.0 * golden_spread(k / 3) * golden_spread(11 * k));
         match (k % 11, map.vibration().separation_phase()) {
-            (0, Some(leaves)) => map.orbit_from_launch(leaves, 0.0, policy),
-            (1, _) => map.orbit_from_launch(phase, speed, policy),
+            (0, Some(leaves)) => Launch::new(leaves, 0.0).map(|launch| map.orbit_from_launch(launch, policy)),
+            (1, _) => Launch::new(phase, speed).map(|launch| map.orbit_from_launch(launch, policy)),
             (2, _) => map.orbit_from_drop(phase, speed, 0.0, policy),
             _ => Ok(map.orbit(ImpactState::new(phase, -speed)?, policy)),
         }
@@ -95,7 +96,7 @@ fn the_impacts_are_those_of_the_orbit() {
     for orbit in orbits(500) {
         let (mut by_itself, mut swept) = (orbit.clone(), orbit);
         for _ in 0..50 {
-            let from = by_itself.launch().map(|(phase, _)| phase);
+            let from = by_itself.launch().map(|launch| launch.phase());
             let (impact, event) = (by_itself.advance(), advance(&mut swept));
             if let (Ok(Some(OrbitEvent::Impact(impact))), Ok(Some(SweepEvent::Impact(landing)))) =
                 (impact, event)
@@ -114,10 +115,7 @@ fn the_first_failure_is_reported() {
     let mut orbits = orbits(300);
     let fast = |speed: f64| {
         let map = ImpactMap::new(Vibration::new(2.0).expect("legal"), 0.5).expect("legal");
-        map.orbit(
-            ImpactState::new(Phase::new(1.0).expect("finite"), -speed).expect("legal"),
-            ChatterPolicy::Paper,
-        )
+        map.orbit(ImpactState::new(Phase::new(1.0).expect("finite"), -speed).expect("legal"), PAPER_POLICY)
     };
     orbits[200] = fast(1.0e12);
     orbits[100] = fast(2.0e12);

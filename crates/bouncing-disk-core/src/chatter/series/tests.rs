@@ -2,7 +2,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 use super::*;
-use crate::flight::first_impact::Launch;
+use crate::flight::launch::Launch;
 use crate::testing::spread;
 
 type High = FBig<HalfEven, 2>;

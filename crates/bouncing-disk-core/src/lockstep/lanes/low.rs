@@ -241,7 +241,7 @@ impl Low {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flight::first_impact::Launch;
+    use crate::flight::launch::Launch;
     use crate::lockstep::lanes::{Dispatch, InstructionSet};
     use crate::platform::vibration::Vibration;
     use crate::testing::launch_that_may_dip;

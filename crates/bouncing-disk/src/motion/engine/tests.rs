@@ -292,7 +292,7 @@ proptest! {
             InitialCondition::Flight { phase, gap, relative_velocity, .. } => {
                 system.map().orbit_from_drop(phase, gap, relative_velocity, policy)
             }
-            _ => system.map().orbit_from_launch(phase, speed, policy),
+            _ => bouncing_disk_core::Launch::new(phase, speed).map(|launch| system.map().orbit_from_launch(launch, policy)),
         }
         .unwrap();
         let mut separation = None;
@@ -357,7 +357,7 @@ fn chatter_sums_agree_with_explicit_bounces() {
     let system = lively();
     let phase = Phase::new(4.0).unwrap();
     let start = InitialCondition::Launch { phase, relative_speed: 0.05, angular_speed: 5.0 };
-    let totals = [ChatterPolicy::Complete, ChatterPolicy::Paper].map(|policy| {
+    let totals = [ChatterPolicy::Complete, crate::PAPER_CHATTER].map(|policy| {
         let mut totals = (0.0, 0.0, 0.0);
         for record in Engine::new(system, start, policy).unwrap() {
             let record = record.unwrap();
@@ -583,7 +583,7 @@ fn a_platform_that_falls_away_launches_the_disk_at_once() {
 fn motor_flights_close_and_the_angle_does_not_drift() {
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
     for amplitude in [1e-9, 1e-8, 1e-7] {
-        for policy in [ChatterPolicy::Complete, ChatterPolicy::Paper] {
+        for policy in [ChatterPolicy::Complete, crate::PAPER_CHATTER] {
             let system = testing::motor(amplitude, 0.0);
             let start = InitialCondition::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 0.0 };
             let mut angle = *Engine::new(system, start, policy).unwrap().state();

@@ -29,7 +29,7 @@ fn member(k: u32) -> TransientMember {
             intervals: if k % 41 == 40 { 2 } else { 3 + (k as usize % 11) * 20 },
             relaunch_perturbation: [1e-3, 1e-3, 0.0, 0.3][k as usize % 4],
             seed: u64::from(k),
-            policy: if k % 23 == 22 { ChatterPolicy::Paper } else { ChatterPolicy::Complete },
+            policy: if k % 23 == 22 { crate::PAPER_CHATTER } else { ChatterPolicy::Complete },
         },
     }
 }

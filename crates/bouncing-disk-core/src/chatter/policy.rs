@@ -1,0 +1,167 @@
+//! The two ways to end a chatter: its sum, and a cut.
+
+use core::f64::consts::{PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+
+/// What is done with the infinite sequence of impacts of a chattering disk.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum ChatterPolicy {
+    /// The sequence is summed in closed form and the disk attaches at the accumulation point; only where a bound
+    /// shows that the platform pulls back all the way there.
+    #[default]
+    Complete,
+    /// The disk is put on the platform as soon as a rule says so: what simulations that follow impact by impact must do, the
+    /// paper's among them (Sec. IV A).
+    Cut(ChatterCut),
+}
+
+/// When a disk that is followed impact by impact is put on the platform: as soon as an impact is slower than a smallest
+/// speed, or after so many consecutive flights that are shorter than a short one.
+///
+/// A cut that never applies leaves a chattering disk bouncing until its speed underflows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Parameters")]
+pub struct ChatterCut {
+    smallest_speed: f64,
+    short_flight: f64,
+    short_flights: u32,
+}
+
+/// A cut as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    smallest_speed: f64,
+    short_flight: f64,
+    short_flights: u32,
+}
+
+impl TryFrom<Parameters> for ChatterCut {
+    type Error = Error;
+
+    fn try_from(of: Parameters) -> Result<Self, Error> {
+        Self::new(of.smallest_speed, of.short_flight, of.short_flights)
+    }
+}
+
+const fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> Result<ChatterCut, Error> {
+    Err(Error::OutOfRange { field, value, legal })
+}
+
+impl ChatterCut {
+    /// A cut below the normalised impact speed `smallest_speed` = |w_A Gamma/(omega A)| >= 0, or after `short_flights` >= 1
+    /// consecutive flights shorter than `short_flight` >= 0 periods of the platform.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a number outside its range.
+    pub const fn new(smallest_speed: f64, short_flight: f64, short_flights: u32) -> Result<Self, Error> {
+        if !(smallest_speed >= 0.0 && smallest_speed <= f64::MAX) {
+            return out_of_range("smallest_speed", smallest_speed, "[0, inf), as |w|/pi");
+        }
+        if !(short_flight >= 0.0 && short_flight <= f64::MAX) {
+            return out_of_range("short_flight", short_flight, "[0, inf) periods");
+        }
+        if short_flights == 0 {
+            return out_of_range("short_flights", 0.0, "[1, 4294967295]");
+        }
+        Ok(Self { smallest_speed, short_flight, short_flights })
+    }
+
+    /// The normalised impact speed |w_A Gamma/(omega A)| below which the disk is put on the platform.
+    #[must_use]
+    pub const fn smallest_speed(&self) -> f64 {
+        self.smallest_speed
+    }
+
+    /// The duration, in periods, below which a flight is short.
+    #[must_use]
+    pub const fn short_flight(&self) -> f64 {
+        self.short_flight
+    }
+
+    /// How many consecutive short flights put the disk on the platform.
+    #[must_use]
+    pub const fn short_flights(&self) -> u32 {
+        self.short_flights
+    }
+
+    /// Whether a flight of this duration (rad), taken from two phases and a count of periods, is so near to a short one that
+    /// its rounding may decide. That rounding is far smaller, so that the flight is nearly never computed again.
+    #[inline(always)]
+    pub(crate) fn may_hang_on(&self, duration: f64) -> bool {
+        let threshold = self.short_flight * TAU;
+        (duration - threshold).abs() < 1.0e-12 * (1.0 + threshold)
+    }
+}
+
+/// Counts what a cut needs to remember.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub(crate) struct ShortFlightCount(u32);
+
+impl ShortFlightCount {
+    /// No short flight yet.
+    pub(crate) const fn new() -> Self {
+        Self(0)
+    }
+
+    /// Whether the cut puts the disk on the platform after an impact with this duration (rad) and speed.
+    #[inline]
+    pub(crate) fn attaches(&mut self, cut: &ChatterCut, duration: f64, impact_speed: f64) -> bool {
+        self.0 = if duration < cut.short_flight * TAU { self.0 + 1 } else { 0 };
+        let attaches = impact_speed < cut.smallest_speed * PI || self.0 >= cut.short_flights;
+        if attaches {
+            self.0 = 0;
+        }
+        attaches
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::PAPER_CUT;
+
+    /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
+    #[test]
+    fn the_cut_of_the_paper_is_where_the_paper_says() {
+        let (short, fast) = (1e-4 * TAU, 1e-6 * PI);
+        let below = |x: f64| f64::from_bits(x.to_bits() - 1);
+        let mut count = ShortFlightCount::new();
+        assert!(!count.attaches(&PAPER_CUT, 1.0, fast) && count.attaches(&PAPER_CUT, 1.0, below(fast)));
+        // The first of each twenty after anything else counts anew.
+        for _ in 0..2 {
+            assert!((1..20).all(|_| !count.attaches(&PAPER_CUT, below(short), 1.0)));
+            assert!(count.attaches(&PAPER_CUT, below(short), 1.0), "the twentieth");
+        }
+        assert!((1..20).all(|_| !count.attaches(&PAPER_CUT, below(short), 1.0)));
+        assert!(!count.attaches(&PAPER_CUT, short, 1.0), "not shorter");
+        assert!((1..20).all(|_| !count.attaches(&PAPER_CUT, below(short), 1.0)));
+        assert!(count.attaches(&PAPER_CUT, 1.0, 0.0), "too slow");
+        assert!(
+            (1..20).all(|_| !count.attaches(&PAPER_CUT, below(short), 1.0)),
+            "the cut starts the count again"
+        );
+    }
+
+    #[test]
+    fn a_cut_is_legal_however_it_is_made() {
+        for (speed, flight, flights) in
+            [(-1.0, 0.0, 1), (f64::NAN, 0.0, 1), (f64::INFINITY, 0.0, 1), (0.0, -1e-9, 1), (0.0, 0.0, 0)]
+        {
+            assert!(matches!(ChatterCut::new(speed, flight, flights), Err(Error::OutOfRange { .. })));
+        }
+        let text = serde_json::to_string(&PAPER_CUT).expect("serialisable");
+        assert_eq!(serde_json::from_str::<ChatterCut>(&text).expect("legal"), PAPER_CUT);
+        for text in [
+            r#"{"smallest_speed":-1.0,"short_flight":0.0,"short_flights":1}"#,
+            r#"{"smallest_speed":0.0,"short_flight":0.0,"short_flights":0}"#,
+        ] {
+            let refusal = serde_json::from_str::<ChatterCut>(text).expect_err("out of range").to_string();
+            assert!(refusal.contains("outside its legal range"), "{refusal}");
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The impact that ends a flight.
+
+use core::f64::consts::TAU;
+
+use serde::Serialize;
+
+use crate::platform::phase::Phase;
+
+/// The first impact after a launch.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Impact {
+    /// Whole periods of the duration of the flight.
+    pub periods: u64,
+    /// The rest of the duration in radians, in [0, 2 pi).
+    pub remainder: f64,
+    /// How often the phase passed 0 (mod 2 pi) during the flight: what a period counter advances by.
+    pub turns: u64,
+    /// Phase of the impact.
+    pub phase: Phase,
+    /// Relative axial velocity w_A (disk minus platform) just before the impact, <= 0, in units of g/omega.
+    pub velocity: f64,
+    /// Evaluations of the gap.
+    pub evaluations: u32,
+}
+
+impl Impact {
+    /// Duration of the flight in radians (rounded: the exact value is `periods` and `remainder`).
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.periods as f64 * TAU + self.remainder
+    }
+
+    /// The same, field by field: what a function has just written in parts is read whole only after a stall.
+    #[inline(always)]
+    pub(crate) const fn in_parts(self) -> Self {
+        let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
+        Self { periods, remainder, turns, phase: phase.in_parts(), velocity, evaluations }
+    }
+}

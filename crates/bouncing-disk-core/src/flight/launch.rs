@@ -1,0 +1,50 @@
+//! A launch of the disk from the platform.
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::platform::phase::Phase;
+
+/// A launch of the disk from the platform.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Launch {
+    phase: Phase,
+    relative_speed: f64,
+}
+
+impl Launch {
+    /// A launch at `phase` with `relative_speed` >= 0 (disk minus platform, in units of g/omega).
+    ///
+    /// Speed zero means "from rest on the platform": legal only where the platform falls away, P sin tau >= 1.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a negative or non-finite speed.
+    pub fn new(phase: Phase, relative_speed: f64) -> Result<Self, Error> {
+        if relative_speed >= 0.0 && relative_speed.is_finite() {
+            Ok(Self { phase, relative_speed })
+        } else {
+            Err(Error::OutOfRange {
+                field: "relative_speed",
+                value: relative_speed,
+                legal: "[0, inf) (units of g/omega)",
+            })
+        }
+    }
+
+    /// A launch with a speed that is known to be legal.
+    pub(crate) const fn known(phase: Phase, relative_speed: f64) -> Self {
+        Self { phase, relative_speed }
+    }
+
+    /// Launch phase.
+    #[must_use]
+    pub const fn phase(&self) -> Phase {
+        self.phase
+    }
+
+    /// Launch speed relative to the platform, in units of g/omega.
+    #[must_use]
+    pub const fn relative_speed(&self) -> f64 {
+        self.relative_speed
+    }
+}
