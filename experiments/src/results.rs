@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use bouncing_disk::core::numerics::digest::Digest;
 use serde::{Deserialize, Serialize};
 
 use crate::artifacts;
@@ -100,8 +101,7 @@ pub struct FigureDigests {
 
 /// A digest that does not depend on machine or compiler (FNV-1a, 64 bits).
 pub fn digest(bytes: &[u8]) -> String {
-    let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    format!("{:016x}", bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix))
+    Digest::of(bytes).to_string()
 }
 
 /// A figure as it lies in an output folder.

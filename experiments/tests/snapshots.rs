@@ -100,10 +100,7 @@ fn check(id: &str) {
 /// The 64-bit FNV-1a hash. Floats are written with the digits that give the same double back, so that the text has
 /// all their bits.
 fn digest(text: &str) -> String {
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{hash:016x}")
+    bouncing_disk::core::numerics::digest::Digest::of(text.as_bytes()).to_string()
 }
 
 /// Makes data short.

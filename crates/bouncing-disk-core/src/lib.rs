@@ -59,7 +59,10 @@ pub use flight::first_impact::MAX_FLIGHT_DURATION;
 pub use flight::impact::Impact;
 pub use flight::launch::Launch;
 pub use flight::reference;
+// How many flights are computed at once is no promise: the model, benches and tests use these.
+#[doc(hidden)]
 pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop};
+#[doc(hidden)]
 pub use lockstep::lanes::InstructionSet;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
 pub use numerics::elementary;

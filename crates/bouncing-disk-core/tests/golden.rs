@@ -12,6 +12,7 @@ use bouncing_disk_core::{
     OrbitBatch, OrbitEvent, Phase, Vibration, elementary,
 };
 
+use bouncing_disk_core::numerics::digest::Digest;
 use paper::PAPER_POLICY;
 
 /// Half: dividing a launch speed by it, to get the impact before, loses nothing.
@@ -20,29 +21,11 @@ const LAUNCHES: u64 = 100_000;
 const ORBIT_IMPACTS: usize = 100_000;
 const CELLS: usize = 200;
 
-/// FNV-1a, 64 bits, over the bytes of its items, lowest byte first.
-struct Digest(u64);
-
-impl Digest {
-    const fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    fn bytes(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    fn number(&mut self, number: f64) {
-        self.bytes(&number.to_bits().to_le_bytes());
-    }
-
-    fn state(&mut self, state: ImpactState) {
-        let phase = state.phase();
-        for number in [phase.angle(), phase.sin(), phase.cos(), state.velocity()] {
-            self.number(number);
-        }
+/// Adds the four numbers of an impact.
+fn add_state(digest: &mut Digest, state: ImpactState) {
+    let phase = state.phase();
+    for number in [phase.angle(), phase.sin(), phase.cos(), state.velocity()] {
+        digest.number(number);
     }
 }
 
@@ -156,15 +139,15 @@ fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
     for &(map, state) in launches {
         let Ok(impact) = map.step(state) else {
             flights.bytes(b"none");
-            impacts.state(state);
+            add_state(&mut impacts, state);
             continue;
         };
         flights.bytes(&impact.periods.to_le_bytes());
         flights.bytes(&impact.turns.to_le_bytes());
         flights.number(impact.remainder);
-        impacts.state(impact.into());
+        add_state(&mut impacts, impact.into());
     }
-    [flights.0, impacts.0]
+    [flights.value(), impacts.value()]
 }
 
 /// The digest of the same impacts, computed in lockstep.
@@ -173,8 +156,8 @@ fn together(launches: &[(ImpactMap, ImpactState)], set: InstructionSet) -> u64 {
     // A launch from rest where the platform does not fall away has no impact; it stays where it is.
     let _ = ensemble.step();
     let mut impacts = Digest::new();
-    (0..ensemble.len()).for_each(|k| impacts.state(ensemble.state(k).expect("exists")));
-    impacts.0
+    (0..ensemble.len()).for_each(|k| add_state(&mut impacts, ensemble.state(k).expect("exists")));
+    impacts.value()
 }
 
 /// What differs from the recorded digests, a line each.
@@ -245,7 +228,7 @@ fn orbits_with_chatter() {
             let start = ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal");
             for event in map.orbit(start, policy).take(1_000) {
                 match event.expect("no failure") {
-                    OrbitEvent::Impact(impact) => digest.state(impact.into()),
+                    OrbitEvent::Impact(impact) => add_state(&mut digest, impact.into()),
                     OrbitEvent::Attachment(stick) => {
                         digest.number(stick.accumulation.phase.angle());
                         digest.number(stick.last_speed);
@@ -255,7 +238,7 @@ fn orbits_with_chatter() {
             }
         }
     }
-    assert!(digest.0 == 0x4ef0_e214_d440_d948, "{:#018x}", digest.0);
+    assert!(digest.value() == 0x4ef0_e214_d440_d948, "{:#018x}", digest.value());
 }
 
 /// W3 of docs/performance.md on a smaller grid.
@@ -280,7 +263,7 @@ fn basin_labels() {
         .collect();
     let mut digest = Digest::new();
     digest.bytes(&one_by_one);
-    assert!(digest.0 == 0x7cd3_49bf_9543_3cca, "{:#018x}", digest.0);
+    assert!(digest.value() == 0x7cd3_49bf_9543_3cca, "{:#018x}", digest.value());
     let together = map.basins(grid, &known, settings, || ()).expect("no failure");
     assert!(together.labels() == one_by_one, "labels in lockstep differ from those one by one");
 }

@@ -517,3 +517,13 @@ fn a_launch_after_a_long_chatter_keeps_time() {
     let impact = map.vibration().first_impact(Launch::new(state.phase(), 1.0).unwrap()).unwrap();
     assert!(impact.duration() > 0.5, "{impact:?}");
 }
+
+#[test]
+fn what_is_printed_has_its_units() {
+    let map = map(0.45, 0.5);
+    assert_eq!(map.to_string(), "Gamma = 0.45 (P = 1.413716694115407), restitution 0.5");
+    let state = state(1.0, -2.5);
+    assert_eq!(format!("{state:.2}"), "impact at 1.00 rad, w = -2.50 g/omega");
+    assert_eq!(Multipliers::Real(0.5, -0.25).to_string(), "0.5, -0.25");
+    assert_eq!(format!("{:.1}", Multipliers::Complex { real: 0.0, imaginary: 1.0 }), "0.0 +- 1.0 i");
+}

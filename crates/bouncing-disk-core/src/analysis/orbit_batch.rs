@@ -33,6 +33,7 @@ impl OrbitBatch {
         Self::with_instruction_set(starts, InstructionSet::best())
     }
 
+    #[doc(hidden)]
     /// [`Self::new`] with other instructions; the states do not depend on them. What the processor does not have is
     /// replaced by the next lower set.
     pub fn with_instruction_set(

@@ -62,6 +62,20 @@ impl Multipliers {
     }
 }
 
+/// `m1, m2`, or `re +- im i`.
+impl core::fmt::Display for Multipliers {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let (first, between, second, last) = match self {
+            Self::Real(large, small) => (large, ", ", small, ""),
+            Self::Complex { real, imaginary } => (real, " +- ", imaginary, " i"),
+        };
+        core::fmt::Display::fmt(first, formatter)?;
+        formatter.write_str(between)?;
+        core::fmt::Display::fmt(second, formatter)?;
+        formatter.write_str(last)
+    }
+}
+
 /// A periodic orbit of the impact map.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PeriodicOrbit {

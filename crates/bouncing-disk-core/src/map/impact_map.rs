@@ -18,6 +18,17 @@ pub struct ImpactState {
     velocity: f64,
 }
 
+/// Phase and velocity; a precision given applies to both.
+impl core::fmt::Display for ImpactState {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.write_str("impact at ")?;
+        core::fmt::Display::fmt(&self.phase, formatter)?;
+        formatter.write_str(", w = ")?;
+        core::fmt::Display::fmt(&self.velocity, formatter)?;
+        formatter.write_str(" g/omega")
+    }
+}
+
 impl ImpactState {
     /// An impact at `phase` with relative axial velocity `velocity` <= 0 (disk minus platform, units of g/omega).
     ///
@@ -85,6 +96,13 @@ impl From<&Impact> for ImpactState {
 pub struct ImpactMap {
     vibration: Vibration,
     restitution: f64,
+}
+
+/// `Gamma = 0.45 (P = 1.4137), restitution 0.5`.
+impl core::fmt::Display for ImpactMap {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(formatter, "{}, restitution {}", self.vibration, self.restitution)
+    }
 }
 
 impl ImpactMap {

@@ -25,6 +25,14 @@ pub struct Phase {
     cos: f64,
 }
 
+/// The angle in radians.
+impl core::fmt::Display for Phase {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(&self.angle, formatter)?;
+        formatter.write_str(" rad")
+    }
+}
+
 impl Phase {
     /// The phase at `angle` radians; any finite angle is reduced to [0, 2 pi).
     ///

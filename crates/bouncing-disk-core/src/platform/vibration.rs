@@ -37,6 +37,13 @@ pub struct Vibration {
     pub(crate) crests: Crests,
 }
 
+/// Both forcing parameters: `Gamma = 0.45 (P = 1.4137)`.
+impl core::fmt::Display for Vibration {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(formatter, "Gamma = {} (P = {})", self.axial_forcing(), self.peak_acceleration)
+    }
+}
+
 impl Vibration {
     /// Largest peak acceleration accepted (units of g).
     pub const MAX_PEAK_ACCELERATION: f64 = 1.0e8;
