@@ -31,7 +31,7 @@ fn main() -> Result<(), Error> {
             column.iter().map(|impact| (impact.phase().cycles() * 1e6) as i64).collect();
         let shown: Vec<String> =
             phases.iter().take(4).map(|&phase| format!("{:.3}", phase as f64 / 1e6)).collect();
-        println!("Gamma {forcing:.4}: {:3} phases: {} ...", phases.len(), shown.join(", "));
+        println!("Gamma {forcing:.4}: {:3} impact phases, from {}", phases.len(), shown.join(", "));
     }
     Ok(())
 }
