@@ -10,7 +10,7 @@ fn main() -> Result<(), Error> {
     let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };
     for amplitude in [0.02, 0.05, 0.1, 0.2] {
         let hand = System::pizza_toss().with_platform(|hand| hand.amplitude = amplitude)?;
-        let orbit = multi_toss(&hand, start, MultiTossSettings::default())?;
+        let orbit = multi_toss(hand, start, MultiTossSettings::default())?;
         let answer = match orbit.class {
             OrbitClass::AtRest => "stays on the hand".to_owned(),
             OrbitClass::Chattering { platform_periods, .. } => {
