@@ -13,8 +13,8 @@ fn main() -> Result<(), Error> {
         let orbit = multi_toss(hand, start, MultiTossSettings::default())?;
         let answer = match orbit.class {
             OrbitClass::AtRest => "stays on the hand".to_owned(),
-            OrbitClass::Chattering { platform_periods, .. } => {
-                format!("chatters to rest, leaves again: {platform_periods} periods a cycle")
+            OrbitClass::Chattering { .. } => {
+                format!("bounces {} times, chatters to rest, leaves again", orbit.collisions.len())
             }
             OrbitClass::Periodic { period, .. } => format!("repeats after {period} impacts"),
             _ => "neither repeats nor rests".to_owned(),
