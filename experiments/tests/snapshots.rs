@@ -4,7 +4,7 @@
 //! snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels and integers are
 //! compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as statistics, which a reader can
 //! judge, and a digest of all their bits, which is compared exactly: the arithmetic is the same on every machine
-//! (`docs/numerics.md`). Fields named in [`VARYING`] come from a library whose last bits depend on the processor;
+//! (`docs/numerics/solver.md`). Fields named in [`VARYING`] come from a library whose last bits depend on the processor;
 //! they are compared by tolerance only.
 //!
 //! A new experiment is added to [`snapshots!`]; the tests fail as long as it is not there or has no snapshot.

@@ -1,7 +1,7 @@
 //! Digests of results, recorded before the work on speed: a faster solver may not change a bit of them.
 //!
 //! A digest that differs means that the arithmetic of a flight, or a decision in it, is another one. Such a change needs a
-//! reason of its own (docs/numerics.md); record the digests again only together with it.
+//! reason of its own (docs/numerics/solver.md, "Same bits everywhere"); record the digests again only together with it.
 
 mod paper;
 

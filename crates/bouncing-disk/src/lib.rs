@@ -69,3 +69,8 @@ pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, to
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct ReadmeExamples;
+
+/// Compiles and runs the programs of the tutorial.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/tutorial.md")]
+struct TutorialExamples;

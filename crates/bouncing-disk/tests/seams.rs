@@ -26,7 +26,7 @@ use launches::SplitMix;
 use seams::{angle, nearby, one_of, peak};
 use shards::Kind;
 
-/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics.md, section 6).
+/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics/solver.md, "Energy").
 const CLOSURE: f64 = 1.0e-13;
 
 /// Bound on how far two carried pairs are off their angles: 8e-13 rad are measured after 1e7 short flights (see `Phase`).
@@ -234,7 +234,7 @@ fn motions_from_seams_keep_time_and_energy() {
     assert!(tally.events > 1_000_000, "{tally:?}");
 }
 
-/// The engine's part of the campaign of docs/numerics.md, section 10.
+/// The engine's part of the campaign of docs/numerics/solver.md, "The attack on seams".
 ///
 /// `CAMPAIGN=folder cargo test --release -p bouncing-disk --test seams -- --ignored campaign`
 #[test]

@@ -4,7 +4,7 @@
 //! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
 //! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
 //! coefficients satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
-//! The coefficients are derived in docs/numerics.md.
+//! The coefficients are derived in docs/numerics/chattering.md.
 
 use core::f64::consts::TAU;
 
@@ -138,7 +138,8 @@ impl Vibration {
     }
 
     /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may hop for ever where
-    /// the pull is a rounding and its flights are too short to change the phase (docs/numerics.md, section 4).
+    /// the pull is a rounding and its flights are too short to change the phase
+    /// (docs/numerics/chattering.md, "No time left").
     #[cold]
     fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
         let (peak, angle) = (self.peak_acceleration(), phase.angle());

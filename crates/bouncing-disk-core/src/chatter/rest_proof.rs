@@ -3,7 +3,7 @@
 //! The pull on a disk on the platform is a = 1 - P sin tau. It grows from pi/2 to 3 pi/2 and shrinks from there to the
 //! separation, where it is zero (P > 1) or least. G, the integral of the pull from a phase to the next separation, is the
 //! impulse that is left to stop the disk. A launch is certain to end at rest if its speed is below a share of G that the
-//! next launch respects again (docs/numerics.md, section 9).
+//! next launch respects again (docs/numerics/chattering.md, "The proof of rest").
 
 use core::f64::consts::{PI, TAU};
 

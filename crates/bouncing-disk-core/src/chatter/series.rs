@@ -3,7 +3,7 @@
 //! The accumulation point stays where it is from impact to impact, and next to it the remaining time R has a
 //! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y = r^n.
 //! A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
-//! coefficients and the sums that do not cancel are derived in docs/numerics.md.
+//! coefficients and the sums that do not cancel are derived in docs/numerics/chattering.md.
 
 use crate::numerics::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
 use crate::platform::phase::Phase;

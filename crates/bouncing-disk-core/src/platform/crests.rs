@@ -29,8 +29,8 @@ impl Crests {
         }
     }
 
-    /// Whether a launch is certain not to be hit before the first crest, unless within half a radian (docs/numerics.md,
-    /// section 9): `disk_speed` is that at launch, `arc_speed` the one, negative, with
+    /// Whether a launch is certain not to be hit before the first crest, unless within half a radian
+    /// (docs/numerics/lockstep.md, "Tests that are certain when they answer"): `disk_speed` is that at launch, `arc_speed` the one, negative, with
     /// which it comes down to the height of the crests, not a number where it stays below.
     #[inline(always)]
     pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, arc_speed: f64) -> bool {

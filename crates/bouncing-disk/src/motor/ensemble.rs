@@ -297,7 +297,8 @@ mod tests {
     }
 
     /// Sizes from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a relaunch are then the
-    /// same every time, the more of them the smaller the perturbation (docs/numerics.md).
+    /// same every time, the more of them the smaller the perturbation
+    /// (docs/numerics/chattering.md, "Motors remember the rounding").
     #[test]
     fn steady_speed_does_not_depend_on_the_size_of_the_perturbation() {
         let system = motor(1e-8, 0.0);

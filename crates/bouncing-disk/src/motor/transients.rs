@@ -10,7 +10,7 @@ use crate::motor::transient::{Run, SpeedCurve, TransientSettings, transient};
 use crate::parameters::system::System;
 
 /// With fewer transients under way they are advanced one by one: what a step of the lanes costs however few of them are in use
-/// is as much as about this many single flights (docs/numerics.md, section 9).
+/// is as much as about this many single flights (docs/numerics/lockstep.md, "Motors in lockstep").
 const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.

@@ -9,7 +9,7 @@ use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purp
 use crate::map::impact_map::Orbit;
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
-/// them are in use, as much as about this many single flights (docs/numerics.md, section 9).
+/// them are in use, as much as about this many single flights (docs/numerics/lockstep.md, "Sweeps").
 const FEWEST: usize = 12;
 
 /// Batches of lanes of one thread.

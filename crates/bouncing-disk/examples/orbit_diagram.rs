@@ -1,0 +1,37 @@
+//! An orbit diagram: at which phases the disk lands, as the platform shakes harder (Fig. 6a of the paper).
+//!
+//!     cargo run --release -p bouncing-disk --example orbit_diagram
+#![allow(clippy::print_stdout, reason = "an example shows its result")]
+
+use std::collections::BTreeSet;
+
+use bouncing_disk::Error;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Vibration, orbit_diagram};
+
+fn main() -> Result<(), Error> {
+    let restitution = 0.5;
+    // Forcings around the one at which the period-1 orbit doubles, which is known in closed form.
+    let doubling = ImpactMap::first_doubling_forcing(restitution);
+    let forcings = [0.8, 0.95, 1.05, 1.10, 1.114, 1.14].map(|ratio| ratio * doubling);
+
+    let mut orbits = Vec::new();
+    for forcing in forcings {
+        let map = ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution)?;
+        let orbit = map.period_one(1).expect("it exists for Gamma >= (1 - r)/(1 + r)");
+        // A little off it: where it is unstable, this start leaves it at once.
+        let start = ImpactState::new(orbit.phase(), 1.01 * orbit.velocity())?;
+        orbits.push(map.orbit(start, ChatterPolicy::Complete));
+    }
+
+    // All of them at once: 512 impacts of each after 20,000 that are not looked at.
+    let columns = orbit_diagram(&orbits, 20_000, 512)?;
+    for (forcing, column) in forcings.iter().zip(&columns) {
+        // In periods, to six digits, each only once.
+        let phases: BTreeSet<i64> =
+            column.iter().map(|impact| (impact.phase().cycles() * 1e6) as i64).collect();
+        let shown: Vec<String> =
+            phases.iter().take(4).map(|&phase| format!("{:.3}", phase as f64 / 1e6)).collect();
+        println!("Gamma {forcing:.4}: {:3} impact phases, from {}", phases.len(), shown.join(", "));
+    }
+    Ok(())
+}

@@ -1,0 +1,346 @@
+//! What the pages written by hand say of the code is so: the tutorial's programs are the examples and print what it
+//! says, every file, item, link and section that is named exists, and the contents list every page.
+
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Pages that nobody writes by hand.
+const GENERATED: [&str; 3] = ["docs/results.md", "docs/errata.md", "docs/performance.md"];
+
+/// Lists of what was, with the names of its time.
+const RECORDS: [&str; 2] = ["CHANGELOG.md", "docs/mutants.md"];
+
+/// Files that a run writes, and that pages may name.
+const WRITTEN_BY_A_RUN: [&str; 3] = ["claims.json", "index.html", "sums.json"];
+
+/// Endings by which a word in code type is known as a file.
+const ENDINGS: [&str; 7] = [".rs", ".md", ".toml", ".json", ".png", ".csv", ".html"];
+
+/// What is wrong, all of it at once.
+#[derive(Default)]
+struct Faults(BTreeSet<String>);
+
+impl Faults {
+    fn check(&mut self, holds: bool, fault: impl FnOnce() -> String) {
+        if !holds {
+            self.0.insert(fault());
+        }
+    }
+
+    fn report(self) {
+        assert!(self.0.is_empty(), "{:#?}", self.0);
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// Folders of the repository; what else may lie in a working copy is nobody's business.
+const FOLDERS: [&str; 7] = [".cargo", ".ci", "crates", "data", "docs", "experiments", "xtask"];
+
+/// All files of these folders and beside them, as paths from its root.
+fn files() -> Vec<String> {
+    fn collect(folder: &Path, prefix: &str, found: &mut Vec<String>) {
+        for entry in fs::read_dir(folder).expect("readable") {
+            let entry = entry.expect("readable");
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let path = format!("{prefix}{name}");
+            if !entry.file_type().expect("known").is_dir() {
+                found.push(path);
+            } else if name != "target" && (!prefix.is_empty() || FOLDERS.contains(&name.as_str())) {
+                collect(&entry.path(), &format!("{path}/"), found);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    collect(&root(), "", &mut found);
+    found.sort_unstable();
+    found
+}
+
+fn pages() -> Vec<String> {
+    let mut pages = files();
+    pages.retain(|path| path.ends_with(".md"));
+    pages
+}
+
+/// Pages whose words about the code are checked.
+fn pages_by_hand() -> Vec<String> {
+    let mut pages = pages();
+    pages.retain(|page| {
+        (page == "README.md" || page.starts_with("docs/"))
+            && !GENERATED.contains(&page.as_str())
+            && !RECORDS.contains(&page.as_str())
+    });
+    pages
+}
+
+/// The lines of a page outside of code blocks.
+fn prose(text: &str) -> Vec<&str> {
+    let mut in_code = false;
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        if line.starts_with("```") {
+            in_code = !in_code;
+        } else if !in_code && !line.starts_with("    ") {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// The words in code type of a line.
+fn code_words(line: &str) -> impl Iterator<Item = &str> {
+    line.split('`').skip(1).step_by(2)
+}
+
+fn is_file_name(word: &str) -> bool {
+    let plain = word.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-./".contains(&byte));
+    let placeholder = word.split(['/', '.']).any(|part| part == "ID");
+    plain
+        && !placeholder
+        && !word.starts_with('.')
+        && !WRITTEN_BY_A_RUN.iter().any(|written| word.ends_with(written))
+        && (word.ends_with('/') && word.len() > 1 || ENDINGS.iter().any(|ending| word.ends_with(ending)))
+}
+
+/// The last part of a path of items, `c` of `a::b::c`.
+fn item_name(word: &str) -> Option<&str> {
+    let name = word.rsplit("::").next()?;
+    let legal = |part: &str| {
+        part.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_')
+            && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+    };
+    word.split("::").all(legal).then_some(name)
+}
+
+fn words_of_code(text: &str) -> impl Iterator<Item = &str> {
+    text.lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .flat_map(|line| line.split(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '_')))
+}
+
+/// The headings of a page as they are written.
+fn headings(text: &str) -> Vec<&str> {
+    prose(text)
+        .into_iter()
+        .filter(|line| line.starts_with('#'))
+        .map(|line| line.trim_start_matches('#').trim())
+        .collect()
+}
+
+/// The name by which a link finds a heading.
+fn anchor(heading: &str) -> String {
+    heading
+        .chars()
+        .filter_map(|letter| match letter {
+            ' ' => Some('-'),
+            '-' | '_' => Some(letter),
+            _ => letter.is_alphanumeric().then(|| letter.to_lowercase().next().unwrap_or(letter)),
+        })
+        .collect()
+}
+
+/// An example as the tutorial shows it: from its first `use` on.
+fn shown(example: &str) -> String {
+    let text = read(&format!("crates/bouncing-disk/examples/{example}.rs"));
+    let start = text.find("\nuse ").unwrap_or_else(|| panic!("{example} uses nothing"));
+    text[start + 1..].to_owned()
+}
+
+fn examples() -> Vec<String> {
+    let folder = "crates/bouncing-disk/examples/";
+    let name = |path: &String| Some(path.strip_prefix(folder)?.strip_suffix(".rs")?.to_owned());
+    files().iter().filter_map(name).collect()
+}
+
+/// The blocks of the tutorial in this language.
+fn blocks(language: &str) -> Vec<String> {
+    let tutorial = read("docs/tutorial.md");
+    let fence = format!("```{language}\n");
+    let body = |part: &str| part.split_once("```").map(|(body, _)| body.to_owned());
+    tutorial.split(&fence).skip(1).filter_map(body).collect()
+}
+
+#[test]
+fn the_programs_of_the_tutorial_are_the_examples() {
+    let blocks: BTreeSet<String> = blocks("rust").into_iter().collect();
+    let examples: BTreeSet<String> = examples().iter().map(|name| shown(name)).collect();
+    assert_eq!(blocks, examples);
+}
+
+/// `cargo test` builds the examples beside the tests; they run here, so that they run wherever the tests do.
+#[test]
+fn the_examples_print_what_the_tutorial_says() {
+    let this = std::env::current_exe().expect("known");
+    let folder = this.parent().and_then(Path::parent).expect("a target folder").join("examples");
+    for (program, printed) in blocks("rust").iter().zip(&blocks("text")) {
+        let name = examples().into_iter().find(|name| shown(name) == *program).expect("an example");
+        let path = folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+        let output = Command::new(&path)
+            .output()
+            .unwrap_or_else(|error| panic!("{path:?}: {error} (cargo test -p bouncing-disk builds it)"));
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let output = String::from_utf8_lossy(&output.stdout).replace("\r\n", "\n");
+        assert_eq!(output, *printed, "{name}");
+    }
+    assert_eq!(blocks("rust").len(), blocks("text").len());
+}
+
+#[test]
+fn every_file_that_a_page_names_exists() {
+    let mut faults = Faults::default();
+    let files = files();
+    let exists = |name: &str| {
+        let ending = format!("/{name}");
+        files.iter().any(|path| {
+            path == name
+                || path.ends_with(&ending)
+                || name.ends_with('/') && (path.starts_with(name) || path.contains(&ending))
+        })
+    };
+    for page in pages_by_hand() {
+        let text = read(&page);
+        for line in prose(&text) {
+            for name in code_words(line).filter(|word| is_file_name(word)) {
+                faults.check(exists(name), || format!("{page} names {name}"));
+            }
+        }
+    }
+    faults.report();
+}
+
+#[test]
+fn every_item_that_a_page_names_exists() {
+    let mut faults = Faults::default();
+    let sources: Vec<String> = files().into_iter().filter(|path| path.ends_with(".rs")).collect();
+    let sources: Vec<String> = sources.iter().map(|path| read(path)).collect();
+    let known: BTreeSet<&str> = sources.iter().flat_map(|text| words_of_code(text)).collect();
+    let crates: Vec<String> = ["crates", "."].iter().flat_map(|folder| folder_names(folder)).collect();
+    for page in pages_by_hand() {
+        let text = read(&page);
+        for line in prose(&text) {
+            for name in code_words(line).filter_map(item_name) {
+                let is_known = known.contains(name) || crates.iter().any(|known| known == name);
+                faults.check(is_known, || format!("{page} names {name}"));
+            }
+        }
+    }
+    faults.report();
+}
+
+fn folder_names(folder: &str) -> Vec<String> {
+    let entries = fs::read_dir(root().join(folder)).expect("readable");
+    entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect()
+}
+
+/// In the table "Where is what" an item stands beside the file that has it.
+#[test]
+fn the_map_of_the_code_is_right() {
+    let mut faults = Faults::default();
+    let text = read("docs/architecture.md");
+    let (_, table) = text.split_once("## Where is what").expect("a section");
+    let (table, _) = table.split_once("\n## ").expect("another one");
+    let roots = ["", "crates/bouncing-disk-core/src/", "crates/bouncing-disk/src/"];
+    let mut rows = 0;
+    for row in table.lines().filter(|line| line.starts_with("| ") && line.contains('`')) {
+        let mut text = String::new();
+        for file in code_words(row).filter(|word| is_file_name(word)) {
+            let found: Vec<_> = roots.iter().map(|root| format!("{root}{file}")).collect();
+            let found: Vec<_> = found.iter().filter(|path| root().join(path).is_file()).collect();
+            faults.check(found.len() == 1, || format!("{file} in {row}"));
+            text.extend(found.first().map(|path| read(path)));
+        }
+        let words: BTreeSet<&str> = words_of_code(&text).collect();
+        for name in code_words(row).filter_map(item_name) {
+            faults.check(words.contains(name), || format!("{name} in {row}"));
+        }
+        rows += 1;
+    }
+    assert!(rows > 40, "{rows}");
+    faults.report();
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let mut faults = Faults::default();
+    // The sources of a page that is made have the links of that page.
+    for page in pages().into_iter().filter(|page| !page.contains("/src/")) {
+        let text = read(&page);
+        let folder = root().join(&page).parent().expect("a folder").to_owned();
+        let prose = prose(&text).join("\n");
+        for link in prose.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.contains("://") || link.contains(char::is_whitespace) {
+                continue;
+            }
+            let (path, section) = link.split_once('#').unwrap_or((link, ""));
+            let target = if path.is_empty() { root().join(&page) } else { folder.join(path) };
+            faults.check(target.exists(), || format!("{page} links to {link}"));
+            if !section.is_empty() && target.extension() == Some(OsStr::new("md")) {
+                let text = fs::read_to_string(&target).expect("readable");
+                let marked = text.contains(&format!("id=\"{section}\""));
+                let found = headings(&text).iter().any(|heading| anchor(heading) == section);
+                faults.check(marked || found, || format!("{page} links to {link}"));
+            }
+        }
+    }
+    faults.report();
+}
+
+/// A comment names a page, or a page and then a section in quotation marks.
+#[test]
+fn every_page_and_section_that_the_code_names_exists() {
+    let mut faults = Faults::default();
+    let is_name = |letter: char| letter.is_ascii_alphanumeric() || "/_-.".contains(letter);
+    let mut named = 0;
+    for path in files() {
+        let is_text = [".rs", ".toml", ".md"].iter().any(|ending| path.ends_with(ending));
+        if !is_text || RECORDS.contains(&path.as_str()) {
+            continue;
+        }
+        let text = read(&path);
+        // A comment as one line: what is named may be broken in two.
+        let lines = text.lines().map(|line| line.trim_start().trim_start_matches(['/', '!', '#']).trim());
+        let text = lines.collect::<Vec<_>>().join(" ");
+        for (place, _) in text.match_indices("docs/") {
+            let rest = &text[place..];
+            let end = rest.find(|letter| !is_name(letter)).unwrap_or(rest.len());
+            let Some(end) = rest[..end].rfind(".md").map(|end| end + 3) else { continue };
+            let (page, rest) = rest.split_at(end);
+            let exists = root().join(page).is_file();
+            faults.check(exists, || format!("{path} names {page}"));
+            if !exists {
+                continue;
+            }
+            named += 1;
+            let rest = rest.trim_start_matches('`');
+            faults
+                .check(!rest.starts_with(", section "), || format!("{path}: sections of {page} have names"));
+            if let Some((section, _)) = rest.strip_prefix(", \"").and_then(|rest| rest.split_once('"')) {
+                let found = headings(&read(page)).contains(&section);
+                faults.check(found, || format!("{path}: {page} has no \"{section}\""));
+            }
+        }
+    }
+    assert!(named > 40, "{named}");
+    faults.report();
+}
+
+#[test]
+fn the_contents_list_every_page() {
+    let mut faults = Faults::default();
+    let contents = read("docs/SUMMARY.md");
+    for page in pages().iter().filter_map(|page| page.strip_prefix("docs/")) {
+        let listed = contents.contains(&format!("]({page})"));
+        faults.check(listed || page == "SUMMARY.md", || format!("docs/SUMMARY.md does not list {page}"));
+    }
+    faults.report();
+}
