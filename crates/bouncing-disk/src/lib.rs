@@ -59,6 +59,7 @@ pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
 pub use parameters::scales::Scales;
 pub use parameters::system::System;
+pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 pub use toss::period_one::period_one_rotary_speed;

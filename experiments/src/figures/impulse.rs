@@ -9,8 +9,9 @@
 //! The steady speed is ωΦ times the impulse-weighted median of cos(τ + θ), and for a cycle of few impacts the
 //! speed rises in straight lines that break where the rotor catches up with the stator at one of them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
+use bouncing_disk::LONG_FLIGHT;
 use bouncing_disk::core::elementary::cos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Orbit, OrbitEvent, Phase};
 
@@ -57,7 +58,7 @@ impl Impulses {
             match event {
                 OrbitEvent::Impact(impact) => {
                     flown += impact.duration();
-                    if impact.duration() > PI {
+                    if impact.duration() > LONG_FLIGHT {
                         impulses.landings.push(impact.phase.angle());
                     }
                     impulses

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    DiskParameters, ExponentialFit, InitialCondition, MultiTossSettings, OrbitClass, PlatformParameters,
-    RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble, multi_toss,
+    ChatteringCycle, DiskParameters, ExponentialFit, InitialCondition, MultiTossSettings, OrbitClass,
+    PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble, multi_toss,
 };
 use serde::{Deserialize, Serialize};
 
@@ -112,9 +112,7 @@ impl MotorCase {
         };
         let orbit = multi_toss(self.system()?, start, settings).map_err(ExperimentError::model)?;
         Ok(match orbit.class {
-            OrbitClass::Chattering { impacts_per_cycle, platform_periods, long_flights } => {
-                Cycle::Chattering { impacts: impacts_per_cycle, platform_periods, long_flights }
-            }
+            OrbitClass::Chattering(cycle) => Cycle::Chattering(cycle),
             OrbitClass::Periodic { period, platform_periods, .. } => {
                 Cycle::Periodic { impacts: period, platform_periods }
             }
@@ -152,7 +150,7 @@ pub(crate) fn core_error(error: bouncing_disk::core::Error) -> ExperimentError {
 #[serde(tag = "class", rename_all = "snake_case")]
 pub(crate) enum Cycle {
     /// From rest to rest.
-    Chattering { impacts: usize, platform_periods: u64, long_flights: usize },
+    Chattering(ChatteringCycle),
     /// Without rest.
     Periodic { impacts: usize, platform_periods: u64 },
     /// Nothing within the impacts examined.
@@ -165,9 +163,8 @@ impl Cycle {
     /// Its duration in periods of the platform.
     pub(crate) fn platform_periods(self) -> Option<u64> {
         match self {
-            Self::Chattering { platform_periods, .. } | Self::Periodic { platform_periods, .. } => {
-                Some(platform_periods)
-            }
+            Self::Chattering(cycle) => Some(cycle.platform_periods),
+            Self::Periodic { platform_periods, .. } => Some(platform_periods),
             Self::Longer | Self::AtRest => None,
         }
     }
@@ -175,7 +172,7 @@ impl Cycle {
     /// Its flights of more than half a period; of a periodic orbit its impacts.
     pub(crate) fn flights(self) -> Option<usize> {
         match self {
-            Self::Chattering { long_flights, .. } => Some(long_flights),
+            Self::Chattering(cycle) => Some(cycle.long_flights),
             Self::Periodic { impacts, .. } => Some(impacts),
             Self::Longer | Self::AtRest => None,
         }
@@ -184,7 +181,7 @@ impl Cycle {
     /// Its flights of more than half a period, if it is a chattering cycle.
     pub(crate) fn chattering_flights(self) -> Option<usize> {
         match self {
-            Self::Chattering { long_flights, .. } => Some(long_flights),
+            Self::Chattering(cycle) => Some(cycle.long_flights),
             Self::Periodic { .. } | Self::Longer | Self::AtRest => None,
         }
     }
@@ -196,15 +193,13 @@ impl Cycle {
 
     /// Whether every flight ends in a rest.
     pub(crate) fn is_one_flight(self) -> bool {
-        matches!(self, Self::Chattering { long_flights: 1, .. })
+        self.chattering_flights() == Some(1)
     }
 
     /// In words.
     pub(crate) fn words(self) -> String {
         match self {
-            Self::Chattering { impacts, platform_periods, long_flights } => {
-                format!("{long_flights} long flights, {impacts} impacts, {platform_periods} periods")
-            }
+            Self::Chattering(cycle) => cycle.to_string(),
             Self::Periodic { impacts, platform_periods } => {
                 format!("{impacts} impacts in {platform_periods} periods without rest")
             }
@@ -255,7 +250,7 @@ impl MotorStatistics {
             .map_err(ExperimentError::model)?;
         let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
         let between = duration * frequency_hz * runs.curves.len() as f64 / separations.max(1) as f64;
-        let locked = matches!(cycle, Cycle::Chattering { .. })
+        let locked = matches!(cycle, Cycle::Chattering(_))
             && cycle.flights().is_some_and(|flights| flights <= LOCKED_FLIGHTS)
             && cycle
                 .platform_periods()
@@ -389,6 +384,15 @@ mod tests {
     fn motor() -> MotorCase {
         let (table, section) = (paper::table_three().expect("reads"), paper::section_five().expect("reads"));
         MotorCase::default_of(&table, &section)
+    }
+
+    /// The cycle keeps its form in the figures' data.
+    #[test]
+    fn a_cycle_is_written_flat_and_read_back() {
+        let cycle = Cycle::Chattering(ChatteringCycle { impacts: 9, platform_periods: 11, long_flights: 2 });
+        let text = serde_json::to_string(&cycle).expect("writes");
+        assert_eq!(text, r#"{"class":"chattering","impacts":9,"platform_periods":11,"long_flights":2}"#);
+        assert_eq!(serde_json::from_str::<Cycle>(&text).expect("reads"), cycle);
     }
 
     #[test]

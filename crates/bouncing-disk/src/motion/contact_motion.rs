@@ -120,7 +120,7 @@ impl Contact {
     ///
     /// # Errors
     /// [`Error::SlipTooLong`].
-    #[inline]
+    #[inline(always)]
     pub(crate) fn next(
         &self,
         system: &DimensionlessSystem,
