@@ -9,11 +9,12 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, not_negative, room_for, within_limit};
-use crate::motor::fit::{ExponentialFit, largest, scale_for};
-use crate::motor::transient::{SpeedCurve, TransientSettings, mean};
+use crate::motor::fit::ExponentialFit;
+use crate::motor::transient::{SpeedCurve, TransientSettings};
 use crate::motor::transients::{TransientMember, transients};
 use crate::parameters::system::System;
 
@@ -41,16 +42,9 @@ impl Spread {
         if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
             finite("value of a spread", value)?;
         }
-        let n = values.len() as f64;
-        let mean = mean("mean", values)?;
-        let scale = scale_for(largest(values));
-        let squares = values.iter().fold(0.0, |sum, value| {
-            let difference = value * scale - mean * scale;
-            sum + difference * difference
-        });
-        let deviation = if n > 1.0 { (squares / (n - 1.0)).sqrt() / scale } else { 0.0 };
-        not_negative("deviation", deviation)?;
-        Ok(Self { mean, deviation, standard_error: deviation / n.sqrt() })
+        let mean = finite("mean", mean(values))?;
+        let deviation = not_negative("deviation", standard_deviation(values))?;
+        Ok(Self { mean, deviation, standard_error: deviation / (values.len() as f64).sqrt() })
     }
 }
 

@@ -4,6 +4,7 @@ use std::convert::Infallible;
 
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::numerics::minimum::golden_section;
+use bouncing_disk_core::numerics::statistics::summing_scale;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, not_negative, positive};
@@ -14,30 +15,6 @@ const GOLDEN_STEPS: u32 = 80;
 /// Trial time constants that bracket the best one: at least so many, and no two further apart than by this ratio's logarithm.
 const TRIALS: u32 = 60;
 const WIDEST_STEP: f64 = 1.0;
-
-/// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
-const ORDINARY: f64 = 1.0e120;
-
-/// The power of two by which numbers, the largest of which is this in size, are multiplied before their squares are added up. One
-/// for ordinary numbers, whose results keep their bits.
-pub(crate) const fn scale_for(largest: f64) -> f64 {
-    if largest > ORDINARY {
-        power_of_two(-600)
-    } else if largest > 0.0 && largest < 1.0 / ORDINARY {
-        power_of_two(700)
-    } else {
-        1.0
-    }
-}
-
-const fn power_of_two(exponent: i64) -> f64 {
-    f64::from_bits(((1_023 + exponent) as u64) << 52)
-}
-
-/// The largest of some numbers in size.
-pub(crate) fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -188,7 +165,7 @@ fn saturating_fit(
     shape: impl Fn(f64) -> f64,
 ) -> Result<(f64, f64, f64), Error> {
     check_curve(times, speeds)?;
-    let (time_scale, speed_scale) = (scale_for(times[times.len() - 1]), scale_for(largest(speeds)));
+    let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
     let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
     let (constant, steady, residual) =
         scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape);

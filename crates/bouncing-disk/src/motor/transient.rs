@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::numerics::statistics::mean;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, moderate_not_negative, positive, room_for};
 use crate::motion::phase_time::PhaseSpan;
-use crate::motor::fit::{ExponentialFit, check_curve, largest, scale_for};
+use crate::motor::fit::{ExponentialFit, check_curve};
 use crate::motor::rotor::{Rotor, RotorStep};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
@@ -144,18 +145,8 @@ impl SpeedCurve {
             return Err(Error::OutOfRange { field: "number of speeds", value: 0.0, legal: "[1, inf)" });
         }
         let count = ((points as f64 * fraction) as usize).clamp(1, points);
-        mean("mean speed", &self.speeds[points - count..])
+        finite("mean speed", mean(&self.speeds[points - count..]))
     }
-}
-
-/// The mean of at least one value; its sum does not overflow.
-///
-/// # Errors
-/// [`Error::OutOfRange`] for values that are not finite.
-pub(crate) fn mean(field: &'static str, values: &[f64]) -> Result<f64, Error> {
-    let scale = scale_for(largest(values));
-    let sum = values.iter().map(|value| value * scale).sum::<f64>();
-    finite(field, sum / values.len() as f64 / scale)
 }
 
 /// What is read of a [`SpeedCurve`].
