@@ -7,7 +7,7 @@ use bouncing_disk_core::numerics::statistics::mean;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, finite, moderate_not_negative, positive, room_for};
+use crate::error::{Error, check, finite, moderate_not_negative, positive, read_checked, room_for};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motor::fit::{ExponentialFit, check_curve};
 use crate::motor::rotor::{Rotor, RotorStep};
@@ -58,50 +58,32 @@ impl TransientSettings {
     fn check(&self) -> Result<(), Error> {
         positive("duration", self.duration)?;
         moderate_not_negative("relaunch_perturbation", self.relaunch_perturbation)?;
-        if (3..=MAX_INTERVALS).contains(&self.intervals) {
-            Ok(())
-        } else {
-            Err(Error::OutOfRange { field: "intervals", value: self.intervals as f64, legal: "[3, 1000000]" })
-        }
+        let intervals = self.intervals as f64;
+        check((3..=MAX_INTERVALS).contains(&self.intervals), "intervals", intervals, "[3, 1000000]")?;
+        Ok(())
     }
 
     /// Checks the settings of a motor with these units.
     pub(crate) fn check_for(&self, unit: &Scales) -> Result<(), Error> {
         self.check()?;
-        let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
         let radians = self.duration / unit.time;
         let (periods, interval) = (radians / TAU, radians / self.intervals as f64);
-        if periods > MAX_PERIODS {
-            return illegal("duration in periods of the platform", periods, "(0, 2^53]");
-        }
+        check(periods <= MAX_PERIODS, "duration in periods of the platform", periods, "(0, 2^53]")?;
         // The first holds in seconds, too, unless they are denormal.
-        if interval < SHORTEST_INTERVAL || self.duration / (self.intervals as f64) < f64::MIN_POSITIVE {
-            return illegal("duration of an interval", interval, "[1e-15, inf) (rad), at least 2.3e-308 s");
-        }
+        let lasts =
+            interval >= SHORTEST_INTERVAL && self.duration / self.intervals as f64 >= f64::MIN_POSITIVE;
+        check(lasts, "duration of an interval", interval, "[1e-15, inf) (rad), at least 2.3e-308 s")?;
         Ok(())
     }
 }
 
-/// What is read of [`TransientSettings`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedSettings {
+read_checked!(TransientSettings as UncheckedSettings {
     duration: f64,
     intervals: usize,
     relaunch_perturbation: f64,
     seed: u64,
     policy: ChatterPolicy,
-}
-
-impl TryFrom<UncheckedSettings> for TransientSettings {
-    type Error = Error;
-
-    fn try_from(unchecked: UncheckedSettings) -> Result<Self, Error> {
-        let UncheckedSettings { duration, intervals, relaunch_perturbation, seed, policy } = unchecked;
-        let settings = Self { duration, intervals, relaunch_perturbation, seed, policy };
-        settings.check().map(|()| settings)
-    }
-}
+});
 
 /// Angular speed against time, from rest.
 ///
@@ -120,6 +102,10 @@ pub struct SpeedCurve {
 }
 
 impl SpeedCurve {
+    fn check(&self) -> Result<(), Error> {
+        check_curve(&self.times, &self.speeds)
+    }
+
     /// The fit of alpha_ss (1 - exp(-t/t_c)).
     ///
     /// # Errors
@@ -134,40 +120,19 @@ impl SpeedCurve {
     /// [`Error::OutOfRange`] for another fraction, for a curve without speeds, and for speeds that are not finite.
     pub fn mean_over_last(&self, fraction: f64) -> Result<f64, Error> {
         let points = self.speeds.len();
-        if !(fraction > 0.0 && fraction <= 1.0) {
-            return Err(Error::OutOfRange {
-                field: "fraction of the curve",
-                value: fraction,
-                legal: "(0, 1]",
-            });
-        }
-        if points == 0 {
-            return Err(Error::OutOfRange { field: "number of speeds", value: 0.0, legal: "[1, inf)" });
-        }
+        check(fraction > 0.0 && fraction <= 1.0, "fraction of the curve", fraction, "(0, 1]")?;
+        check(points > 0, "number of speeds", 0.0, "[1, inf)")?;
         let count = ((points as f64 * fraction) as usize).clamp(1, points);
         finite("mean speed", mean(&self.speeds[points - count..]))
     }
 }
 
-/// What is read of a [`SpeedCurve`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedCurve {
+read_checked!(SpeedCurve as UncheckedCurve {
     times: Vec<f64>,
     speeds: Vec<f64>,
     impacts: u64,
     separations: u64,
-}
-
-impl TryFrom<UncheckedCurve> for SpeedCurve {
-    type Error = Error;
-
-    fn try_from(unchecked: UncheckedCurve) -> Result<Self, Error> {
-        let UncheckedCurve { times, speeds, impacts, separations } = unchecked;
-        check_curve(&times, &speeds)?;
-        Ok(Self { times, speeds, impacts, separations })
-    }
-}
+});
 
 /// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
 ///

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers};
 use serde::Serialize;
 
-use crate::error::{Error, room_for};
+use crate::error::{Error, check, not_negative, room_for};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -46,16 +46,10 @@ impl Default for MultiTossSettings {
 
 impl MultiTossSettings {
     fn check(&self) -> Result<(), Error> {
-        let refuse = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
-        if self.examined_impacts < 2 {
-            return refuse("examined_impacts", self.examined_impacts as f64, "at least 2");
-        }
-        if self.longest_period < 1 {
-            return refuse("longest_period", self.longest_period as f64, "at least 1");
-        }
-        if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
-            return refuse("tolerance", self.tolerance, "[0, inf)");
-        }
+        let (examined, period) = (self.examined_impacts, self.longest_period);
+        check(examined >= 2, "examined_impacts", examined as f64, "at least 2")?;
+        check(period >= 1, "longest_period", period as f64, "at least 1")?;
+        not_negative("tolerance", self.tolerance)?;
         Ok(())
     }
 }
