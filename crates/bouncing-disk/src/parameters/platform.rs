@@ -1,6 +1,6 @@
 //! The vibrating and twisting platform: the hand, or the stator.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::elementary::{atan2, sin_cos};
@@ -180,6 +180,12 @@ impl Platform {
     #[must_use]
     pub fn peak_angular_speed(&self) -> f64 {
         self.angular_frequency() * self.twist_amplitude()
+    }
+
+    /// Axial forcing parameter Gamma = A omega^2/(pi g) under a preload acceleration g (m/s^2, positive) (Sec. I).
+    #[must_use]
+    pub fn axial_forcing(&self, preload_acceleration: f64) -> f64 {
+        self.peak_acceleration() / (PI * preload_acceleration)
     }
 
     /// Largest vertical acceleration A omega^2 (m/s^2).
