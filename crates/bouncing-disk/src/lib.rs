@@ -27,6 +27,7 @@
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 
+mod display;
 mod error;
 mod motion;
 mod motor;

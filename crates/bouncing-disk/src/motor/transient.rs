@@ -333,7 +333,6 @@ mod tests {
         assert!((time - 3.0 * (2.0 * TAU - 0.5)).abs() < 1e-13, "{time}");
     }
 
-    /// The published values of the generator for the seed 1234567.
     #[test]
     fn the_mean_is_over_the_last_part_of_the_curve() {
         let curve = SpeedCurve {
@@ -485,23 +484,19 @@ mod tests {
     /// slides ever faster: neither keeps the speed of the last event.
     #[test]
     fn a_rotor_on_a_calm_stator_sticks_or_slides_on() {
-        let omega = std::f64::consts::TAU * 70e3;
         let motor = |friction: f64, load_acceleration: f64| {
-            let platform = crate::PlatformParameters {
-                amplitude: 2e-11,
-                twist_amplitude: 30e-6 / omega,
-                angular_frequency: omega,
-                phase_lag: 0.0,
-            };
-            let disk = crate::DiskParameters {
-                contact_radius: 1.25e-3,
-                gyration_radius: 6.3e-3,
-                friction,
-                restitution: 0.5,
-                preload_acceleration: 9.8,
-                load_acceleration,
-            };
-            System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
+            System::motor()
+                .with_platform(|stator| {
+                    stator.amplitude = 2e-11;
+                    stator.twist_amplitude = 30e-6 / stator.angular_frequency;
+                })
+                .and_then(|motor| {
+                    motor.with_disk(|rotor| {
+                        rotor.friction = friction;
+                        rotor.load_acceleration = load_acceleration;
+                    })
+                })
+                .expect("legal")
         };
         let settings = TransientSettings { duration: 1.0, intervals: 8, ..TransientSettings::default() };
         let phase = Phase::new(4.0).expect("finite");
@@ -510,7 +505,7 @@ mod tests {
         assert!(sticking.speeds[1..].iter().all(|speed| speed.abs() < 1e-8), "{:?}", sticking.speeds);
         // Friction takes mu g a_e/a_g^2 = 30.9 rad/s^2 from a load of 50.
         let sliding = transient(&motor(0.1, 50.0), phase, &settings).expect("no failure");
-        let slowing = 50.0 - 0.1 * 9.8 * 1.25e-3 / (6.3e-3 * 6.3e-3);
+        let slowing = 50.0 - motor(0.1, 50.0).disk().friction_acceleration();
         for (time, speed) in sliding.times.iter().zip(&sliding.speeds) {
             assert!((speed + slowing * time).abs() < 1e-3, "{time} {speed} {slowing}");
         }
