@@ -111,6 +111,12 @@ pub enum ExperimentError {
     },
 }
 
+impl From<bouncing_disk::Error> for ExperimentError {
+    fn from(error: bouncing_disk::Error) -> Self {
+        Self::model(error)
+    }
+}
+
 impl ExperimentError {
     /// Wraps an error of the model: `model.run(..).map_err(ExperimentError::model)?`.
     pub fn model(error: impl std::error::Error + Send + Sync + 'static) -> Self {

@@ -23,7 +23,6 @@ pub mod fig12;
 pub mod fig13;
 pub mod fig14;
 mod hand_path;
-mod impulse;
 mod motor_case;
 mod printed_inputs;
 mod regression;

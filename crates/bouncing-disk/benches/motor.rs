@@ -1,4 +1,4 @@
-//! W2: the motor of Table III (70 kHz, A = 1e-8 m, g = 9.8 m/s^2, restitution 0.5, friction 0.1). The time is that of one
+//! W2: the motor of Table III ([`System::motor`]). The time is that of one
 //! motor second.
 
 #[path = "../../bouncing-disk-core/benches/reference/mod.rs"]
@@ -8,9 +8,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::{
-    DiskParameters, PlatformParameters, System, TransientMember, TransientSettings, transient, transients,
-};
+use bouncing_disk::{System, TransientMember, TransientSettings, transient, transients};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Motor seconds of one transient.
@@ -20,27 +18,8 @@ const MEMBERS: u32 = 512;
 /// Motor seconds of each.
 const MEMBER_DURATION: u32 = 2;
 
-fn motor() -> System {
-    let angular_frequency = TAU * 70e3;
-    let platform = PlatformParameters {
-        amplitude: 1e-8,
-        twist_amplitude: 30.0 / angular_frequency,
-        angular_frequency,
-        phase_lag: 0.0,
-    };
-    let disk = DiskParameters {
-        contact_radius: 1.25e-3,
-        gyration_radius: 6.3e-3,
-        friction: 0.1,
-        restitution: 0.5,
-        preload_acceleration: 9.8,
-        load_acceleration: 0.0,
-    };
-    System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal system")
-}
-
 fn w2(c: &mut Criterion) {
-    let system = motor();
+    let system = System::motor();
     let phase = Phase::new(4.0).expect("finite");
     let settings =
         TransientSettings { duration: f64::from(DURATION), seed: 0, ..TransientSettings::default() };

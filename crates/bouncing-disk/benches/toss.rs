@@ -6,27 +6,11 @@ mod reference;
 
 use std::hint::black_box;
 
-use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, single_toss, toss_trajectory};
+use bouncing_disk::{InitialSpin, System, single_toss, toss_trajectory};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn toss(c: &mut Criterion) {
-    let stroke = Stroke {
-        stroke: 0.25,
-        amplitude_angle: 0.55,
-        contact_radius: 0.135,
-        angular_frequency: 15.0,
-        phase_lag: 0.0,
-    };
-    let dough = DiskParameters {
-        contact_radius: 0.135,
-        gyration_radius: 0.11,
-        friction: 0.6,
-        restitution: 0.5,
-        preload_acceleration: 9.8,
-        load_acceleration: 0.0,
-    };
-    let platform = Platform::from_stroke(stroke).expect("legal stroke");
-    let system = System::new(platform, dough.build().expect("legal dough")).expect("legal system");
+    let system = System::pizza_toss();
     let mut group = c.benchmark_group("toss");
     group.bench_function("performance", |bencher| {
         bencher.iter(|| single_toss(black_box(&system), InitialSpin::AbsoluteRest));

@@ -88,6 +88,29 @@ fn too_large(what: &'static str, count: usize, limit: usize) -> Error {
     bouncing_disk_core::Error::TooLarge { what, count: count as u64, limit: limit as u64 }.into()
 }
 
-fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
+/// The value, if it is legal; else the error that names field, value and the legal range in words.
+pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
     if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
 }
+
+/// Reads a type through its checks: a mirror of its fields, each of which must be there and no other, then `check` on the whole.
+macro_rules! read_checked {
+    ($type:ident as $mirror:ident { $($field:ident: $kind:ty),+ $(,)? }) => {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct $mirror {
+            $($field: $kind,)+
+        }
+
+        impl TryFrom<$mirror> for $type {
+            type Error = $crate::error::Error;
+
+            fn try_from(read: $mirror) -> Result<Self, Self::Error> {
+                let value = Self { $($field: read.$field,)+ };
+                value.check()?;
+                Ok(value)
+            }
+        }
+    };
+}
+pub(crate) use read_checked;

@@ -21,11 +21,13 @@
 //! | without units | [`DimensionlessSystem`], [`ForcingParameters`], [`Scales`] |
 //! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
-//! | the motor | [`transient`], [`transients`], [`ensemble()`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
+//! | the motor | [`transient`], [`transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
+//! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | vertical motion | [`mod@core`] |
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 
+mod display;
 mod error;
 mod motion;
 mod motor;
@@ -53,6 +55,11 @@ pub use motion::transition::{EventKind, ModeKind, Transition};
 pub use motor::brake::{Braking, friction_from_braking};
 pub use motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble};
 pub use motor::fit::{ExponentialFit, RampFit};
+pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
+pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
+pub use motor::statistics::{
+    EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
+};
 pub use motor::transient::{SpeedCurve, TransientSettings, transient};
 pub use motor::transients::{TransientMember, transients};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
@@ -60,6 +67,7 @@ pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
 pub use parameters::scales::Scales;
 pub use parameters::system::System;
+pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 pub use toss::period_one::period_one_rotary_speed;

@@ -3,6 +3,7 @@
 pub(crate) mod arc;
 pub(crate) mod chatter;
 pub(crate) mod contact;
+pub(crate) mod contact_motion;
 pub(crate) mod energy;
 pub(crate) mod engine;
 pub(crate) mod event;

@@ -1,9 +1,12 @@
-//! The motor: speed transients, ensembles of them, fits, and braking.
+//! The motor: speed transients, ensembles of them and their statistics, fits, the balance of the impulse, stall, and braking.
 
 pub(crate) mod brake;
 pub(crate) mod ensemble;
 pub(crate) mod fit;
+pub(crate) mod impulse;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
+pub(crate) mod stall;
+pub(crate) mod statistics;
 pub(crate) mod transient;
 pub(crate) mod transients;

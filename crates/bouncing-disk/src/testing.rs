@@ -6,28 +6,16 @@ use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
+use crate::System;
 use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
-use crate::{DiskParameters, PlatformParameters, System};
 
 /// The motor of Table III, at an `amplitude` in m and a load in rad/s^2.
 pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
-    let omega = TAU * 70e3;
-    let platform = PlatformParameters {
-        amplitude,
-        twist_amplitude: 30.0 / omega,
-        angular_frequency: omega,
-        phase_lag: 0.0,
-    };
-    let disk = DiskParameters {
-        contact_radius: 1.25e-3,
-        gyration_radius: 6.3e-3,
-        friction: 0.1,
-        restitution: 0.5,
-        preload_acceleration: 9.8,
-        load_acceleration,
-    };
-    System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
+    System::motor()
+        .with_platform(|stator| stator.amplitude = amplitude)
+        .and_then(|motor| motor.with_disk(|rotor| rotor.load_acceleration = load_acceleration))
+        .expect("legal")
 }
 
 /// Well spread numbers in [0, 1).

@@ -1,5 +1,6 @@
 //! Tosses: a single one, and many in a row.
 
+pub(crate) mod chattering_cycle;
 pub(crate) mod collisions;
 pub(crate) mod multiple;
 pub(crate) mod period_one;

@@ -2,13 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::{
-    DiskParameters, ExponentialFit, InitialCondition, MultiTossSettings, OrbitClass, PlatformParameters,
-    RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble, multi_toss,
+    ChatteringCycle, DiskParameters, EXAMINED_IMPACTS, OrbitClass, PlatformParameters, Spread, System,
+    TransientSettings, ensemble, unperturbed_orbit,
 };
+pub(crate) use bouncing_disk::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
 use serde::{Deserialize, Serialize};
 
+use super::samples::extent;
 use crate::claim::Claim;
 use crate::experiment::ExperimentError;
 use crate::paper::{SectionFive, TableThree};
@@ -18,23 +20,8 @@ use crate::paper::{SectionFive, TableThree};
 /// and 32 flights, and so how much hangs on it.
 pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
 
-/// A fit whose constant exceeds this share of the duration, or whose residual exceeds this share of its steady
-/// speed, has no meaning: the speed does not settle, or it is not told apart from zero.
-pub(crate) const LARGEST_CONSTANT: f64 = 0.5;
-/// See [`LARGEST_CONSTANT`].
-pub(crate) const LARGEST_RESIDUAL: f64 = 0.25;
-
-/// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
-/// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
-const LOCKED_WITHIN: f64 = 0.05;
-/// See [`LOCKED_WITHIN`].
-const LOCKED_FLIGHTS: usize = 8;
-
 /// Two speeds that differ by no more standard errors count as the same.
 const SAME_WITHIN: f64 = 3.0;
-
-/// Impacts in which an unperturbed cycle is looked for.
-const EXAMINED_IMPACTS: usize = 2_048;
 
 /// The inputs of Sec. V A, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,23 +61,24 @@ impl MotorCase {
             angular_frequency,
             phase_lag: self.phase_lag_rad,
         };
-        let disk = DiskParameters {
+        let build = || System::new(platform.build()?, self.rotor().build()?);
+        build().map_err(ExperimentError::model)
+    }
+
+    const fn rotor(&self) -> DiskParameters {
+        DiskParameters {
             contact_radius: self.contact_radius_m,
             gyration_radius: self.gyration_radius_m,
             friction: self.friction,
             restitution: self.restitution,
             preload_acceleration: self.preload_acceleration_m_per_s2,
             load_acceleration: 0.0,
-        };
-        let build = || System::new(platform.build()?, disk.build()?);
-        build().map_err(ExperimentError::model)
+        }
     }
 
-    /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time. The normal impulse per time
-    /// is the weight, whatever the orbit; so nothing accelerates the rotor more.
+    /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time.
     pub(crate) fn largest_acceleration(&self) -> f64 {
-        let radius = self.gyration_radius_m;
-        self.friction * self.contact_radius_m * self.preload_acceleration_m_per_s2 / (radius * radius)
+        self.rotor().friction_acceleration()
     }
 
     /// The time (s) in which that acceleration gives the stator's largest speed ωΦ.
@@ -100,27 +88,7 @@ impl MotorCase {
 
     /// The cycle of the motor that nothing perturbs.
     pub(crate) fn cycle(&self, policy: ChatterPolicy) -> Result<Cycle, ExperimentError> {
-        let settings = MultiTossSettings {
-            policy,
-            transient_impacts: 0,
-            examined_impacts: EXAMINED_IMPACTS,
-            ..MultiTossSettings::default()
-        };
-        let start = InitialCondition::Contact {
-            phase: Phase::new(1.5 * std::f64::consts::PI).map_err(core_error)?,
-            angular_speed: 0.0,
-        };
-        let orbit = multi_toss(self.system()?, start, settings).map_err(ExperimentError::model)?;
-        Ok(match orbit.class {
-            OrbitClass::Chattering { impacts_per_cycle, platform_periods, long_flights } => {
-                Cycle::Chattering { impacts: impacts_per_cycle, platform_periods, long_flights }
-            }
-            OrbitClass::Periodic { period, platform_periods, .. } => {
-                Cycle::Periodic { impacts: period, platform_periods }
-            }
-            OrbitClass::AtRest => Cycle::AtRest,
-            _ => Cycle::Longer,
-        })
+        Ok(Cycle::from(unperturbed_orbit(&self.system()?, policy)?))
     }
 
     /// Transients of `members` motors over `rises` rise times, and their statistics.
@@ -136,9 +104,11 @@ impl MotorCase {
             relaunch_perturbation,
             ..TransientSettings::default()
         };
-        let runs = ensemble(&self.system()?, &settings, members).map_err(ExperimentError::model)?;
-        let cycle = self.cycle(settings.policy)?;
-        MotorStatistics::of(&runs, cycle, self.frequency_hz, settings.duration)
+        let motor = self.system()?;
+        let runs = ensemble(&motor, &settings, members)?;
+        let statistics =
+            bouncing_disk::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
+        Ok(statistics.into())
     }
 }
 
@@ -152,7 +122,7 @@ pub(crate) fn core_error(error: bouncing_disk::core::Error) -> ExperimentError {
 #[serde(tag = "class", rename_all = "snake_case")]
 pub(crate) enum Cycle {
     /// From rest to rest.
-    Chattering { impacts: usize, platform_periods: u64, long_flights: usize },
+    Chattering(ChatteringCycle),
     /// Without rest.
     Periodic { impacts: usize, platform_periods: u64 },
     /// Nothing within the impacts examined.
@@ -161,13 +131,25 @@ pub(crate) enum Cycle {
     AtRest,
 }
 
+impl From<OrbitClass> for Cycle {
+    fn from(orbit: OrbitClass) -> Self {
+        match orbit {
+            OrbitClass::Chattering(cycle) => Self::Chattering(cycle),
+            OrbitClass::Periodic { period, platform_periods, .. } => {
+                Self::Periodic { impacts: period, platform_periods }
+            }
+            OrbitClass::AtRest => Self::AtRest,
+            _ => Self::Longer,
+        }
+    }
+}
+
 impl Cycle {
     /// Its duration in periods of the platform.
     pub(crate) fn platform_periods(self) -> Option<u64> {
         match self {
-            Self::Chattering { platform_periods, .. } | Self::Periodic { platform_periods, .. } => {
-                Some(platform_periods)
-            }
+            Self::Chattering(cycle) => Some(cycle.platform_periods),
+            Self::Periodic { platform_periods, .. } => Some(platform_periods),
             Self::Longer | Self::AtRest => None,
         }
     }
@@ -175,7 +157,7 @@ impl Cycle {
     /// Its flights of more than half a period; of a periodic orbit its impacts.
     pub(crate) fn flights(self) -> Option<usize> {
         match self {
-            Self::Chattering { long_flights, .. } => Some(long_flights),
+            Self::Chattering(cycle) => Some(cycle.long_flights),
             Self::Periodic { impacts, .. } => Some(impacts),
             Self::Longer | Self::AtRest => None,
         }
@@ -184,7 +166,7 @@ impl Cycle {
     /// Its flights of more than half a period, if it is a chattering cycle.
     pub(crate) fn chattering_flights(self) -> Option<usize> {
         match self {
-            Self::Chattering { long_flights, .. } => Some(long_flights),
+            Self::Chattering(cycle) => Some(cycle.long_flights),
             Self::Periodic { .. } | Self::Longer | Self::AtRest => None,
         }
     }
@@ -196,15 +178,13 @@ impl Cycle {
 
     /// Whether every flight ends in a rest.
     pub(crate) fn is_one_flight(self) -> bool {
-        matches!(self, Self::Chattering { long_flights: 1, .. })
+        self.chattering_flights() == Some(1)
     }
 
     /// In words.
     pub(crate) fn words(self) -> String {
         match self {
-            Self::Chattering { impacts, platform_periods, long_flights } => {
-                format!("{long_flights} long flights, {impacts} impacts, {platform_periods} periods")
-            }
+            Self::Chattering(cycle) => cycle.to_string(),
             Self::Periodic { impacts, platform_periods } => {
                 format!("{impacts} impacts in {platform_periods} periods without rest")
             }
@@ -214,17 +194,7 @@ impl Cycle {
     }
 }
 
-/// Which curve a stall acceleration was read from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Form {
-    /// α̇_ss(1 − e^(−t/t_c)): stall acceleration α̇_ss/t_c.
-    Exponential,
-    /// α̇_ss min(t/t_r, 1): stall acceleration α̇_ss/t_r. Only for a low-period cycle that survives the perturbation.
-    Ramp,
-}
-
-/// Ensemble statistics of one motor.
+/// The model's [`MotorStatistics`](bouncing_disk::MotorStatistics) as data, units in the names.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MotorStatistics {
     /// From the fits; where less than half of the members can be fitted, the mean over the last half of each.
@@ -240,62 +210,16 @@ pub(crate) struct MotorStatistics {
     pub(crate) locked: bool,
 }
 
-impl MotorStatistics {
-    fn of(
-        runs: &TransientEnsemble,
-        cycle: Cycle,
-        frequency_hz: f64,
-        duration: f64,
-    ) -> Result<Self, ExperimentError> {
-        let ramps = runs
-            .curves
-            .iter()
-            .map(|curve| RampFit::new(&curve.times, &curve.speeds))
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(ExperimentError::model)?;
-        let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
-        let between = duration * frequency_hz * runs.curves.len() as f64 / separations.max(1) as f64;
-        let locked = matches!(cycle, Cycle::Chattering { .. })
-            && cycle.flights().is_some_and(|flights| flights <= LOCKED_FLIGHTS)
-            && cycle
-                .platform_periods()
-                .is_some_and(|periods| (between / periods as f64 - 1.0).abs() <= LOCKED_WITHIN);
-        let squares =
-            |residuals: &mut dyn Iterator<Item = f64>| residuals.map(|value| value * value).sum::<f64>();
-        let exponential = squares(&mut runs.fits.iter().map(|fit: &ExponentialFit| fit.residual));
-        let ramp = squares(&mut ramps.iter().map(|fit| fit.residual));
-        let form = if locked && ramp < exponential { Form::Ramp } else { Form::Exponential };
-        let fits: Vec<(f64, f64, f64)> = match form {
-            Form::Exponential => {
-                runs.fits.iter().map(|fit| (fit.steady_speed, fit.time_constant, fit.residual)).collect()
-            }
-            Form::Ramp => ramps.iter().map(|fit| (fit.steady_speed, fit.rise_time, fit.residual)).collect(),
-        };
-        let fitted: Vec<_> = fits
-            .iter()
-            .filter(|(steady, constant, residual)| {
-                *constant < LARGEST_CONSTANT * duration && *residual < LARGEST_RESIDUAL * steady.abs()
-            })
-            .collect();
-        let enough = 2 * fitted.len() >= fits.len();
-        let steady: Vec<f64> = if enough {
-            fitted.iter().map(|fit| fit.0).collect()
-        } else {
-            let means = runs.curves.iter().map(|curve| curve.mean_over_last(0.5));
-            means.collect::<Result<_, _>>().map_err(ExperimentError::model)?
-        };
-        let stall: Vec<f64> = fitted.iter().map(|fit| fit.0 / fit.1).collect();
-        Ok(Self {
-            steady_speed_rad_per_s: Spread::of(&steady).map_err(ExperimentError::model)?,
-            stall_acceleration_rad_per_s2: enough
-                .then(|| Spread::of(&stall))
-                .transpose()
-                .map_err(ExperimentError::model)?,
-            form,
-            unfitted: fits.len() - fitted.len(),
-            cycle,
-            locked,
-        })
+impl From<bouncing_disk::MotorStatistics> for MotorStatistics {
+    fn from(statistics: bouncing_disk::MotorStatistics) -> Self {
+        Self {
+            steady_speed_rad_per_s: statistics.steady_speed,
+            stall_acceleration_rad_per_s2: statistics.stall_acceleration,
+            form: statistics.form,
+            unfitted: statistics.unfitted,
+            cycle: statistics.orbit.into(),
+            locked: statistics.locked,
+        }
     }
 }
 
@@ -374,9 +298,7 @@ pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[Perturbation
 
 /// Largest minus smallest over the mean of all values.
 pub(crate) fn relative_range(values: &[f64]) -> f64 {
-    let (low, high) = values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
+    let (low, high) = extent(values.iter().copied());
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     (high - low) / mean.abs()
 }
@@ -384,34 +306,13 @@ pub(crate) fn relative_range(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper;
 
-    fn motor() -> MotorCase {
-        let (table, section) = (paper::table_three().expect("reads"), paper::section_five().expect("reads"));
-        MotorCase::default_of(&table, &section)
-    }
-
+    /// The cycle keeps its form in the figures' data.
     #[test]
-    fn a_gentle_stator_never_throws_the_rotor() {
-        let case = MotorCase { amplitude_m: 4e-11, ..motor() };
-        assert!(case.system().expect("legal").axial_forcing() < std::f64::consts::FRAC_1_PI);
-        assert_eq!(case.cycle(ChatterPolicy::Complete).expect("no failure"), Cycle::AtRest);
-    }
-
-    #[test]
-    fn a_plastic_rotor_repeats_a_ramp_and_is_fitted_by_one() {
-        let case = MotorCase { restitution: 0.0, ..motor() };
-        let statistics = case.statistics(6.0, 2, 1e-3).expect("no failure");
-        assert!(statistics.locked && statistics.form == Form::Ramp, "{statistics:?}");
-        let stall = statistics.stall_acceleration_rad_per_s2.expect("fitted").mean;
-        assert!((stall / case.largest_acceleration() - 1.0).abs() < 0.02, "{stall}");
-    }
-
-    #[test]
-    fn a_quarter_of_a_turn_leaves_nothing_to_fit() {
-        let case = MotorCase { phase_lag_rad: std::f64::consts::FRAC_PI_2, ..motor() };
-        let statistics = case.statistics(6.0, 4, 1e-3).expect("no failure");
-        assert!(statistics.steady_speed_rad_per_s.mean.abs() < 0.4 * case.peak_angular_speed_rad_per_s);
-        assert_eq!(statistics.stall_acceleration_rad_per_s2.is_none(), statistics.unfitted > 2);
+    fn a_cycle_is_written_flat_and_read_back() {
+        let cycle = Cycle::Chattering(ChatteringCycle { impacts: 9, platform_periods: 11, long_flights: 2 });
+        let text = serde_json::to_string(&cycle).expect("writes");
+        assert_eq!(text, r#"{"class":"chattering","impacts":9,"platform_periods":11,"long_flights":2}"#);
+        assert_eq!(serde_json::from_str::<Cycle>(&text).expect("reads"), cycle);
     }
 }

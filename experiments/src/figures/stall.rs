@@ -1,22 +1,12 @@
 //! The load at which a motor stalls.
 //!
-//! A constant load torque T takes T/(m a_g²) of angular speed per time. The *stall load* is the T/(m a_g²) at which the rotor's mean speed over a long run is
-//! zero. The vertical motion knows no load, so all loads share one seeded list of collisions and segments of contact, along which the speed is carried and the load
-//! bisected. Friction never holds the rotor meanwhile: at speed zero it would have to follow the stator, whose angular acceleration is some thousand
-//! times what friction can give ([`Stall::hold_share`] is the inverse), so that there is no range of loads that all stall it.
-//!
-//! Beside it stands what the balance of the normal impulse says ([`super::impulse`]): a rotor held at rest gets the mean acceleration
-//! (μ a_e g/a_g²) S(0), and a load of this size stalls it as long as its speed strays little from zero.
+//! The model's [`ImpulseTrain`] finds it; beside it stands what the balance of the normal impulse says ([`NormalImpulses`]).
 
-use bouncing_disk::core::elementary::cos;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent};
-use bouncing_disk::{ExponentialFit, Spread};
+use bouncing_disk::{ExponentialFit, ImpulseTrain, NormalImpulses, Spread};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::impulse::Impulses;
-use super::motor_case::{MotorCase, core_error};
-use super::synthetic::Noise;
+use super::motor_case::MotorCase;
 use crate::experiment::ExperimentError;
 
 /// Duration of a run in rise times ωΦ a_g²/(μ a_e g): a dozen relaxation times of the speed, so that where it starts does not matter.
@@ -24,12 +14,6 @@ const RISES: f64 = 12.0;
 
 /// Duration of the transients for α̇_ss/t_c, as in Fig. 11.
 const TRANSIENT_RISES: f64 = 6.0;
-
-/// Halvings of the range of loads, from minus to plus the most that friction can give: to 2e-6 of it, far below the statistical error.
-const HALVINGS: u32 = 20;
-
-/// Parts into which a segment of contact is divided.
-const CONTACT_PARTS: u32 = 16;
 
 /// Points of the transient that the balance of the impulse predicts.
 const PREDICTED_POINTS: u32 = 240;
@@ -80,9 +64,9 @@ impl Stall {
         let shares = (0..members)
             .into_par_iter()
             .map(|member| {
-                let noise = Noise::new(SEED + member as u64);
-                let kicks = kicks(map, case.phase_lag_rad, RISES / grip, relaunch_perturbation, noise)?;
-                Ok(stall_share(&kicks, grip))
+                let seed = SEED + member as u64;
+                let train = ImpulseTrain::new(without_units, RISES / grip, relaunch_perturbation, seed)?;
+                Ok(train.stall_share())
             })
             .collect::<Vec<Result<f64, ExperimentError>>>();
         let orbits = (0..members)
@@ -90,11 +74,11 @@ impl Stall {
             .map(|member| {
                 // A slightly smaller perturbation is another orbit.
                 let smaller = 1.0 - 0.5 * member as f64 / members as f64;
-                let impulses = Impulses::of(map, BALANCED_IMPACTS, smaller * relaunch_perturbation)?;
-                let levels = impulses.levels(case.phase_lag_rad);
-                let (times, speeds) = levels.transient(TRANSIENT_RISES, PREDICTED_POINTS);
-                let fit = ExponentialFit::new(&times, &speeds).map_err(ExperimentError::model)?;
-                Ok((levels.net_share(0.0), fit.stall_acceleration()))
+                let impulses = NormalImpulses::of(map, BALANCED_IMPACTS, smaller * relaunch_perturbation)?;
+                let balance = impulses.balance(case.phase_lag_rad);
+                let (times, speeds) = balance.transient(TRANSIENT_RISES, PREDICTED_POINTS);
+                let fit = ExponentialFit::new(&times, &speeds)?;
+                Ok((balance.net_share(0.0), fit.stall_acceleration()))
             })
             .collect::<Vec<Result<(f64, f64), ExperimentError>>>();
         let orbits = orbits.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -163,109 +147,17 @@ pub(crate) fn net_share_at_rest(
     relaunch_perturbation: f64,
 ) -> Result<f64, ExperimentError> {
     let system = case.system()?;
-    let impulses = Impulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
-    Ok(impulses.levels(case.phase_lag_rad).net_share(0.0))
-}
-
-/// A time without friction and the normal impulse at its end.
-#[derive(Clone, Copy, Debug)]
-struct Kick {
-    /// Radians since the kick before.
-    duration: f64,
-    /// The stator's angular speed in units of ωΦ.
-    stator: f64,
-    /// In units of m g/ω.
-    impulse: f64,
-}
-
-/// The normal impulses of at least `radians` of a motor from a separation on, in their order. Every separation gets a relative speed drawn evenly below
-/// `perturbation` (g/ω).
-fn kicks(
-    map: &ImpactMap,
-    phase_lag: f64,
-    radians: f64,
-    perturbation: f64,
-    mut noise: Noise,
-) -> Result<Vec<Kick>, ExperimentError> {
-    let mut kicks = Vec::new();
-    let Some(phase) = map.vibration().separation_phase() else { return Ok(kicks) };
-    let first = perturbation * noise.even();
-    let mut orbit =
-        map.orbit_from_launch(Launch::new(phase, first).map_err(core_error)?, ChatterPolicy::Complete);
-    let (mut elapsed, mut last) = (0.0, phase.angle());
-    while elapsed < radians {
-        let Some(event) = orbit.advance().map_err(core_error)? else { break };
-        match event {
-            OrbitEvent::Impact(impact) => {
-                last = impact.phase.angle();
-                elapsed += impact.duration();
-                kicks.push(Kick {
-                    duration: impact.duration(),
-                    stator: cos(last + phase_lag),
-                    impulse: -(1.0 + map.restitution()) * impact.velocity,
-                });
-            }
-            OrbitEvent::Attachment(rest) => {
-                let Some((leaves, turns)) = rest.separation else { break };
-                let (at, from) = (rest.accumulation, rest.accumulation.phase.angle());
-                // Impulse is change of velocity plus weight times time.
-                let peak = map.vibration().peak_acceleration();
-                let impulse = at.duration - rest.last_speed + peak * (cos(from) - cos(last));
-                kicks.push(Kick { duration: at.duration, stator: cos(from + phase_lag), impulse });
-                let until = leaves.angle() + std::f64::consts::TAU * turns as f64;
-                let step = (until - from) / f64::from(CONTACT_PARTS);
-                kicks.extend((0..CONTACT_PARTS).map(|part| {
-                    let (start, end) = (from + step * f64::from(part), from + step * f64::from(part + 1));
-                    Kick {
-                        duration: step,
-                        stator: cos(0.5 * (start + end) + phase_lag),
-                        impulse: step + peak * (cos(end) - cos(start)),
-                    }
-                }));
-                elapsed += at.duration + (until - from);
-                last = leaves.angle();
-                orbit.perturb_launch(perturbation * noise.even()).map_err(core_error)?;
-            }
-            _ => {}
-        }
-    }
-    Ok(kicks)
-}
-
-/// The mean speed in units of ωΦ, from rest, against a load of `share` times the most that friction can give on average. `grip` is the change of
-/// speed, in these units, by an impulse of 1.
-fn mean_speed(kicks: &[Kick], grip: f64, share: f64) -> f64 {
-    let (mut speed, mut turned, mut elapsed) = (0.0, 0.0, 0.0);
-    for kick in kicks {
-        let lost = share * grip * kick.duration;
-        turned += kick.duration * (speed - 0.5 * lost);
-        elapsed += kick.duration;
-        speed -= lost;
-        let most = grip * kick.impulse;
-        speed -= (speed - kick.stator).clamp(-most, most);
-    }
-    turned / elapsed
-}
-
-/// The load, as a share of the most that friction can give, at which the mean speed changes its sign.
-fn stall_share(kicks: &[Kick], grip: f64) -> f64 {
-    let (mut low, mut high) = (-1.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if mean_speed(kicks, grip, middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    let impulses = NormalImpulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
+    Ok(impulses.balance(case.phase_lag_rad).net_share(0.0))
 }
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk::core::ChatterPolicy;
     use bouncing_disk::{Engine, Event, InitialCondition, System};
 
     use super::*;
+    use crate::figures::synthetic::Noise;
     use crate::paper;
 
     const PERTURBATION: f64 = 1e-3;
@@ -321,37 +213,5 @@ mod tests {
         assert!(load < stall.limit_rad_per_s2, "{stall:?}");
         assert!(stall.balance_deviation() < 4.0, "{stall:?}");
         assert!(stall.hold_share < 1e-2, "{stall:?}");
-    }
-
-    /// All the impulse at one phase: the load that balances is all that friction can give, with the sign of the stator's speed. Over n kicks the speed falls by the load
-    /// before each of them, so that its mean is zero for (n − 1)/n of that.
-    #[test]
-    fn a_stator_that_is_always_hit_at_one_phase_bears_the_whole_limit() {
-        for (stator, share) in [(0.7, 0.999), (-0.7, -0.999)] {
-            let kicks = vec![Kick { duration: 1.0, stator, impulse: 1.0 }; 1_000];
-            let found = stall_share(&kicks, 1e-4);
-            assert!((found - share).abs() < 1e-5, "{found} {share}");
-        }
-        // Two thirds forwards and one third backwards.
-        let kicks: Vec<Kick> = (0..3_000)
-            .map(|index| Kick {
-                duration: 1.0,
-                stator: if index % 3 == 0 { -0.7 } else { 0.7 },
-                impulse: 1.0,
-            })
-            .collect();
-        assert!((stall_share(&kicks, 1e-5) - 1.0 / 3.0).abs() < 1e-3);
-    }
-
-    #[test]
-    fn the_kicks_carry_the_weight() {
-        let case = motor();
-        let system = case.system().expect("legal");
-        let map = system.dimensionless().map();
-        let kicks = kicks(map, 0.0, 2e5, PERTURBATION, Noise::new(1)).expect("no failure");
-        let (duration, impulse) =
-            kicks.iter().fold((0.0, 0.0), |(time, sum), kick| (time + kick.duration, sum + kick.impulse));
-        // All but what the last flight, cut off after its impact, has above the stator's speed.
-        assert!((impulse / duration - 1.0).abs() < 5e-3, "{duration} {impulse}");
     }
 }

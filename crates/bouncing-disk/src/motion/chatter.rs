@@ -76,13 +76,13 @@ impl Chatter {
     }
 
     fn advance(&mut self, system: &DimensionlessSystem, impact: &ChatterImpact) {
-        let change = change_in_flight(system, self.angular_speed, impact.time - self.time);
+        let change = change_in_flight(system.load(), self.angular_speed, impact.time - self.time);
         record_flight_load(&mut self.ledger, system, self.angular_speed, &change);
         let platform_speed = system.angular_speed_at(impact.pair);
         let axial = axial_impulse(system.restitution(), -impact.speed);
         let slip = change.speed - platform_speed;
         let rotary = friction_impact(system.friction(), axial, slip);
-        let after = if rotary.capped { platform_speed } else { change.speed + rotary.impulse };
+        let after = rotary.speed_after(change.speed, platform_speed);
         record_impact(
             &mut self.ledger,
             ImpactEnergy {

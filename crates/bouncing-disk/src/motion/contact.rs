@@ -15,6 +15,7 @@ use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use bouncing_disk_core::elementary::{acos, atan2, hypot, sin_cos, wrapped_angle};
+use bouncing_disk_core::numerics::roots::falling_root;
 use bouncing_disk_core::{MAX_FLIGHT_DURATION, Phase};
 
 use crate::error::Error;
@@ -341,43 +342,11 @@ impl SlipPath {
         (speed, self.rate + (self.cosine_start * sine - self.sine_start * versine))
     }
 
-    /// The root in [`low`, `high`], over which the speed falls from positive to negative: Newton steps, replaced by
-    /// bisection wherever they leave the bracket or fail to halve the previous step but one.
-    fn falling_root(&self, mut low: f64, mut high: f64) -> f64 {
+    /// The root in [`low`, `high`], over which the speed falls from positive to negative.
+    fn falling_root(&self, low: f64, high: f64) -> f64 {
         // What `at` gives at zero.
-        let (start, rate) = if low.abs() <= 0.0 { (self.speed, self.rate) } else { self.at(low) };
-        if start <= 0.0 || high <= low {
-            return low;
-        }
-        let newton = low - start / rate;
-        let mut time = if rate < 0.0 && newton < high { newton } else { 0.5 * (low + high) };
-        let mut last_step = high - low;
-        let mut last_but_one = last_step;
-        loop {
-            let (speed, rate) = self.at(time);
-            if speed == 0.0 {
-                return time;
-            }
-            if speed > 0.0 {
-                low = time;
-            } else {
-                high = time;
-            }
-            let newton = time - speed / rate;
-            let step = (newton - time).abs();
-            let next = if rate < 0.0 && newton > low && newton < high && 2.0 * step <= last_but_one {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            last_but_one = last_step;
-            last_step = (next - time).abs();
-            // The bisected bracket cannot shrink below two neighbours.
-            if last_step <= ROOT_ACCURACY * next.abs() || next <= low || next >= high {
-                return next.clamp(low, high);
-            }
-            time = next;
-        }
+        let start = if low.abs() <= 0.0 { (self.speed, self.rate) } else { self.at(low) };
+        falling_root(low, high, start, ROOT_ACCURACY, |time| self.at(time))
     }
 }
 

@@ -3,29 +3,21 @@
 //! The vertical motion comes entirely from the core's [`Orbit`]; the engine adds the rotary motion and the changes
 //! between sticking and sliding while the disk is on the platform.
 
-use std::cmp::Ordering;
-use std::f64::consts::PI;
-
-use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Launch, Orbit, OrbitEvent, Phase};
+use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Launch, Orbit, OrbitEvent};
 
 use crate::error::{Error, moderate};
 use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
-use crate::motion::contact::{Friction, Spent};
+use crate::motion::contact::Friction;
+use crate::motion::contact_motion::{Contact, ContactEvent, ContactStep, Placed};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::{
-    RotaryChange, change_in_contact, change_in_flight, contact_ledger, record_flight_load,
-};
+use crate::motion::rotary_change::{RotaryChange, change_in_flight, contact_ledger, record_flight_load};
 use crate::motion::segment::Segment;
-use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection, Snapshot};
+use crate::motion::state::{DiskState, LongSum, Mode, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
-
-/// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the platform's
-/// largest one, is the platform's: four units in the last place.
-pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 
 /// Where the motion goes next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +25,7 @@ enum Stage {
     /// The orbit knows the next event.
     Flight,
     /// On the platform until it falls away, if ever.
-    Contact { separation: Option<PhaseTime> },
+    Contact(Contact),
     /// Nothing more happens.
     Ended,
 }
@@ -106,26 +98,14 @@ impl Engine {
     }
 
     fn start_in_contact(&mut self, policy: ChatterPolicy) -> Result<(), Error> {
-        let phase = self.now.phase;
-        let mut separation = None;
-        if let Some(leaves) = self.system.vibration().separation_phase() {
-            // The core's own interval: from separation to its mirror image about the crest.
-            let falls_away = phase.angle() >= leaves.angle() && phase.angle() < PI - leaves.angle();
-            let from = if falls_away { phase } else { leaves };
-            self.orbit = Some(self.system.map().orbit_from_launch(Launch::new(from, 0.0)?, policy));
-            if falls_away {
-                return Ok(());
-            }
-            separation =
-                Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
+        let placed =
+            Placed::new(&self.system, &self.friction, self.now.phase, self.state.angular_speed, policy)?;
+        self.orbit = placed.orbit;
+        self.state.angular_speed = placed.speed;
+        if let Some(contact) = placed.contact {
+            self.state.mode = contact.mode();
+            self.stage = Stage::Contact(contact);
         }
-        let platform_speed = self.system.platform_angular_speed(phase);
-        let slip = self.state.angular_speed - platform_speed;
-        if slip.abs() <= SAME_SPEED * (self.state.angular_speed.abs() + self.system.twist_speed()) {
-            self.state.angular_speed = platform_speed;
-        }
-        self.state.mode = self.contact_mode(phase, self.state.angular_speed);
-        self.stage = Stage::Contact { separation };
         Ok(())
     }
 
@@ -182,7 +162,7 @@ impl Engine {
     pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         let result = match self.stage {
             Stage::Flight => self.advance_flight(),
-            Stage::Contact { separation } => self.advance_contact(separation),
+            Stage::Contact(contact) => self.advance_contact(contact),
             Stage::Ended => Ok(None),
         };
         if !matches!(result, Ok(Some(_))) {
@@ -203,7 +183,7 @@ impl Engine {
     fn hit(&mut self, impact: &Impact) -> EventRecord {
         let system = &self.system;
         let span = PhaseSpan { periods: impact.periods, remainder: impact.remainder };
-        let change = change_in_flight(system, self.state.angular_speed, span.radians());
+        let change = change_in_flight(system.load(), self.state.angular_speed, span.radians());
         let platform_velocity = system.vibration().velocity(impact.phase);
         let platform_speed = system.platform_angular_speed(impact.phase);
         let slip = change.speed - platform_speed;
@@ -226,7 +206,7 @@ impl Engine {
         };
         let after = DiskState {
             axial_velocity: rebound_left + platform_velocity,
-            angular_speed: if rotary.capped { platform_speed } else { change.speed + rotary.impulse },
+            angular_speed: rotary.speed_after(change.speed, platform_speed),
             ..before
         };
 
@@ -285,7 +265,7 @@ impl Engine {
         // The paper's cut takes the last launch speed away by an impulse of its own.
         let chatter_speed = if cut { 0.0 } else { rest.last_speed };
         let chatter = Chatter::new(system, from, chatter_speed, self.state.angular_speed, duration);
-        let change = change_in_flight(system, chatter.angular_speed, duration - chatter.time);
+        let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
         let platform_speed = system.platform_angular_speed(accumulation.phase);
         let platform_velocity = system.vibration().velocity(accumulation.phase);
         let mut ledger = chatter.ledger;
@@ -328,20 +308,15 @@ impl Engine {
             };
             record_impact(&mut ledger, rest);
         }
-        let after = DiskState {
-            mode: self.contact_mode(accumulation.phase, angular_speed),
-            axial_velocity: platform_velocity,
-            angular_speed,
-            ..before
-        };
+        let time = PhaseTime { periods: self.now.periods + accumulation.turns, phase: accumulation.phase };
+        let contact = Contact::after_attachment(system, &self.friction, time, angular_speed, rest);
+        let after =
+            DiskState { mode: contact.mode(), axial_velocity: platform_velocity, angular_speed, ..before };
         record_jump(&mut ledger, &before, &after);
         ledger.record_rounding(system.peak_acceleration(), platform_velocity);
 
-        let time = PhaseTime { periods: self.now.periods + accumulation.turns, phase: accumulation.phase };
-        let separation =
-            rest.separation.map(|(phase, turns)| PhaseTime { periods: time.periods + turns, phase });
         self.moved_to(time, &after);
-        self.stage = Stage::Contact { separation };
+        self.stage = Stage::Contact(contact);
         EventRecord {
             time,
             event: Event::Attachment { impacts: chatter.impacts, error_bound: accumulation.error_bound },
@@ -355,71 +330,39 @@ impl Engine {
         }
     }
 
-    fn advance_contact(&mut self, separation: Option<PhaseTime>) -> Result<Option<EventRecord>, Error> {
-        let phase = self.now.phase;
-        let limit = separation.map(|at| at.since(&self.now).radians());
-        let due = match self.state.mode {
-            Mode::Sliding(direction) => {
-                let slip = self.state.angular_speed - self.system.platform_angular_speed(phase);
-                self.friction
-                    .slip_end(direction, phase, direction.sign() * slip, limit)?
-                    .map(|span| (span, Event::SlipToStick))
-            }
-            Mode::Sticking | Mode::Flight => self
-                .friction
-                .stick_end(phase)
-                .filter(|(time, _)| limit.is_none_or(|limit| *time < limit))
-                .map(|(time, direction)| (PhaseSpan::from_radians(time), Event::StickToSlip(direction))),
-        };
-        let (time, event) = match (due, separation) {
-            (Some((span, event)), _) => {
-                // Rounding must not carry an event past the separation.
-                let time = self.now.after(span);
-                (separation.filter(|at| time.order(at) == Ordering::Greater).unwrap_or(time), event)
-            }
-            (None, Some(at)) => (at, Event::Separation),
-            (None, None) => return Ok(None),
-        };
-        Ok(Some(self.contact_event(time, event, separation)))
+    fn advance_contact(&mut self, contact: Contact) -> Result<Option<EventRecord>, Error> {
+        let step = contact.next(&self.system, &self.friction, self.now, self.state.angular_speed)?;
+        Ok(step.map(|step| self.record_contact(contact, &step)))
     }
 
-    fn contact_event(&mut self, time: PhaseTime, event: Event, separation: Option<PhaseTime>) -> EventRecord {
+    /// The record of a step of contact, and the energy of it.
+    fn record_contact(&mut self, contact: Contact, step: &ContactStep) -> EventRecord {
         let system = &self.system;
-        let span = time.since(&self.now);
-        let from = self.now.phase;
+        let ContactStep { time, span, change, .. } = *step;
         let segment = self.segment(None);
-        let change = change_in_contact(system, &segment.state, from, time.phase, span);
-        let mut ledger =
-            contact_ledger(system, &self.friction, &segment.state, (from, time.phase), span, &change);
-        let platform_speed = system.platform_angular_speed(time.phase);
+        let phases = (self.now.phase, time.phase);
+        let mut ledger = contact_ledger(system, &self.friction, &segment.state, phases, span, &change);
         self.angle.add(change.angle);
-        let mut before = DiskState {
+        let before = DiskState {
             mode: segment.state.mode,
             height: system.vibration().height(time.phase),
             axial_velocity: system.vibration().velocity(time.phase),
             angle: self.angle.value(),
-            angular_speed: change.speed,
+            angular_speed: step.speed,
         };
-        let (event, mode) = match (event, segment.state.mode) {
-            (Event::StickToSlip(direction), _) => (event, Mode::Sliding(direction)),
-            (Event::SlipToStick, Mode::Sliding(direction)) => {
-                self.settle(&mut ledger, change, platform_speed);
-                before.angular_speed = platform_speed;
-                // A slip that begins and ends at the same instant is one of rounding: let nothing slip again here.
-                let idle = span == PhaseSpan::ZERO
-                    && SlipDirection::of(segment.state.angular_speed - system.platform_angular_speed(from))
-                        .is_none();
-                let spent = if idle { Spent::Both } else { Spent::One(direction) };
-                match self.friction.onset(time.phase, spent) {
-                    Some(next) => (Event::SlipReversal(next), Mode::Sliding(next)),
-                    None => (Event::SlipToStick, Mode::Sticking),
-                }
-            }
-            _ => (Event::Separation, Mode::Flight),
+        let event = match step.event {
+            ContactEvent::Separation => Event::Separation,
+            ContactEvent::StickToSlip(direction) => Event::StickToSlip(direction),
+            ContactEvent::SlipToStick => Event::SlipToStick,
+            ContactEvent::SlipReversal(direction) => Event::SlipReversal(direction),
         };
-        let after = DiskState { mode, ..before };
+        if matches!(event, Event::SlipToStick | Event::SlipReversal(_)) {
+            self.settle(&mut ledger, change, step.speed);
+        }
+        let next = contact.after(step.event);
+        let after = DiskState { mode: next.map_or(Mode::Flight, |next| next.mode()), ..before };
         self.moved_to(time, &after);
-        self.stage = if mode == Mode::Flight { Stage::Flight } else { Stage::Contact { separation } };
+        self.stage = next.map_or(Stage::Flight, Stage::Contact);
         EventRecord {
             time,
             event,
@@ -447,14 +390,6 @@ impl Engine {
         };
         record_impact(ledger, rest);
         ledger.record_rotary_change(change.speed, platform_speed);
-    }
-
-    /// The mode of a disk on the platform with this angular speed.
-    fn contact_mode(&self, phase: Phase, angular_speed: f64) -> Mode {
-        let slip = angular_speed - self.system.platform_angular_speed(phase);
-        SlipDirection::of(slip)
-            .or_else(|| self.friction.onset(phase, Spent::None))
-            .map_or(Mode::Sticking, Mode::Sliding)
     }
 
     const fn segment(&self, chatter_speed: Option<f64>) -> Segment {

@@ -32,6 +32,14 @@ pub(crate) struct FrictionImpact {
     pub(crate) capped: bool,
 }
 
+impl FrictionImpact {
+    /// Angular speed after the impact of a disk that has `speed` before it.
+    #[inline(always)]
+    pub(crate) fn speed_after(self, speed: f64, platform_speed: f64) -> f64 {
+        if self.capped { platform_speed } else { speed + self.impulse }
+    }
+}
+
 /// The angular impulse of an impact (Eq. 10): the available one, capped at the one that ends the slip.
 #[inline(always)]
 pub(crate) fn friction_impact(friction: f64, axial_impulse: f64, slip: f64) -> FrictionImpact {

@@ -19,22 +19,23 @@ pub(crate) struct RotaryChange {
 }
 
 /// The rotary motion of a flight: only the load acts.
-pub(crate) fn change_in_flight(system: &DimensionlessSystem, speed: f64, duration: f64) -> RotaryChange {
-    let lost = system.load() * duration;
-    RotaryChange { speed: speed - lost, angle: duration * (speed - 0.5 * lost) }
+#[inline(always)]
+pub(crate) fn change_in_flight(load: f64, speed: f64, duration: f64) -> RotaryChange {
+    // Neither number waits for the other: shared, the product costs a motor 3 % of its time.
+    RotaryChange { speed: speed - load * duration, angle: duration * (speed - 0.5 * load * duration) }
 }
 
-/// The rotary motion of a segment of contact that starts in `state`.
+/// The rotary motion of a segment of contact that starts with angular `speed`.
 pub(crate) fn change_in_contact(
     system: &DimensionlessSystem,
-    state: &DiskState,
-    from: Phase,
-    to: Phase,
+    mode: Mode,
+    speed: f64,
+    (from, to): (Phase, Phase),
     span: PhaseSpan,
 ) -> RotaryChange {
     let arc = Arc::new(system.peak_acceleration(), from, span);
-    match state.mode {
-        Mode::Sliding(direction) => change_while_sliding(system, direction, state.angular_speed, &arc),
+    match mode {
+        Mode::Sliding(direction) => change_while_sliding(system, direction, speed, &arc),
         Mode::Sticking | Mode::Flight => {
             let (cosine, sine) = system.twist_components();
             RotaryChange {

@@ -46,7 +46,13 @@ impl Segment {
             (Mode::Flight, None) => self.flown(system, span),
             (Mode::Flight, Some(speed)) => self.chattered(system, speed, span),
             (Mode::Sticking | Mode::Sliding(_), _) => {
-                let change = change_in_contact(system, &self.state, self.start.phase, time.phase, span);
+                let change = change_in_contact(
+                    system,
+                    self.state.mode,
+                    self.state.angular_speed,
+                    (self.start.phase, time.phase),
+                    span,
+                );
                 DiskState {
                     mode: self.state.mode,
                     height: platform.height,
@@ -61,7 +67,7 @@ impl Segment {
 
     fn flown(&self, system: &DimensionlessSystem, span: PhaseSpan) -> DiskState {
         let duration = span.radians();
-        let change = change_in_flight(system, self.state.angular_speed, duration);
+        let change = change_in_flight(system.load(), self.state.angular_speed, duration);
         DiskState {
             mode: Mode::Flight,
             height: self.state.height + duration * (self.state.axial_velocity - 0.5 * duration),
@@ -74,7 +80,7 @@ impl Segment {
     fn chattered(&self, system: &DimensionlessSystem, speed: f64, span: PhaseSpan) -> DiskState {
         let duration = span.radians();
         let chatter = Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
-        let change = change_in_flight(system, chatter.angular_speed, duration - chatter.time);
+        let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
         let rest = duration - chatter.time;
         DiskState {
             mode: Mode::Flight,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, finite, not_negative, positive};
+use crate::error::{Error, check, finite, not_negative, positive};
 
 /// A disk that slides on a platform at rest, and how its angular speed changes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,34 +28,16 @@ pub struct Braking {
 /// # Errors
 /// [`Error::OutOfRange`] names the field, its value and its legal range.
 pub fn friction_from_braking(braking: &Braking) -> Result<f64, Error> {
-    finite("angular_acceleration", braking.angular_acceleration)?;
-    if braking.angular_acceleration > 0.0 {
-        return Err(Error::OutOfRange {
-            field: "angular_acceleration",
-            value: braking.angular_acceleration,
-            legal: "(-inf, 0] (rad/s^2)",
-        });
-    }
+    let slowing = finite("angular_acceleration", braking.angular_acceleration)?;
+    check(slowing <= 0.0, "angular_acceleration", slowing, "(-inf, 0] (rad/s^2)")?;
     positive("normal_force", braking.normal_force)?;
     positive("mass", braking.mass)?;
     positive("contact_radius", braking.contact_radius)?;
     positive("gyration_radius", braking.gyration_radius)?;
     let inertia = braking.mass * braking.gyration_radius * braking.gyration_radius;
-    if !inertia.is_normal() {
-        return Err(Error::OutOfRange {
-            field: "moment of inertia",
-            value: inertia,
-            legal: "[2.3e-308, 1.7e308] (kg m^2)",
-        });
-    }
+    check(inertia.is_normal(), "moment of inertia", inertia, "[2.3e-308, 1.7e308] (kg m^2)")?;
     let arm = braking.contact_radius * braking.normal_force;
-    if !arm.is_normal() {
-        return Err(Error::OutOfRange {
-            field: "contact radius times normal force",
-            value: arm,
-            legal: "[2.3e-308, 1.7e308] (N m)",
-        });
-    }
+    check(arm.is_normal(), "contact radius times normal force", arm, "[2.3e-308, 1.7e308] (N m)")?;
     not_negative("friction", -inertia * braking.angular_acceleration / arm)
 }
 

@@ -9,11 +9,12 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, finite, not_negative, room_for, within_limit};
-use crate::motor::fit::{ExponentialFit, largest, scale_for};
-use crate::motor::transient::{SpeedCurve, TransientSettings, mean};
+use crate::error::{Error, check, finite, not_negative, read_checked, room_for, within_limit};
+use crate::motor::fit::ExponentialFit;
+use crate::motor::transient::{SpeedCurve, TransientSettings};
 use crate::motor::transients::{TransientMember, transients};
 use crate::parameters::system::System;
 
@@ -30,50 +31,33 @@ pub struct Spread {
 }
 
 impl Spread {
+    fn check(&self) -> Result<(), Error> {
+        finite("mean", self.mean)?;
+        not_negative("deviation", self.deviation)?;
+        not_negative("standard_error", self.standard_error)?;
+        Ok(())
+    }
+
     /// Of at least one value, all finite.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for no value, one that is not finite, or a deviation that a double cannot hold.
     pub fn of(values: &[f64]) -> Result<Self, Error> {
-        if values.is_empty() {
-            return Err(Error::OutOfRange { field: "number of values", value: 0.0, legal: "[1, inf)" });
-        }
-        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+        check(!values.is_empty(), "number of values", 0.0, "[1, inf)")?;
+        for &value in values {
             finite("value of a spread", value)?;
         }
-        let n = values.len() as f64;
-        let mean = mean("mean", values)?;
-        let scale = scale_for(largest(values));
-        let squares = values.iter().fold(0.0, |sum, value| {
-            let difference = value * scale - mean * scale;
-            sum + difference * difference
-        });
-        let deviation = if n > 1.0 { (squares / (n - 1.0)).sqrt() / scale } else { 0.0 };
-        not_negative("deviation", deviation)?;
-        Ok(Self { mean, deviation, standard_error: deviation / n.sqrt() })
+        let mean = finite("mean", mean(values))?;
+        let deviation = not_negative("deviation", standard_deviation(values))?;
+        Ok(Self { mean, deviation, standard_error: deviation / (values.len() as f64).sqrt() })
     }
 }
 
-/// What is read of a [`Spread`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedSpread {
+read_checked!(Spread as UncheckedSpread {
     mean: f64,
     deviation: f64,
     standard_error: f64,
-}
-
-impl TryFrom<UncheckedSpread> for Spread {
-    type Error = Error;
-
-    fn try_from(spread: UncheckedSpread) -> Result<Self, Error> {
-        Ok(Self {
-            mean: finite("mean", spread.mean)?,
-            deviation: not_negative("deviation", spread.deviation)?,
-            standard_error: not_negative("standard_error", spread.standard_error)?,
-        })
-    }
-}
+});
 
 /// Most members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;
@@ -99,30 +83,20 @@ pub struct TransientEnsemble {
     pub stall_acceleration: Spread,
 }
 
-/// What is read of a [`TransientEnsemble`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedEnsemble {
+read_checked!(TransientEnsemble as UncheckedEnsemble {
     curves: Vec<SpeedCurve>,
     fits: Vec<ExponentialFit>,
     steady_speed: Spread,
     time_constant: Spread,
     stall_acceleration: Spread,
-}
+});
 
-impl TryFrom<UncheckedEnsemble> for TransientEnsemble {
-    type Error = Error;
-
-    fn try_from(unchecked: UncheckedEnsemble) -> Result<Self, Error> {
-        let UncheckedEnsemble { curves, fits, steady_speed, time_constant, stall_acceleration } = unchecked;
-        let illegal = |field, value: usize, legal| Error::OutOfRange { field, value: value as f64, legal };
-        if curves.is_empty() {
-            return Err(illegal("members", 0, "[1, 1000000]"));
-        }
-        if fits.len() != curves.len() {
-            return Err(illegal("number of fits", fits.len(), "the number of curves"));
-        }
-        Ok(Self { curves, fits, steady_speed, time_constant, stall_acceleration })
+impl TransientEnsemble {
+    fn check(&self) -> Result<(), Error> {
+        let (members, fits) = (self.curves.len(), self.fits.len());
+        check(members > 0, "members", members as f64, "[1, 1000000]")?;
+        check(fits == members, "number of fits", fits as f64, "the number of curves")?;
+        Ok(())
     }
 }
 
@@ -138,9 +112,7 @@ pub fn ensemble(
     members: usize,
 ) -> Result<TransientEnsemble, Error> {
     settings.check_for(&system.scales())?;
-    if members == 0 {
-        return Err(Error::OutOfRange { field: "members", value: 0.0, legal: "[1, 1000000]" });
-    }
+    check(members > 0, "members", 0.0, "[1, 1000000]")?;
     let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
     // The memory for them is asked for where they are computed.
     within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;

@@ -4,9 +4,10 @@ use std::convert::Infallible;
 
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::numerics::minimum::golden_section;
+use bouncing_disk_core::numerics::statistics::summing_scale;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, finite, not_negative, positive};
+use crate::error::{Error, check, finite, not_negative, positive, read_checked};
 
 /// Steps of the golden-section search: the interval shrinks by 0.618 each.
 const GOLDEN_STEPS: u32 = 80;
@@ -14,30 +15,6 @@ const GOLDEN_STEPS: u32 = 80;
 /// Trial time constants that bracket the best one: at least so many, and no two further apart than by this ratio's logarithm.
 const TRIALS: u32 = 60;
 const WIDEST_STEP: f64 = 1.0;
-
-/// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
-const ORDINARY: f64 = 1.0e120;
-
-/// The power of two by which numbers, the largest of which is this in size, are multiplied before their squares are added up. One
-/// for ordinary numbers, whose results keep their bits.
-pub(crate) const fn scale_for(largest: f64) -> f64 {
-    if largest > ORDINARY {
-        power_of_two(-600)
-    } else if largest > 0.0 && largest < 1.0 / ORDINARY {
-        power_of_two(700)
-    } else {
-        1.0
-    }
-}
-
-const fn power_of_two(exponent: i64) -> f64 {
-    f64::from_bits(((1_023 + exponent) as u64) << 52)
-}
-
-/// The largest of some numbers in size.
-pub(crate) fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,28 +28,20 @@ pub struct ExponentialFit {
     pub residual: f64,
 }
 
-/// What is read of an [`ExponentialFit`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedExponentialFit {
+read_checked!(ExponentialFit as UncheckedExponentialFit {
     steady_speed: f64,
     time_constant: f64,
     residual: f64,
-}
-
-impl TryFrom<UncheckedExponentialFit> for ExponentialFit {
-    type Error = Error;
-
-    fn try_from(fit: UncheckedExponentialFit) -> Result<Self, Error> {
-        Ok(Self {
-            steady_speed: finite("steady_speed", fit.steady_speed)?,
-            time_constant: positive("time_constant", fit.time_constant)?,
-            residual: not_negative("residual", fit.residual)?,
-        })
-    }
-}
+});
 
 impl ExponentialFit {
+    fn check(&self) -> Result<(), Error> {
+        finite("steady_speed", self.steady_speed)?;
+        positive("time_constant", self.time_constant)?;
+        not_negative("residual", self.residual)?;
+        Ok(())
+    }
+
     /// Fits times (s, not negative, rising) and speeds (rad/s): at least three points.
     ///
     /// The model is linear in the steady speed, so the search is over the time constant alone (variable
@@ -117,28 +86,20 @@ pub struct RampFit {
     pub residual: f64,
 }
 
-/// What is read of a [`RampFit`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedRampFit {
+read_checked!(RampFit as UncheckedRampFit {
     steady_speed: f64,
     rise_time: f64,
     residual: f64,
-}
-
-impl TryFrom<UncheckedRampFit> for RampFit {
-    type Error = Error;
-
-    fn try_from(fit: UncheckedRampFit) -> Result<Self, Error> {
-        Ok(Self {
-            steady_speed: finite("steady_speed", fit.steady_speed)?,
-            rise_time: positive("rise_time", fit.rise_time)?,
-            residual: not_negative("residual", fit.residual)?,
-        })
-    }
-}
+});
 
 impl RampFit {
+    fn check(&self) -> Result<(), Error> {
+        finite("steady_speed", self.steady_speed)?;
+        positive("rise_time", self.rise_time)?;
+        not_negative("residual", self.residual)?;
+        Ok(())
+    }
+
     /// As [`ExponentialFit::new`], with the ramp instead of the exponential.
     ///
     /// # Errors
@@ -163,20 +124,16 @@ fn exponential(x: f64) -> f64 {
 /// Checks that times and speeds are those of a curve that can be fitted.
 pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     let n = times.len();
-    let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
-    if n < 3 {
-        return illegal("number of points of the speed curve", n as f64, "[3, inf)");
-    }
-    if speeds.len() != n {
-        return illegal("number of speeds", speeds.len() as f64, "the number of times");
-    }
+    check(n >= 3, "number of points of the speed curve", n as f64, "[3, inf)")?;
+    check(speeds.len() == n, "number of speeds", speeds.len() as f64, "the number of times")?;
     let below_zero = -f64::from_bits(1);
     let before = std::iter::once(&below_zero).chain(times);
-    if let Some((_, &bad)) = before.zip(times).find(|&(before, time)| !(time > before && time.is_finite())) {
-        return illegal("times of the speed curve", bad, "finite, not negative, rising (s)");
+    for (before, &time) in before.zip(times) {
+        let rises = time > *before && time.is_finite();
+        check(rises, "times of the speed curve", time, "finite, not negative, rising (s)")?;
     }
-    if let Some(&bad) = speeds.iter().find(|speed| !speed.is_finite()) {
-        return illegal("speed", bad, "finite (rad/s)");
+    for &speed in speeds {
+        check(speed.is_finite(), "speed", speed, "finite (rad/s)")?;
     }
     Ok(())
 }
@@ -188,7 +145,7 @@ fn saturating_fit(
     shape: impl Fn(f64) -> f64,
 ) -> Result<(f64, f64, f64), Error> {
     check_curve(times, speeds)?;
-    let (time_scale, speed_scale) = (scale_for(times[times.len() - 1]), scale_for(largest(speeds)));
+    let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
     let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
     let (constant, steady, residual) =
         scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape);

@@ -1,18 +1,17 @@
 //! The rotary motion alone, carried along an orbit of the core without records or energy balance.
 //!
-//! It takes the same decisions as the [`crate::Engine`] from the same functions. Only the sum over a chattering
+//! Its contact motion is the [`crate::Engine`]'s own ([`crate::motion::contact_motion`]). Only the sum over a chattering
 //! sequence is shorter where every impact of it slides the same way: then the summed impulse is known in closed form.
 
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
-use crate::motion::contact::{Friction, Spent};
-use crate::motion::engine::SAME_SPEED;
+use crate::motion::contact::Friction;
+use crate::motion::contact_motion::{Contact, Placed};
 use crate::motion::impact::{axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::change_in_contact;
-use crate::motion::state::{DiskState, Mode, SlipDirection};
+use crate::motion::rotary_change::{change_in_contact, change_in_flight};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// What ended the last step of a [`Rotor`].
@@ -47,12 +46,10 @@ impl Bounce {
     #[inline(always)]
     pub(crate) fn after(self, speed: f64) -> (f64, f64) {
         let Self { duration, platform_speed, velocity, restitution, friction, load } = self;
-        // As `change_in_flight`, but the angle is needed to the accuracy of a mean speed only.
-        let arrival = speed - load * duration;
-        let turned = duration * (speed - 0.5 * load * duration);
+        let flight = change_in_flight(load, speed, duration);
         let rotary =
-            friction_impact(friction, axial_impulse(restitution, velocity), arrival - platform_speed);
-        (if rotary.capped { platform_speed } else { arrival + rotary.impulse }, turned)
+            friction_impact(friction, axial_impulse(restitution, velocity), flight.speed - platform_speed);
+        (rotary.speed_after(flight.speed, platform_speed), flight.angle)
     }
 }
 
@@ -62,8 +59,8 @@ pub(crate) struct Rotor {
     system: DimensionlessSystem,
     friction: Friction,
     orbit: Option<Orbit>,
-    /// Mode and separation of a disk on the platform; `None` in flight.
-    contact: Option<(Mode, Option<PhaseTime>)>,
+    /// `None` in flight.
+    contact: Option<Contact>,
     now: PhaseTime,
     speed: f64,
     /// Angle turned in the last step.
@@ -78,34 +75,10 @@ impl Rotor {
         speed: f64,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
-        let vibration = system.vibration();
-        let mut rotor = Self {
-            system: *system,
-            friction: Friction::new(system),
-            orbit: None,
-            contact: None,
-            now: PhaseTime::in_first_period(phase),
-            speed,
-            turned: 0.0,
-        };
-        let mut separation = None;
-        if let Some(leaves) = vibration.separation_phase() {
-            let falls_away =
-                phase.angle() >= leaves.angle() && phase.angle() < std::f64::consts::PI - leaves.angle();
-            let from = if falls_away { phase } else { leaves };
-            rotor.orbit = Some(system.map().orbit_from_launch(Launch::new(from, 0.0)?, policy));
-            if falls_away {
-                return Ok(rotor);
-            }
-            separation =
-                Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
-        }
-        let platform_speed = system.platform_angular_speed(phase);
-        if (speed - platform_speed).abs() <= SAME_SPEED * (speed.abs() + system.twist_speed()) {
-            rotor.speed = platform_speed;
-        }
-        rotor.contact = Some((rotor.contact_mode(phase), separation));
-        Ok(rotor)
+        let friction = Friction::new(system);
+        let Placed { orbit, contact, speed } = Placed::new(system, &friction, phase, speed, policy)?;
+        let now = PhaseTime::in_first_period(phase);
+        Ok(Self { system: *system, friction, orbit, contact, now, speed, turned: 0.0 })
     }
 
     pub(crate) const fn time(&self) -> PhaseTime {
@@ -172,8 +145,8 @@ impl Rotor {
 
     #[inline]
     pub(crate) fn advance(&mut self) -> Result<RotorStep, Error> {
-        if let Some((mode, separation)) = self.contact {
-            return self.advance_contact(mode, separation);
+        if let Some(contact) = self.contact {
+            return self.advance_contact(contact);
         }
         let event = match &mut self.orbit {
             Some(orbit) => orbit.advance()?,
@@ -212,9 +185,8 @@ impl Rotor {
         }
         self.turned = 0.5 * (start + self.speed) * at.duration;
         self.now = PhaseTime { periods: self.now.periods + at.turns, phase: at.phase };
-        let separation =
-            rest.separation.map(|(phase, turns)| PhaseTime { periods: self.now.periods + turns, phase });
-        self.contact = Some((self.contact_mode(at.phase), separation));
+        let contact = Contact::after_attachment(&self.system, &self.friction, self.now, self.speed, rest);
+        self.contact = Some(contact);
     }
 
     /// The speed after a chattering sequence all of whose impacts slide the same way; `None` if that is not certain.
@@ -256,67 +228,21 @@ impl Rotor {
 
     /// Angle turned within `span` after the last step by a rotor that stays on the stator in its mode; zero in flight.
     pub(crate) fn turned_since_event(&self, span: PhaseSpan) -> f64 {
-        let Some((mode, _)) = self.contact else { return 0.0 };
-        let state =
-            DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
-        change_in_contact(&self.system, &state, self.now.phase, self.now.after(span).phase, span).angle
+        let Some(contact) = self.contact else { return 0.0 };
+        let phases = (self.now.phase, self.now.after(span).phase);
+        change_in_contact(&self.system, contact.mode(), self.speed, phases, span).angle
     }
 
-    fn contact_mode(&self, phase: Phase) -> Mode {
-        let slip = self.speed - self.system.platform_angular_speed(phase);
-        SlipDirection::of(slip)
-            .or_else(|| self.friction.onset(phase, Spent::None))
-            .map_or(Mode::Sticking, Mode::Sliding)
-    }
-
-    fn advance_contact(&mut self, mode: Mode, separation: Option<PhaseTime>) -> Result<RotorStep, Error> {
-        let phase = self.now.phase;
-        let limit = separation.map(|at| at.since(&self.now).radians());
-        let slip = self.speed - self.system.platform_angular_speed(phase);
-        let at_rest = SlipDirection::of(slip).is_none();
-        let span = match mode {
-            Mode::Sliding(direction) => self
-                .friction
-                .slip_end(direction, phase, direction.sign() * slip, limit)?
-                .map(|span| (span, None)),
-            Mode::Sticking | Mode::Flight => self
-                .friction
-                .stick_end(phase)
-                .filter(|(time, _)| limit.is_none_or(|limit| *time < limit))
-                .map(|(time, direction)| (PhaseSpan::from_radians(time), Some(direction))),
+    fn advance_contact(&mut self, contact: Contact) -> Result<RotorStep, Error> {
+        let Some(step) = contact.next(&self.system, &self.friction, self.now, self.speed)? else {
+            self.turned = 0.0;
+            return Ok(RotorStep::Ended);
         };
-        let (time, next) = match (span, separation) {
-            (Some((span, slips)), _) => (self.now.after(span), Some((span, slips))),
-            (None, Some(at)) => (at, None),
-            (None, None) => {
-                self.turned = 0.0;
-                return Ok(RotorStep::Ended);
-            }
-        };
-        let span = time.since(&self.now);
-        let state =
-            DiskState { mode, height: 0.0, axial_velocity: 0.0, angle: 0.0, angular_speed: self.speed };
-        let change = change_in_contact(&self.system, &state, phase, time.phase, span);
-        self.turned = change.angle;
-        self.speed = change.speed;
-        self.now = time;
-        let Some((_, slips)) = next else {
-            self.contact = None;
-            return Ok(RotorStep::Separation);
-        };
-        let mode = match (slips, mode) {
-            (Some(direction), _) => Mode::Sliding(direction),
-            (None, Mode::Sliding(direction)) => {
-                self.speed = self.system.platform_angular_speed(time.phase);
-                // As in the engine: only a slip that begins and ends at the same instant is one of rounding.
-                let idle = span == PhaseSpan::ZERO && at_rest;
-                let spent = if idle { Spent::Both } else { Spent::One(direction) };
-                self.friction.onset(time.phase, spent).map_or(Mode::Sticking, Mode::Sliding)
-            }
-            (None, Mode::Sticking | Mode::Flight) => mode,
-        };
-        self.contact = Some((mode, separation));
-        Ok(RotorStep::Contact)
+        self.turned = step.change.angle;
+        self.speed = step.speed;
+        self.now = step.time;
+        self.contact = contact.after(step.event);
+        Ok(if self.contact.is_some() { RotorStep::Contact } else { RotorStep::Separation })
     }
 }
 

@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::numerics::statistics::mean;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, finite, moderate_not_negative, positive, room_for};
+use crate::error::{Error, check, finite, moderate_not_negative, positive, read_checked, room_for};
 use crate::motion::phase_time::PhaseSpan;
-use crate::motor::fit::{ExponentialFit, check_curve, largest, scale_for};
+use crate::motor::fit::{ExponentialFit, check_curve};
 use crate::motor::rotor::{Rotor, RotorStep};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
@@ -57,50 +58,32 @@ impl TransientSettings {
     fn check(&self) -> Result<(), Error> {
         positive("duration", self.duration)?;
         moderate_not_negative("relaunch_perturbation", self.relaunch_perturbation)?;
-        if (3..=MAX_INTERVALS).contains(&self.intervals) {
-            Ok(())
-        } else {
-            Err(Error::OutOfRange { field: "intervals", value: self.intervals as f64, legal: "[3, 1000000]" })
-        }
+        let intervals = self.intervals as f64;
+        check((3..=MAX_INTERVALS).contains(&self.intervals), "intervals", intervals, "[3, 1000000]")?;
+        Ok(())
     }
 
     /// Checks the settings of a motor with these units.
     pub(crate) fn check_for(&self, unit: &Scales) -> Result<(), Error> {
         self.check()?;
-        let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
         let radians = self.duration / unit.time;
         let (periods, interval) = (radians / TAU, radians / self.intervals as f64);
-        if periods > MAX_PERIODS {
-            return illegal("duration in periods of the platform", periods, "(0, 2^53]");
-        }
+        check(periods <= MAX_PERIODS, "duration in periods of the platform", periods, "(0, 2^53]")?;
         // The first holds in seconds, too, unless they are denormal.
-        if interval < SHORTEST_INTERVAL || self.duration / (self.intervals as f64) < f64::MIN_POSITIVE {
-            return illegal("duration of an interval", interval, "[1e-15, inf) (rad), at least 2.3e-308 s");
-        }
+        let lasts =
+            interval >= SHORTEST_INTERVAL && self.duration / self.intervals as f64 >= f64::MIN_POSITIVE;
+        check(lasts, "duration of an interval", interval, "[1e-15, inf) (rad), at least 2.3e-308 s")?;
         Ok(())
     }
 }
 
-/// What is read of [`TransientSettings`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedSettings {
+read_checked!(TransientSettings as UncheckedSettings {
     duration: f64,
     intervals: usize,
     relaunch_perturbation: f64,
     seed: u64,
     policy: ChatterPolicy,
-}
-
-impl TryFrom<UncheckedSettings> for TransientSettings {
-    type Error = Error;
-
-    fn try_from(unchecked: UncheckedSettings) -> Result<Self, Error> {
-        let UncheckedSettings { duration, intervals, relaunch_perturbation, seed, policy } = unchecked;
-        let settings = Self { duration, intervals, relaunch_perturbation, seed, policy };
-        settings.check().map(|()| settings)
-    }
-}
+});
 
 /// Angular speed against time, from rest.
 ///
@@ -119,6 +102,10 @@ pub struct SpeedCurve {
 }
 
 impl SpeedCurve {
+    fn check(&self) -> Result<(), Error> {
+        check_curve(&self.times, &self.speeds)
+    }
+
     /// The fit of alpha_ss (1 - exp(-t/t_c)).
     ///
     /// # Errors
@@ -133,50 +120,19 @@ impl SpeedCurve {
     /// [`Error::OutOfRange`] for another fraction, for a curve without speeds, and for speeds that are not finite.
     pub fn mean_over_last(&self, fraction: f64) -> Result<f64, Error> {
         let points = self.speeds.len();
-        if !(fraction > 0.0 && fraction <= 1.0) {
-            return Err(Error::OutOfRange {
-                field: "fraction of the curve",
-                value: fraction,
-                legal: "(0, 1]",
-            });
-        }
-        if points == 0 {
-            return Err(Error::OutOfRange { field: "number of speeds", value: 0.0, legal: "[1, inf)" });
-        }
+        check(fraction > 0.0 && fraction <= 1.0, "fraction of the curve", fraction, "(0, 1]")?;
+        check(points > 0, "number of speeds", 0.0, "[1, inf)")?;
         let count = ((points as f64 * fraction) as usize).clamp(1, points);
-        mean("mean speed", &self.speeds[points - count..])
+        finite("mean speed", mean(&self.speeds[points - count..]))
     }
 }
 
-/// The mean of at least one value; its sum does not overflow.
-///
-/// # Errors
-/// [`Error::OutOfRange`] for values that are not finite.
-pub(crate) fn mean(field: &'static str, values: &[f64]) -> Result<f64, Error> {
-    let scale = scale_for(largest(values));
-    let sum = values.iter().map(|value| value * scale).sum::<f64>();
-    finite(field, sum / values.len() as f64 / scale)
-}
-
-/// What is read of a [`SpeedCurve`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedCurve {
+read_checked!(SpeedCurve as UncheckedCurve {
     times: Vec<f64>,
     speeds: Vec<f64>,
     impacts: u64,
     separations: u64,
-}
-
-impl TryFrom<UncheckedCurve> for SpeedCurve {
-    type Error = Error;
-
-    fn try_from(unchecked: UncheckedCurve) -> Result<Self, Error> {
-        let UncheckedCurve { times, speeds, impacts, separations } = unchecked;
-        check_curve(&times, &speeds)?;
-        Ok(Self { times, speeds, impacts, separations })
-    }
-}
+});
 
 /// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
 ///
@@ -377,7 +333,6 @@ mod tests {
         assert!((time - 3.0 * (2.0 * TAU - 0.5)).abs() < 1e-13, "{time}");
     }
 
-    /// The published values of the generator for the seed 1234567.
     #[test]
     fn the_mean_is_over_the_last_part_of_the_curve() {
         let curve = SpeedCurve {
@@ -529,23 +484,19 @@ mod tests {
     /// slides ever faster: neither keeps the speed of the last event.
     #[test]
     fn a_rotor_on_a_calm_stator_sticks_or_slides_on() {
-        let omega = std::f64::consts::TAU * 70e3;
         let motor = |friction: f64, load_acceleration: f64| {
-            let platform = crate::PlatformParameters {
-                amplitude: 2e-11,
-                twist_amplitude: 30e-6 / omega,
-                angular_frequency: omega,
-                phase_lag: 0.0,
-            };
-            let disk = crate::DiskParameters {
-                contact_radius: 1.25e-3,
-                gyration_radius: 6.3e-3,
-                friction,
-                restitution: 0.5,
-                preload_acceleration: 9.8,
-                load_acceleration,
-            };
-            System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal")
+            System::motor()
+                .with_platform(|stator| {
+                    stator.amplitude = 2e-11;
+                    stator.twist_amplitude = 30e-6 / stator.angular_frequency;
+                })
+                .and_then(|motor| {
+                    motor.with_disk(|rotor| {
+                        rotor.friction = friction;
+                        rotor.load_acceleration = load_acceleration;
+                    })
+                })
+                .expect("legal")
         };
         let settings = TransientSettings { duration: 1.0, intervals: 8, ..TransientSettings::default() };
         let phase = Phase::new(4.0).expect("finite");
@@ -554,7 +505,7 @@ mod tests {
         assert!(sticking.speeds[1..].iter().all(|speed| speed.abs() < 1e-8), "{:?}", sticking.speeds);
         // Friction takes mu g a_e/a_g^2 = 30.9 rad/s^2 from a load of 50.
         let sliding = transient(&motor(0.1, 50.0), phase, &settings).expect("no failure");
-        let slowing = 50.0 - 0.1 * 9.8 * 1.25e-3 / (6.3e-3 * 6.3e-3);
+        let slowing = 50.0 - motor(0.1, 50.0).disk().friction_acceleration();
         for (time, speed) in sliding.times.iter().zip(&sliding.speeds) {
             assert!((speed + slowing * time).abs() < 1e-3, "{time} {speed} {slowing}");
         }

@@ -41,30 +41,14 @@ impl TransientMember {
 ///
 /// ```
 /// use bouncing_disk::core::Phase;
-/// use bouncing_disk::{
-///     DiskParameters, PlatformParameters, System, TransientMember, TransientSettings, transient, transients,
-/// };
+/// use bouncing_disk::{System, TransientMember, TransientSettings, transient, transients};
 ///
 /// // The motor of Table III at a hundred preloads (m/s^2), 5 ms each.
-/// let angular_frequency = std::f64::consts::TAU * 70e3;
-/// let platform = PlatformParameters {
-///     amplitude: 1e-8,
-///     twist_amplitude: 30.0 / angular_frequency,
-///     angular_frequency,
-///     phase_lag: 0.0,
-/// };
+/// let motor = System::motor();
 /// let members = (0..100)
 ///     .map(|k| {
-///         let rotor = DiskParameters {
-///             contact_radius: 1.25e-3,
-///             gyration_radius: 6.3e-3,
-///             friction: 0.1,
-///             restitution: 0.5,
-///             preload_acceleration: 5.0 + 0.1 * f64::from(k),
-///             load_acceleration: 0.0,
-///         };
 ///         Ok(TransientMember {
-///             system: System::new(platform.build()?, rotor.build()?)?,
+///             system: motor.with_disk(|rotor| rotor.preload_acceleration = 5.0 + 0.1 * f64::from(k))?,
 ///             phase: Phase::new(4.0)?,
 ///             settings: TransientSettings { duration: 5e-3, intervals: 10, ..TransientSettings::default() },
 ///         })

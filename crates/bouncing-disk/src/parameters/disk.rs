@@ -37,6 +37,14 @@ impl DiskParameters {
         self
     }
 
+    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse per time is the
+    /// weight, whatever the orbit; so nothing accelerates the disk more on average.
+    #[must_use]
+    pub fn friction_acceleration(&self) -> f64 {
+        self.friction * self.contact_radius * self.preload_acceleration
+            / (self.gyration_radius * self.gyration_radius)
+    }
+
     /// Checks the ranges.
     ///
     /// # Errors
@@ -94,6 +102,13 @@ impl Disk {
     #[must_use]
     pub const fn preload_acceleration(&self) -> f64 {
         self.parameters.preload_acceleration
+    }
+
+    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse per time is the
+    /// weight, whatever the orbit; so nothing accelerates the disk more on average.
+    #[must_use]
+    pub fn friction_acceleration(&self) -> f64 {
+        self.parameters.friction_acceleration()
     }
 
     /// Angular deceleration by the load (rad/s^2).

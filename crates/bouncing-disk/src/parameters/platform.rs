@@ -1,12 +1,12 @@
 //! The vibrating and twisting platform: the hand, or the stator.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::elementary::{atan2, sin_cos};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, finite, not_negative, positive};
+use crate::error::{Error, check, finite, not_negative, positive};
 
 /// The parameters of a [`Platform`], not yet checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -110,13 +110,8 @@ impl Platform {
     pub fn from_stroke(stroke: Stroke) -> Result<Self, Error> {
         not_negative("stroke", stroke.stroke)?;
         positive("contact_radius", stroke.contact_radius)?;
-        if !(0.0..=FRAC_PI_2).contains(&stroke.amplitude_angle) {
-            return Err(Error::OutOfRange {
-                field: "amplitude_angle",
-                value: stroke.amplitude_angle,
-                legal: "[0, pi/2] (rad)",
-            });
-        }
+        let angle = stroke.amplitude_angle;
+        check((0.0..=FRAC_PI_2).contains(&angle), "amplitude_angle", angle, "[0, pi/2] (rad)")?;
         let (sine, cosine) = sin_cos(stroke.amplitude_angle);
         PlatformParameters {
             amplitude: stroke.stroke * cosine,
@@ -185,6 +180,12 @@ impl Platform {
     #[must_use]
     pub fn peak_angular_speed(&self) -> f64 {
         self.angular_frequency() * self.twist_amplitude()
+    }
+
+    /// Axial forcing parameter Gamma = A omega^2/(pi g) under a preload acceleration g (m/s^2, positive) (Sec. I).
+    #[must_use]
+    pub fn axial_forcing(&self, preload_acceleration: f64) -> f64 {
+        self.peak_acceleration() / (PI * preload_acceleration)
     }
 
     /// Largest vertical acceleration A omega^2 (m/s^2).

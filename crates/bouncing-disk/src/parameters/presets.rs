@@ -42,6 +42,14 @@ const ROTOR: DiskParameters = DiskParameters {
     load_acceleration: 0.0,
 };
 
+impl Stroke {
+    /// The hand of Table I ([`System::pizza_toss`]), to be changed and made a platform ([`Platform::from_stroke`]).
+    #[must_use]
+    pub const fn pizza_toss() -> Self {
+        HAND
+    }
+}
+
 impl System {
     /// The pizza toss of Table I: a linear hand motion (theta = 0) with a stroke of 0.25 m at 15 rad/s, and its dough.
     ///

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::error::Error;
+use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 
@@ -61,9 +61,9 @@ impl Scales {
             ("unit of axial energy (J/kg)", self.axial_energy),
             ("unit of rotary energy (J/kg)", self.rotary_energy),
         ];
-        match units.into_iter().find(|(_, value)| !value.is_normal()) {
-            Some((field, value)) => Err(Error::OutOfRange { field, value, legal: "[2.3e-308, 1.7e308]" }),
-            None => Ok(()),
+        for (field, value) in units {
+            check(value.is_normal(), field, value, "[2.3e-308, 1.7e308]")?;
         }
+        Ok(())
     }
 }

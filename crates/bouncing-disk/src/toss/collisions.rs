@@ -50,8 +50,7 @@ impl CollisionState {
         let axial = axial_impulse(system.restitution(), vertical.velocity());
         let rotary = friction_impact(system.friction(), axial, slip);
         let platform_speed = system.platform_angular_speed(self.phase);
-        let angular_speed =
-            if rotary.capped { platform_speed } else { platform_speed + slip + rotary.impulse };
+        let angular_speed = rotary.speed_after(platform_speed + slip, platform_speed);
         let relative_speed = rebound_velocity(system.restitution(), vertical.velocity());
         Ok(if relative_speed > 0.0 {
             InitialCondition::Launch { phase: self.phase, relative_speed, angular_speed }

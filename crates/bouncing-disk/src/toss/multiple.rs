@@ -5,10 +5,11 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, TangentGrowth};
 use serde::Serialize;
 
-use crate::error::{Error, room_for};
+use crate::error::{Error, check, not_negative, room_for};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 
 /// Most impacts that [`multi_toss`] looks at.
@@ -45,16 +46,10 @@ impl Default for MultiTossSettings {
 
 impl MultiTossSettings {
     fn check(&self) -> Result<(), Error> {
-        let refuse = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
-        if self.examined_impacts < 2 {
-            return refuse("examined_impacts", self.examined_impacts as f64, "at least 2");
-        }
-        if self.longest_period < 1 {
-            return refuse("longest_period", self.longest_period as f64, "at least 1");
-        }
-        if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
-            return refuse("tolerance", self.tolerance, "[0, inf)");
-        }
+        let (examined, period) = (self.examined_impacts, self.longest_period);
+        check(examined >= 2, "examined_impacts", examined as f64, "at least 2")?;
+        check(period >= 1, "longest_period", period as f64, "at least 1")?;
+        not_negative("tolerance", self.tolerance)?;
         Ok(())
     }
 }
@@ -78,14 +73,7 @@ pub enum OrbitClass {
     /// The disk comes to rest on the platform again and again. It leaves it in the same vertical state each time,
     /// so the vertical motion is periodic from the first separation on: eventually periodic, as long as the
     /// arithmetic is. (A long cycle depends on its rounding.)
-    Chattering {
-        /// Impacts from one separation to the next, without those that the complete policy sums.
-        impacts_per_cycle: usize,
-        /// Periods of the platform from one separation to the next.
-        platform_periods: u64,
-        /// Flights of the cycle that last longer than half a period.
-        long_flights: usize,
-    },
+    Chattering(ChatteringCycle),
     /// Neither within the impacts examined.
     ChaoticOrLong {
         /// Impacts examined.
@@ -192,16 +180,16 @@ impl Window {
         let mut last = from.time;
         let mut long_flights = 0;
         for collision in cycle {
-            long_flights += usize::from(collision.time.since(&last).radians() > 0.5 * TAU);
+            long_flights += usize::from(collision.time.since(&last).radians() > LONG_FLIGHT);
             last = collision.time;
         }
         let change = to.angular_speed - from.angular_speed;
         TossOrbit {
-            class: OrbitClass::Chattering {
-                impacts_per_cycle: cycle.len(),
+            class: OrbitClass::Chattering(ChatteringCycle {
+                impacts: cycle.len(),
                 platform_periods: to.time.since(&from.time).periods,
                 long_flights,
-            },
+            }),
             mean_angular_speed: mean_speed((from.time, from.angle), (to.time, to.angle)),
             rotation_repeats: Some(change.abs() <= settings.tolerance * (1.0 + system.twist_speed())),
             collisions: cycle.to_vec(),
@@ -329,10 +317,9 @@ mod tests {
             let system = system(0.48, 1.0, 0.0);
             let settings = MultiTossSettings { policy, transient_impacts: 100, ..Default::default() };
             let orbit = multi_toss(system, from_rest(&system), settings).unwrap();
-            let OrbitClass::Chattering { platform_periods, long_flights, .. } = orbit.class else {
-                panic!("{:?}", orbit.class)
-            };
-            assert_eq!((platform_periods, long_flights), (1, 1));
+            let OrbitClass::Chattering(cycle) = orbit.class else { panic!("{:?}", orbit.class) };
+            assert!(cycle.is_single_toss());
+            assert_eq!(cycle.long_flights, 1);
             assert_eq!(orbit.rotation_repeats, Some(true));
         }
     }

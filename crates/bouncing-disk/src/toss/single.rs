@@ -40,7 +40,8 @@ pub struct TossPerformance {
     /// has put in by then. The energy put in is the work of the hand, by normal force and by friction: it is found
     /// again in the dough's kinetic energy of rotation and of lift, in its height above the lowest point, and in
     /// the friction between hand and dough. The spin of a dough that starts with the hand counts as put in by the
-    /// hand and gained by the dough. Negative if a dough at rest is turned by a hand that takes energy back.
+    /// hand and gained by the dough. Negative if a dough at rest is turned by a hand that takes energy back. The formula is that
+    /// of [`SiEnergy::efficiency`].
     pub efficiency: f64,
     /// Airborne rotary speed over the largest rotary speed of the hand, omega Phi; `None` without twist.
     pub speed_ratio: Option<f64>,
@@ -114,7 +115,7 @@ fn performance(
     };
     TossPerformance {
         airborne_speed: state.angular_speed,
-        efficiency: (energy.rotary_kinetic_change + spin) / (energy.platform_work() + spin),
+        efficiency: energy.efficiency(spin),
         speed_ratio: (peak > 0.0).then(|| state.angular_speed / peak),
         separation_phase: separation.time.phase.angle(),
         sliding_at_separation: matches!(separation.before.mode, Mode::Sliding(_)),
@@ -139,25 +140,11 @@ mod tests {
     use crate::parameters::disk::DiskParameters;
     use crate::parameters::platform::{Platform, Stroke};
 
-    /// Table I, except for amplitude angle and phase lag.
+    /// Table I, except for amplitude angle, phase lag and friction.
     fn table_i(amplitude_angle: f64, phase_lag: f64, friction: f64) -> System {
-        let platform = Platform::from_stroke(Stroke {
-            stroke: 0.25,
-            amplitude_angle,
-            contact_radius: 0.135,
-            angular_frequency: 15.0,
-            phase_lag,
-        })
-        .unwrap();
-        let disk = DiskParameters {
-            contact_radius: 0.135,
-            gyration_radius: 0.11,
-            friction,
-            restitution: 0.5,
-            preload_acceleration: 9.8,
-            load_acceleration: 0.0,
-        };
-        System::new(platform, disk.build().unwrap()).unwrap()
+        let hand = Platform::from_stroke(Stroke { amplitude_angle, phase_lag, ..Stroke::pizza_toss() });
+        let dough = DiskParameters { friction, ..System::pizza_toss().disk().parameters() };
+        System::new(hand.unwrap(), dough.build().unwrap()).unwrap()
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! The chattering orbit: its cycle, the end of the single tosses, and the two ways to end a chattering sequence.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Vibration, sweep};
 use bouncing_disk::{
-    DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit, multi_toss,
+    ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, OrbitClass,
+    TossOrbit, multi_toss,
 };
 use rayon::prelude::*;
 
@@ -17,27 +18,12 @@ use crate::paper::SectionFour;
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;
 
-/// From one separation to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cycle {
-    pub(super) impacts: usize,
-    pub(super) platform_periods: u64,
-    pub(super) long_flights: usize,
-}
-
-impl Cycle {
-    /// A long toss, chattering, rest: one flight of any length to speak of in one period of the platform.
-    fn is_single_toss(&self) -> bool {
-        self.platform_periods == 1
-    }
-}
-
 /// The cycles of a disk that has been at rest, at each Γ; `None` where it never leaves or does not come to rest again.
 pub(super) fn cycles(
     forcings: &[f64],
     restitution: f64,
     policy: ChatterPolicy,
-) -> Result<Vec<Option<Cycle>>, Error> {
+) -> Result<Vec<Option<ChatteringCycle>>, Error> {
     let mut orbits = Vec::new();
     let mut cycles = vec![None; forcings.len()];
     let mut leaving = Vec::new();
@@ -50,12 +36,12 @@ pub(super) fn cycles(
     }
     let walked = sweep(
         &orbits,
-        |_| (Cycle { impacts: 0, platform_periods: 0, long_flights: 0 }, false),
+        |_| (ChatteringCycle::default(), false),
         |(cycle, rests), event| match event {
             SweepEvent::Impact(landing) => {
                 cycle.impacts += 1;
                 cycle.platform_periods += landing.turns;
-                cycle.long_flights += usize::from(landing.duration > 0.5 * TAU);
+                cycle.long_flights += usize::from(landing.duration > LONG_FLIGHT);
                 if cycle.impacts < LONGEST_CYCLE { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             }
             SweepEvent::Attachment(rest) => {
@@ -86,7 +72,7 @@ fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<T
 /// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.
 pub(super) fn chattering_slice(
     axial_forcing: f64,
-    cycle: Option<Cycle>,
+    cycle: Option<ChatteringCycle>,
     inputs: Inputs,
     settings: MultiTossSettings,
 ) -> Result<Option<Slice>, ExperimentError> {
@@ -102,12 +88,12 @@ pub(super) fn chattering_slice(
 
 /// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their cycles and bisected.
 pub(super) fn single_tosses(
-    forcings: &[(f64, Option<Cycle>)],
+    forcings: &[(f64, Option<ChatteringCycle>)],
     section: &SectionFour,
     policy: ChatterPolicy,
 ) -> Result<SingleTosses, ExperimentError> {
     let (restitution, printed_end) = (section.restitution, section.single_tosses_end);
-    let is_single = |cycle: &Option<Cycle>| cycle.is_some_and(|cycle| cycle.is_single_toss());
+    let is_single = |cycle: &Option<ChatteringCycle>| cycle.is_some_and(|cycle| cycle.is_single_toss());
     let (mut last, mut first_other) = (f64::NAN, printed_end);
     for (forcing, cycle) in
         forcings.iter().filter(|(forcing, _)| *forcing * PI > 1.0 && *forcing < printed_end)

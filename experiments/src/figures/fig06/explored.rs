@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 
 use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, follow_attractor, orbit_diagram};
 use bouncing_disk::{
-    DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, multi_toss,
+    DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, NormalImpulses, OrbitClass,
+    PhasedImpulse, multi_toss,
 };
 use rayon::prelude::*;
 
@@ -15,7 +16,6 @@ use super::merging::starts;
 use super::scan::{Inputs, map, no_orbit, rounded};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::circular::occupied_arc;
-use crate::figures::impulse::Impulses;
 
 /// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
 /// impacts on the mean before it comes to rest for the first time.
@@ -254,11 +254,11 @@ pub(super) fn one_impact_decides(
         .into_par_iter()
         .map(|index| {
             let axial_forcing = forcing(index);
-            let impulses = Impulses::of(&map(axial_forcing, restitution)?, WEIGHED_IMPACTS, 0.0)?;
-            let largest = impulses.impacts.iter().max_by(|one, other| one.1.total_cmp(&other.1));
-            let Some(&(phase, _)) = largest else { return Ok(None) };
+            let impulses = NormalImpulses::of(&map(axial_forcing, restitution)?, WEIGHED_IMPACTS, 0.0)?;
+            let largest = impulses.impacts.iter().max_by(|one, other| one.impulse.total_cmp(&other.impulse));
+            let Some(&PhasedImpulse { phase, .. }) = largest else { return Ok(None) };
             // The median of cos(τ + θ) is 1 where most of the impulse comes at the phase −θ.
-            if impulses.levels(-phase).steady_speed() < AT_MAXIMUM {
+            if impulses.balance(-phase).steady_speed() < AT_MAXIMUM {
                 return Ok(None);
             }
             let system = ForcingParameters {

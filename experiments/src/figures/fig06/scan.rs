@@ -7,8 +7,8 @@ use bouncing_disk::core::{
     period_doublings,
 };
 use bouncing_disk::{
-    DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
-    multi_toss,
+    ChatteringCycle, DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, OrbitClass,
+    TossOrbit, multi_toss,
 };
 use rayon::prelude::*;
 
@@ -309,7 +309,7 @@ pub(super) fn slice(
     };
     let period = match linear.class {
         OrbitClass::Periodic { period, .. } => Some(period),
-        OrbitClass::Chattering { impacts_per_cycle, .. } => Some(impacts_per_cycle),
+        OrbitClass::Chattering(cycle) => Some(cycle.impacts),
         _ => None,
     };
     let impacts = &linear.collisions;
@@ -319,9 +319,8 @@ pub(super) fn slice(
     };
     let shared = linear.collisions.len().min(semielliptical.collisions.len());
     let platform_periods = match linear.class {
-        OrbitClass::Periodic { platform_periods, .. } | OrbitClass::Chattering { platform_periods, .. } => {
-            Some(platform_periods)
-        }
+        OrbitClass::Periodic { platform_periods, .. }
+        | OrbitClass::Chattering(ChatteringCycle { platform_periods, .. }) => Some(platform_periods),
         _ => None,
     };
     Slice {

@@ -3,7 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble};
+use bouncing_disk::{
+    PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
+};
 
 use super::data::{Alike, Exception, Fig10Data, OtherPreload, Reading, Transient};
 use crate::experiment::{ExperimentError, Quality};
@@ -72,12 +74,11 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
     let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
     progress.advance(1);
 
-    let forcing = |amplitude, frequency_hz, preload| axial_forcing(amplitude, frequency_hz, preload);
-    let tsujino_axial_forcing = forcing(
+    let tsujino_axial_forcing = axial_forcing(
         section.tsujino_amplitude_m,
         section.tsujino_frequency_hz,
         section.tsujino_preload_acceleration_m_per_s2,
-    );
+    )?;
     Ok(Fig10Data {
         members,
         relaunch_perturbation: defaults.relaunch_perturbation,
@@ -86,11 +87,11 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
         alike,
         exact_settings,
         perturbations,
-        own_motor_axial_forcing: forcing(
+        own_motor_axial_forcing: axial_forcing(
             section.own_motor_amplitude_m,
             section.default_frequency_hz,
             section.gravity_m_per_s2,
-        ),
+        )?,
         tsujino_axial_forcing,
         tsujino_peak_acceleration: PI * tsujino_axial_forcing,
         table_iii: table,
@@ -100,9 +101,10 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data
 }
 
 /// Gamma of an amplitude (m), frequency (Hz) and preload acceleration (m/s^2).
-fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> f64 {
+fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> Result<f64, ExperimentError> {
     let angular_frequency = TAU * frequency_hz;
-    amplitude * angular_frequency * angular_frequency / (PI * preload)
+    let stator = PlatformParameters { amplitude, twist_amplitude: 0.0, angular_frequency, phase_lag: 0.0 };
+    Ok(stator.build()?.axial_forcing(preload))
 }
 
 /// The motors of Table III at the three amplitudes, every input anywhere between what still rounds to the printed one.

@@ -248,7 +248,7 @@ pub(super) fn extent(values: &[f64]) -> Option<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk::Spread;
+    use bouncing_disk::{ChatteringCycle, Spread};
 
     use super::*;
     use crate::figures::motor_case::{Cycle, Form, MotorStatistics};
@@ -264,7 +264,7 @@ mod tests {
                 stall_acceleration_rad_per_s2: stall.map(spread),
                 form: Form::Exponential,
                 unfitted: 0,
-                cycle: Cycle::Chattering { impacts: 9, platform_periods: 11, long_flights },
+                cycle: Cycle::Chattering(ChatteringCycle { impacts: 9, platform_periods: 11, long_flights }),
                 locked: true,
             },
             net_share_at_rest: 0.5,

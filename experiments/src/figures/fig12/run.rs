@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    CollisionEvent, Collisions, Engine, InitialCondition, RampFit, Trajectory, TransientSettings, transient,
+    CollisionEvent, Collisions, Engine, InitialCondition, LONG_FLIGHT, NormalImpulses, PhasedImpulse,
+    RampFit, Trajectory, TransientSettings, transient,
 };
 
 use rayon::prelude::*;
@@ -12,7 +13,6 @@ use rayon::prelude::*;
 use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Reading, Rounding, Shown, Zoom};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;
-use crate::figures::impulse::Impulses;
 use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error, perturbation_table};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
@@ -188,7 +188,7 @@ fn flown(motor: &MotorCase, flights: usize, duration_s: f64) -> Result<Flown, Ex
     {
         let time = match event {
             CollisionEvent::Collision(collision) => {
-                let long = |from| collision.time.since(&from).radians() > PI;
+                let long = |from| collision.time.since(&from).radians() > LONG_FLIGHT;
                 if let Some(from) = last.filter(|from| long(*from)) {
                     flown.times_s.push(scales.time_seconds(from));
                     flown.speeds_rad_per_s.push(scales.angular_speed * collision.angular_speed);
@@ -325,15 +325,16 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
 
 fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, ExperimentError> {
     let system = motor.system()?;
-    let impulses = Impulses::of(system.dimensionless().map(), if low_period { 1 } else { IMPULSES }, 0.0)?;
-    let levels = impulses.levels(motor.phase_lag_rad);
+    let impulses =
+        NormalImpulses::of(system.dimensionless().map(), if low_period { 1 } else { IMPULSES }, 0.0)?;
+    let levels = impulses.balance(motor.phase_lag_rad);
     let total = impulses.total();
     let (rise, top) = (motor.rise_time_s(), motor.peak_angular_speed_rad_per_s);
     let steady = levels.steady_speed();
     let (times, speeds) = levels.transient(LONG_RISES, 6_000);
     let reached = times.iter().zip(&speeds).find(|(_, speed)| **speed >= (1.0 - REACHED_WITHIN) * steady);
     let thin = |values: &[f64], unit: f64| values.iter().step_by(20).map(|value| unit * value).collect();
-    let impacts = impulses.impacts.iter().filter(|(_, impulse)| low_period && *impulse >= 0.01 * total);
+    let impacts = impulses.impacts.iter().filter(|one| low_period && one.impulse >= 0.01 * total);
     Ok(Prediction {
         net_share_at_rest: levels.net_share(0.0),
         slope_rad_per_s2: motor.largest_acceleration() * levels.net_share(0.0),
@@ -342,7 +343,7 @@ fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, Experiment
         time_s: thin(&times, rise),
         speed_rad_per_s: thin(&speeds, top),
         impacts: impacts
-            .map(|(phase, impulse)| {
+            .map(|PhasedImpulse { phase, impulse }| {
                 let level = bouncing_disk::core::elementary::cos(phase + motor.phase_lag_rad);
                 (phase / TAU, impulse / total, level)
             })

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use bouncing_disk::core::elementary::{ln, pow};
-use bouncing_disk::{ExponentialFit, TransientSettings};
+use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
 
 use super::data::{
     AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sensitivity, Sweep,
@@ -13,7 +13,6 @@ use super::reading::cosine_fit;
 use crate::claim::Agreement;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
-use crate::figures::impulse::Impulses;
 use crate::figures::motor_case::{MotorCase, perturbation_table};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
@@ -58,9 +57,9 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
         for value in grid {
             let case = parameter.set(&motor, value);
             let system = case.system()?;
-            let impulses = Impulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
+            let impulses = NormalImpulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
             let count = impulses.impacts.len() as f64;
-            let speeds = impulses.impacts.iter().map(|(_, impulse)| impulse / (1.0 + case.restitution));
+            let speeds = impulses.impacts.iter().map(|one| one.impulse / (1.0 + case.restitution));
             let mean_impact_speed_m_per_s = system.scales().velocity * speeds.sum::<f64>() / count;
             let (predicted_speed_ratio, predicted_stall_acceleration_rad_per_s2) = predict(&case, &impulses);
             points.push(SweepPoint {
@@ -83,8 +82,8 @@ pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data
         .map(|&restitution| {
             let case = MotorCase { restitution, ..motor };
             let map = *case.system()?.dimensionless().map();
-            let impulses = Impulses::of(&map, 5 * impacts, BREAKING_PERTURBATION)?;
-            let contact: f64 = impulses.contact.iter().map(|(_, impulse)| impulse).sum();
+            let impulses = NormalImpulses::of(&map, 5 * impacts, BREAKING_PERTURBATION)?;
+            let contact: f64 = impulses.contact.iter().map(|one| one.impulse).sum();
             Ok(ImpulsePhases {
                 restitution,
                 shares: impulses.histogram(PARTS),
@@ -142,8 +141,8 @@ fn values(parameter: Parameter, amplitudes: &[f64; 3], quality: Quality) -> Vec<
 }
 
 /// Steady speed over ωΦ and stall acceleration of the transient that the impulses give, fitted as the ensembles are.
-fn predict(case: &MotorCase, impulses: &Impulses) -> (f64, Option<f64>) {
-    let levels = impulses.levels(case.phase_lag_rad);
+fn predict(case: &MotorCase, impulses: &NormalImpulses) -> (f64, Option<f64>) {
+    let levels = impulses.balance(case.phase_lag_rad);
     let (times, speeds) = levels.transient(RISES, 240);
     let fit = ExponentialFit::new(&times, &speeds).ok();
     let stall = fit

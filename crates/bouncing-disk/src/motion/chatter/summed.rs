@@ -191,10 +191,10 @@ impl<'a> Rotation<'a> {
         let slip = self.slip + range.change(&self.gain);
         let axial = range.change(&self.impulses);
         let rotary = friction_impact(self.system.friction(), axial, slip);
-        let change = change_in_flight(self.system, self.chatter.angular_speed, duration);
+        let change = change_in_flight(self.system.load(), self.chatter.angular_speed, duration);
         record_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &change);
         let platform_speed = self.platform_speed(Some(self.impacts + 1));
-        let after = if rotary.capped { platform_speed } else { change.speed + rotary.impulse };
+        let after = rotary.speed_after(change.speed, platform_speed);
         let work = rotary.impulse * platform_speed;
         let loss = -rotary.impulse * (slip + 0.5 * rotary.impulse);
         let ledger = &mut self.chatter.ledger;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::elementary::pow;
-use bouncing_disk_core::{ImpactState, Vibration};
+use bouncing_disk_core::{ImpactState, Phase, Vibration};
 
 use super::*;
 use crate::parameters::dimensionless::DimensionlessParameters;

@@ -1,7 +1,8 @@
+use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk_core::Vibration;
 use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::{Phase, Vibration};
 use proptest::prelude::*;
 
 use super::*;

@@ -14,12 +14,11 @@ fn member(k: u32) -> TransientMember {
         phase_lag: if k % 4 == 3 { TAU * share(0.618_034) } else { 0.0 },
     };
     let disk = DiskParameters {
-        contact_radius: 1.25e-3,
-        gyration_radius: 6.3e-3,
         friction: [0.1, 0.1, 0.3, 0.0, 0.1, 1.0, 1e-3][k as usize / 3 % 7],
         restitution: [0.5, 0.5, 0.0, 0.3, 0.5, 0.8, 0.99][k as usize / 5 % 7],
         preload_acceleration: if k.is_multiple_of(2) { 9.8 } else { 1.0 + 80.0 * share(0.754_878) },
         load_acceleration: if k % 6 == 1 { 20.0 * share(0.569_84) } else { 0.0 },
+        ..System::motor().disk().parameters()
     };
     TransientMember {
         system: System::new(platform.build().expect("legal"), disk.build().expect("legal")).expect("legal"),

@@ -1,0 +1,102 @@
+//! Roots of functions of one variable inside a bracket.
+
+/// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings; the middle of the last
+/// bracket. The answer is not asked for at the ends, which count as true and false.
+///
+/// # Errors
+/// Those of `is_below`.
+pub fn bisection<E>(
+    mut low: f64,
+    mut high: f64,
+    steps: u32,
+    mut is_below: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<f64, E> {
+    for _ in 0..steps {
+        let middle = 0.5 * (low + high);
+        if is_below(middle)? {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(0.5 * (low + high))
+}
+
+/// The root between `low` and `high` of a function that is positive below it and negative above it, to the relative `accuracy`:
+/// Newton steps, replaced by bisection wherever they leave the bracket or fail to halve the previous step but one.
+///
+/// `function` gives the value and its derivative; `at_low` are those at `low`, which the caller often knows. Where the value
+/// there is not positive, or the bracket is empty, `low` is the root.
+#[inline(always)]
+pub fn falling_root(
+    mut low: f64,
+    mut high: f64,
+    at_low: (f64, f64),
+    accuracy: f64,
+    mut function: impl FnMut(f64) -> (f64, f64),
+) -> f64 {
+    let (start, rate) = at_low;
+    if start <= 0.0 || high <= low {
+        return low;
+    }
+    let newton = low - start / rate;
+    let mut place = if rate < 0.0 && newton < high { newton } else { 0.5 * (low + high) };
+    let mut last_step = high - low;
+    let mut last_but_one = last_step;
+    loop {
+        let (value, rate) = function(place);
+        if value == 0.0 {
+            return place;
+        }
+        if value > 0.0 {
+            low = place;
+        } else {
+            high = place;
+        }
+        let newton = place - value / rate;
+        let step = (newton - place).abs();
+        let next = if rate < 0.0 && newton > low && newton < high && 2.0 * step <= last_but_one {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        last_but_one = last_step;
+        last_step = (next - place).abs();
+        // The bisected bracket cannot shrink below two neighbours.
+        if last_step <= accuracy * next.abs() || next <= low || next >= high {
+            return next.clamp(low, high);
+        }
+        place = next;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::convert::Infallible;
+
+    use super::*;
+
+    #[test]
+    fn a_bisection_ends_at_the_change() {
+        let below = |x: f64| Ok::<_, Infallible>(x < 0.4321);
+        let Ok(found) = bisection(0.0, 1.0, 50, below);
+        assert!((found - 0.4321).abs() < 1e-15, "{found}");
+        assert_eq!(bisection(0.0, 1.0, 3, |_| Err("no answer")), Err("no answer"));
+        assert_eq!(bisection(1.0, 3.0, 0, below), Ok(2.0));
+    }
+
+    /// A simple root, a steep one at the end of a plateau, a threefold one, and one at the upper end.
+    #[test]
+    fn falling_functions_are_followed_to_their_root() {
+        let find = |high: f64, function: fn(f64) -> (f64, f64)| {
+            falling_root(0.0, high, function(0.0), 2.0 * f64::EPSILON, function)
+        };
+        assert!((find(3.0, |x| (2.0 - x * x, -2.0 * x)) - 2.0_f64.sqrt()).abs() < 1e-15);
+        assert!((find(1e9, |x| (1.0 - 1e-6 * x, -1e-6)) - 1e6).abs() < 1e-9);
+        let cube = |x: f64| ((1.0 - x) * (1.0 - x) * (1.0 - x), -3.0 * (1.0 - x) * (1.0 - x));
+        assert!((find(4.0, cube) - 1.0).abs() < 1e-5);
+        assert!((find(1.0, |x| (1.0 - x, -1.0)) - 1.0).abs() < 1e-15);
+        assert!(find(1.0, |x| (-x, -1.0)).abs() <= 0.0, "no value at the start");
+        assert!(find(-1.0, |x| (1.0 - x, -1.0)).abs() <= 0.0, "no bracket");
+    }
+}

@@ -1,0 +1,216 @@
+//! The motion of a disk on the platform from event to event: how it begins, which event comes next, and what that leaves.
+//!
+//! Every contact event is decided here and nowhere else. The [`Engine`](crate::Engine) makes a record of each step, with
+//! its energy; the motor's rotor takes the speed and the angle from it and pays for nothing more.
+
+use std::cmp::Ordering;
+
+use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, Phase};
+
+use crate::error::Error;
+use crate::motion::contact::{Friction, Spent};
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::{RotaryChange, change_in_contact};
+use crate::motion::state::{Mode, SlipDirection};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the platform's
+/// largest one, is the platform's: four units in the last place.
+pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
+
+/// A disk on the platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    /// The direction in which it slips; `None` while it sticks.
+    pub(crate) slip: Option<SlipDirection>,
+    /// When the platform falls away, if ever.
+    pub(crate) separation: Option<PhaseTime>,
+}
+
+/// What ends a segment of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ContactEvent {
+    /// The platform falls away.
+    Separation,
+    /// Friction no longer holds the disk.
+    StickToSlip(SlipDirection),
+    /// The slip ends and friction holds the disk.
+    SlipToStick,
+    /// The slip ends and another one begins, in this direction.
+    SlipReversal(SlipDirection),
+}
+
+/// What the next event is due to.
+#[derive(Debug, Clone, Copy)]
+enum Due {
+    Separation,
+    SlipStart(SlipDirection),
+    /// `began_here`: the slip was none at the start of the segment.
+    SlipEnd {
+        direction: SlipDirection,
+        began_here: bool,
+    },
+}
+
+/// A segment of contact and the event that ends it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ContactStep {
+    /// When the event happens.
+    pub(crate) time: PhaseTime,
+    /// Duration of the segment.
+    pub(crate) span: PhaseSpan,
+    pub(crate) event: ContactEvent,
+    /// What the closed forms say of the segment. Where a slip ends, rounding leaves a little between this speed and
+    /// [`Self::speed`].
+    pub(crate) change: RotaryChange,
+    /// Angular speed at the event: that of the platform where a slip ends.
+    pub(crate) speed: f64,
+}
+
+impl Contact {
+    /// A disk that comes to rest on the platform at `time` with angular `speed` and lies there until `separation`.
+    #[inline]
+    pub(crate) fn new(
+        system: &DimensionlessSystem,
+        friction: &Friction,
+        time: PhaseTime,
+        speed: f64,
+        separation: Option<PhaseTime>,
+    ) -> Self {
+        let slip = SlipDirection::of(speed - system.platform_angular_speed(time.phase))
+            .or_else(|| friction.onset(time.phase, Spent::None));
+        Self { slip, separation }
+    }
+
+    /// The contact after an attachment at `time`.
+    #[inline]
+    pub(crate) fn after_attachment(
+        system: &DimensionlessSystem,
+        friction: &Friction,
+        time: PhaseTime,
+        speed: f64,
+        rest: &Attachment,
+    ) -> Self {
+        let separation =
+            rest.separation.map(|(phase, turns)| PhaseTime { periods: time.periods + turns, phase });
+        Self::new(system, friction, time, speed, separation)
+    }
+
+    /// Sticking or sliding.
+    #[inline]
+    pub(crate) const fn mode(&self) -> Mode {
+        match self.slip {
+            Some(direction) => Mode::Sliding(direction),
+            None => Mode::Sticking,
+        }
+    }
+
+    /// The contact that follows an event; `None` after the separation.
+    #[inline]
+    pub(crate) const fn after(self, event: ContactEvent) -> Option<Self> {
+        let slip = match event {
+            ContactEvent::Separation => return None,
+            ContactEvent::StickToSlip(direction) | ContactEvent::SlipReversal(direction) => Some(direction),
+            ContactEvent::SlipToStick => None,
+        };
+        Some(Self { slip, ..self })
+    }
+
+    /// The next event of a disk with angular `speed` at `now`; `None` if it sticks, or slides, for ever.
+    ///
+    /// # Errors
+    /// [`Error::SlipTooLong`].
+    #[inline(always)]
+    pub(crate) fn next(
+        &self,
+        system: &DimensionlessSystem,
+        friction: &Friction,
+        now: PhaseTime,
+        speed: f64,
+    ) -> Result<Option<ContactStep>, Error> {
+        let from = now.phase;
+        let limit = self.separation.map(|at| at.since(&now).radians());
+        let due = match self.slip {
+            Some(direction) => {
+                let slip = speed - system.platform_angular_speed(from);
+                friction
+                    .slip_end(direction, from, direction.sign() * slip, limit)?
+                    .map(|span| (span, Due::SlipEnd { direction, began_here: slip == 0.0 }))
+            }
+            None => friction
+                .stick_end(from)
+                .filter(|(time, _)| limit.is_none_or(|limit| *time < limit))
+                .map(|(time, direction)| (PhaseSpan::from_radians(time), Due::SlipStart(direction))),
+        };
+        let (time, due) = match (due, self.separation) {
+            (Some((span, due)), separation) => {
+                // Rounding must not carry an event past the separation.
+                let time = now.after(span);
+                let time = separation.filter(|at| time.order(at) == Ordering::Greater).unwrap_or(time);
+                (time, due)
+            }
+            (None, Some(at)) => (at, Due::Separation),
+            (None, None) => return Ok(None),
+        };
+        let span = time.since(&now);
+        let change = change_in_contact(system, self.mode(), speed, (from, time.phase), span);
+        let (event, speed) = match due {
+            Due::Separation => (ContactEvent::Separation, change.speed),
+            Due::SlipStart(direction) => (ContactEvent::StickToSlip(direction), change.speed),
+            Due::SlipEnd { direction, began_here } => {
+                // A slip that begins and ends at the same instant is one of rounding: let nothing slip again here.
+                let idle = began_here && span == PhaseSpan::ZERO;
+                let spent = if idle { Spent::Both } else { Spent::One(direction) };
+                let event = friction
+                    .onset(time.phase, spent)
+                    .map_or(ContactEvent::SlipToStick, ContactEvent::SlipReversal);
+                (event, system.platform_angular_speed(time.phase))
+            }
+        };
+        Ok(Some(ContactStep { time, span, event, change, speed }))
+    }
+}
+
+/// A disk that has been put on the platform.
+#[derive(Debug, Clone)]
+pub(crate) struct Placed {
+    /// The vertical motion from the separation on; `None` if the platform never falls away.
+    pub(crate) orbit: Option<Orbit>,
+    /// `None` where the platform falls away at once and the disk flies.
+    pub(crate) contact: Option<Contact>,
+    /// Angular speed: one within rounding of the platform's is the platform's.
+    pub(crate) speed: f64,
+}
+
+impl Placed {
+    /// A disk with angular `speed` that is put on the platform at `phase`.
+    ///
+    /// # Errors
+    /// Those of the core's launches.
+    pub(crate) fn new(
+        system: &DimensionlessSystem,
+        friction: &Friction,
+        phase: Phase,
+        speed: f64,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let vibration = system.vibration();
+        let mut separation = None;
+        let mut orbit = None;
+        if let Some(leaves) = vibration.separation_phase() {
+            let falls_away = vibration.falls_away_at(phase.angle());
+            let from = if falls_away { phase } else { leaves };
+            orbit = Some(system.map().orbit_from_launch(Launch::new(from, 0.0)?, policy));
+            if falls_away {
+                return Ok(Self { orbit, contact: None, speed });
+            }
+            separation =
+                Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
+        }
+        let platform_speed = system.platform_angular_speed(phase);
+        let is_same = (speed - platform_speed).abs() <= SAME_SPEED * (speed.abs() + system.twist_speed());
+        let speed = if is_same { platform_speed } else { speed };
+        let contact = Contact::new(system, friction, PhaseTime::in_first_period(phase), speed, separation);
+        Ok(Self { orbit, contact: Some(contact), speed })
+    }
+}

@@ -1,0 +1,347 @@
+//! Where in the cycle of the stator the rotor gets its normal impulse, and what speed follows from it.
+//!
+//! Between two moments of the same vertical state the normal impulse, of impacts and contact together, equals the
+//! weight times the time between them. Friction passes on mu a_e of it, forwards wherever the stator turns faster than
+//! the rotor and backwards elsewhere. For a rotor whose speed q changes little in one impact therefore
+//!
+//! ```text
+//! dq/dt = (mu a_e g/a_g^2) S(q/(omega Phi)),    S(x) = share of the impulse with cos(tau + theta) > x minus the rest
+//! ```
+//!
+//! The steady speed is omega Phi times the impulse-weighted median of cos(tau + theta), and for a cycle of few impacts the
+//! speed rises in straight lines that break where the rotor catches up with the stator at one of them.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::elementary::cos;
+use bouncing_disk_core::numerics::circular::Concentration;
+use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, moderate_not_negative, within_limit};
+use crate::toss::chattering_cycle::LONG_FLIGHT;
+use crate::toss::multiple::MAX_EXAMINED;
+
+/// Parts into which a segment of contact is divided.
+const CONTACT_PARTS: u32 = 32;
+
+/// Impacts after which a motion that does not come to rest is given up.
+const LONGEST_CYCLE: usize = 10_000;
+
+/// The irrational step of an evenly filling sequence: the golden ratio.
+const GOLDEN_STEP: f64 = 0.618_033_988_749_894_8;
+
+/// A normal impulse, and where in the cycle of the platform it acts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PhasedImpulse {
+    /// Phase of the platform (rad).
+    pub phase: f64,
+    /// Impulse per mass of the disk, in units of g/omega.
+    pub impulse: f64,
+}
+
+/// The normal impulses of an orbit, of impacts and of contact.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct NormalImpulses {
+    /// Of single impacts.
+    pub impacts: Vec<PhasedImpulse>,
+    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], those of a last cycle that is cut off among
+    /// them. Those of a chattering sequence, without end, are not among them.
+    pub landings: Vec<f64>,
+    /// Of chattering that is summed, and of contact, in parts.
+    pub contact: Vec<PhasedImpulse>,
+    /// Duration in radians, equal to the sum of all impulses between two separations.
+    pub duration: f64,
+}
+
+impl NormalImpulses {
+    /// Of at least `impacts` impacts from one separation to a later one; none if the platform never falls away. Each separation
+    /// gets a relative speed below `perturbation` (in units of g/omega, in [0, 1e100]), evenly spread; the last cycle, cut off,
+    /// is left out unless it is the only one.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`] impacts; those of the
+    /// flights.
+    pub fn of(map: &ImpactMap, impacts: usize, perturbation: f64) -> Result<Self, Error> {
+        moderate_not_negative("perturbation", perturbation)?;
+        within_limit("impacts whose impulses are wanted", impacts, MAX_EXAMINED)?;
+        let mut impulses = Self::default();
+        let Some(phase) = map.vibration().separation_phase() else { return Ok(impulses) };
+        let mut orbit = map.orbit_from_launch(Launch::new(phase, 0.0)?, ChatterPolicy::Complete);
+        let mut separations = 0_u32;
+        // What follows a separation is kept only when the next one comes.
+        let mut complete = (0, 0, 0.0);
+        let mut flown = 0.0;
+        let most = 4 * impacts + LONGEST_CYCLE;
+        while impulses.impacts.len() < most {
+            let Some(event) = orbit.advance()? else { break };
+            match event {
+                OrbitEvent::Impact(impact) => {
+                    flown += impact.duration();
+                    if impact.duration() > LONG_FLIGHT {
+                        impulses.landings.push(impact.phase.angle());
+                    }
+                    let impulse = -(1.0 + map.restitution()) * impact.velocity;
+                    impulses.impacts.push(PhasedImpulse { phase: impact.phase.angle(), impulse });
+                }
+                OrbitEvent::Attachment(rest) => {
+                    let from = impulses.impacts.last().map_or(phase.angle(), |impact| impact.phase);
+                    let Some(contact) = RestImpulses::of(map, &rest, from, CONTACT_PARTS) else { break };
+                    impulses.contact.push(contact.chatter);
+                    impulses.contact.extend(contact.parts().map(|part| {
+                        let phase = Phase::new(part.middle).map_or(part.middle, |phase| phase.angle());
+                        PhasedImpulse { phase, impulse: part.duration + part.gain }
+                    }));
+                    impulses.duration += flown + rest.accumulation.duration + contact.lasts();
+                    flown = 0.0;
+                    complete = (impulses.impacts.len(), impulses.contact.len(), impulses.duration);
+                    if complete.0 >= impacts {
+                        break;
+                    }
+                    separations += 1;
+                    relaunch(&mut orbit, perturbation, separations)?;
+                }
+                _ => {}
+            }
+        }
+        if complete.0 > 0 {
+            impulses.impacts.truncate(complete.0);
+            impulses.contact.truncate(complete.1);
+            impulses.duration = complete.2;
+        } else {
+            impulses.duration = flown;
+        }
+        Ok(impulses)
+    }
+
+    fn all(&self) -> impl Iterator<Item = PhasedImpulse> {
+        self.impacts.iter().chain(&self.contact).copied()
+    }
+
+    /// The sum of all impulses, in units of g/omega.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.all().map(|one| one.impulse).sum()
+    }
+
+    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; not numbers where there is no impulse.
+    #[must_use]
+    pub fn histogram(&self, parts: usize) -> Vec<f64> {
+        let mut shares = vec![0.0; parts];
+        for one in self.all() {
+            let turned = (one.phase / TAU + 0.5).rem_euclid(1.0);
+            let part = ((turned * parts as f64) as usize).min(parts.saturating_sub(1));
+            if let Some(share) = shares.get_mut(part) {
+                *share += one.impulse;
+            }
+        }
+        let total: f64 = shares.iter().sum();
+        shares.iter().map(|share| share / total).collect()
+    }
+
+    /// Where in the cycle the impulse is concentrated; `None` without impulse.
+    #[must_use]
+    pub fn concentration(&self) -> Option<Concentration> {
+        Concentration::of(self.all().map(|one| (one.phase, one.impulse)))
+    }
+
+    /// Where the [`landings`](Self::landings) are; `None` without any.
+    #[must_use]
+    pub fn concentration_of_collisions(&self) -> Option<Concentration> {
+        Concentration::of(self.landings.iter().map(|phase| (*phase, 1.0)))
+    }
+
+    /// Share of the impulse within `reach` (rad, in [0, pi]) of tau = 0.
+    #[must_use]
+    pub fn share_near_zero(&self, reach: f64) -> f64 {
+        let near = self.all().filter(|one| one.phase.min(TAU - one.phase) <= reach);
+        near.map(|one| one.impulse).sum::<f64>() / self.total()
+    }
+
+    /// The balance of friction on a stator with this phase lag theta (rad).
+    #[must_use]
+    pub fn balance(&self, phase_lag: f64) -> ImpulseBalance {
+        let mut levels: Vec<(f64, f64)> =
+            self.all().map(|one| (cos(one.phase + phase_lag), one.impulse)).collect();
+        levels.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let mut below = Vec::with_capacity(levels.len());
+        let mut sum = 0.0;
+        for (_, impulse) in &levels {
+            sum += impulse;
+            below.push(sum);
+        }
+        ImpulseBalance { speeds: levels.into_iter().map(|level| level.0).collect(), below }
+    }
+}
+
+/// Gives the launch that is due a relative speed of an evenly filling sequence.
+fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Error> {
+    if perturbation > 0.0 {
+        let share = (f64::from(index) * GOLDEN_STEP).rem_euclid(1.0);
+        orbit.perturb_launch(perturbation * share)?;
+    }
+    Ok(())
+}
+
+/// The normal impulses from the last single impact before a rest to the separation after it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RestImpulses {
+    /// Of the chattering sequence, as one at the attachment: impulse is change of velocity plus weight times time.
+    pub(crate) chatter: PhasedImpulse,
+    /// Angle of the separation, counted on from that of the attachment.
+    pub(crate) until: f64,
+    peak_acceleration: f64,
+    parts: u32,
+}
+
+impl RestImpulses {
+    /// Of a rest whose last single impact, or separation, was at the angle `last`; `None` if it lasts for ever. The contact is
+    /// divided into `parts`.
+    pub(crate) fn of(map: &ImpactMap, rest: &Attachment, last: f64, parts: u32) -> Option<Self> {
+        let (leaves, turns) = rest.separation?;
+        let peak_acceleration = map.vibration().peak_acceleration();
+        let attached = rest.accumulation.phase.angle();
+        let impulse =
+            rest.accumulation.duration - rest.last_speed + peak_acceleration * (cos(attached) - cos(last));
+        let until = leaves.angle() + TAU * turns as f64;
+        Some(Self { chatter: PhasedImpulse { phase: attached, impulse }, until, peak_acceleration, parts })
+    }
+
+    /// Duration of the contact (rad).
+    pub(crate) fn lasts(&self) -> f64 {
+        self.until - self.chatter.phase
+    }
+
+    /// Duration of one part of it.
+    pub(crate) fn step(&self) -> f64 {
+        self.lasts() / f64::from(self.parts)
+    }
+
+    /// The parts of the contact, in their order.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = ContactPart> + use<> {
+        let (from, step, peak) = (self.chatter.phase, self.step(), self.peak_acceleration);
+        (0..self.parts).map(move |part| {
+            let (start, end) = (from + step * f64::from(part), from + step * f64::from(part + 1));
+            ContactPart {
+                middle: 0.5 * (start + end),
+                duration: end - start,
+                gain: peak * (cos(end) - cos(start)),
+            }
+        })
+    }
+}
+
+/// A part of a segment of contact: the impulse of the normal force 1 - P sin tau in it is the duration plus the gain.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ContactPart {
+    /// Angle of its middle, not wrapped.
+    pub(crate) middle: f64,
+    /// Duration (rad).
+    pub(crate) duration: f64,
+    /// What the platform gains of axial velocity in it.
+    pub(crate) gain: f64,
+}
+
+/// The balance of the impulses that drive a rotor forwards and those that brake it: [`NormalImpulses`] ordered by
+/// cos(tau + theta), the speed of the stator.
+///
+/// ```
+/// use bouncing_disk::{NormalImpulses, System};
+///
+/// // The motor of Table III: where friction pushes forwards half of the time is its steady speed.
+/// let motor = System::motor();
+/// let impulses = NormalImpulses::of(motor.dimensionless().map(), 2_000, 1e-3)?;
+/// let balance = impulses.balance(motor.platform().phase_lag());
+/// let steady = balance.steady_speed() * motor.platform().peak_angular_speed();
+/// assert!(steady > 10.0 && steady < 25.0);
+/// // From rest it accelerates by (mu a_e g/a_g^2) S(0).
+/// let stall = balance.net_share(0.0) * motor.disk().friction_acceleration();
+/// assert!(stall > 0.0 && stall < motor.disk().friction_acceleration());
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImpulseBalance {
+    speeds: Vec<f64>,
+    /// Sum of the impulses up to each.
+    below: Vec<f64>,
+}
+
+impl ImpulseBalance {
+    /// S: share of the impulse where the stator turns faster than `speed` (in units of omega Phi) minus the rest.
+    #[must_use]
+    pub fn net_share(&self, speed: f64) -> f64 {
+        let slower = self.speeds.partition_point(|level| *level <= speed);
+        let total = self.below.last().copied().unwrap_or(1.0);
+        let below = if slower == 0 { 0.0 } else { self.below[slower - 1] };
+        1.0 - 2.0 * below / total
+    }
+
+    /// The steady speed in units of omega Phi: the weighted median; zero without impulse.
+    #[must_use]
+    pub fn steady_speed(&self) -> f64 {
+        let half = 0.5 * self.below.last().copied().unwrap_or(0.0);
+        let index = self.below.partition_point(|sum| *sum < half);
+        self.speeds.get(index).or(self.speeds.last()).copied().unwrap_or(0.0)
+    }
+
+    /// Times in units of the rise time omega Phi a_g^2/(mu a_e g) ([`crate::System::rise_time`]), and the speed from rest at
+    /// them in units of omega Phi: `count` equal steps up to `rises`.
+    #[must_use]
+    pub fn transient(&self, rises: f64, count: u32) -> (Vec<f64>, Vec<f64>) {
+        let step = rises / f64::from(count);
+        let mut speed = 0.0;
+        let (mut times, mut speeds) = (Vec::new(), Vec::new());
+        for index in 1..=count {
+            let half = speed + 0.5 * step * self.net_share(speed);
+            speed += step * self.net_share(half);
+            times.push(step * f64::from(index));
+            speeds.push(speed);
+        }
+        (times, speeds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::Vibration;
+
+    use super::*;
+
+    fn map(peak: f64, restitution: f64) -> ImpactMap {
+        let forcing = peak / std::f64::consts::PI;
+        ImpactMap::new(Vibration::from_axial_forcing(forcing).expect("legal"), restitution).expect("legal")
+    }
+
+    #[test]
+    fn the_impulse_of_a_cycle_is_the_weight_times_its_duration() {
+        for (peak, restitution) in [(19.739_208_8, 0.5), (197.4, 0.3), (3.0, 0.0), (1.5, 0.5)] {
+            let impulses = NormalImpulses::of(&map(peak, restitution), 1, 0.0).expect("no failure");
+            let off = impulses.total() / impulses.duration - 1.0;
+            assert!(off.abs() < 1e-9, "{peak} {restitution}: {off}");
+        }
+    }
+
+    #[test]
+    fn half_of_the_impulse_lies_below_the_steady_speed() {
+        let impulses = NormalImpulses::of(&map(197.4, 0.5), 2_000, 1e-3).expect("no failure");
+        let balance = impulses.balance(0.0);
+        let steady = balance.steady_speed();
+        assert!(balance.net_share(steady - 1e-6) >= 0.0 && balance.net_share(steady + 1e-6) <= 0.0);
+        assert!(balance.net_share(-1.0 - 1e-9) >= 1.0 && balance.net_share(1.0) <= -1.0 + 1e-12);
+        let (_, speeds) = balance.transient(20.0, 4_000);
+        assert!((speeds[3_999] - steady).abs() < 0.02, "{} {steady}", speeds[3_999]);
+        assert!((impulses.histogram(16).iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_never_leaves_has_no_impulses_and_too_many_are_refused() {
+        let none = NormalImpulses::of(&map(0.5, 0.5), 10, 0.0).expect("legal");
+        assert_eq!(none, NormalImpulses::default());
+        assert!(none.concentration().is_none() && none.histogram(0).is_empty());
+        assert!(none.balance(0.0).steady_speed().abs() <= 0.0);
+        for (impacts, perturbation) in [(usize::MAX, 0.0), (10, -1.0), (10, f64::NAN)] {
+            assert!(NormalImpulses::of(&map(2.0, 0.5), impacts, perturbation).is_err());
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! What a chattering orbit repeats.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A flight is long if it lasts longer than this (rad): half a period of the platform. The short ones of a chattering sequence
+/// get shorter without end, so that their number says how the sequence was cut rather than what the disk does.
+pub const LONG_FLIGHT: f64 = PI;
+
+/// One round of a disk that comes to rest on the platform again and again: from one separation to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChatteringCycle {
+    /// Impacts, without those that the complete policy sums.
+    pub impacts: usize,
+    /// Periods of the platform.
+    pub platform_periods: u64,
+    /// Flights longer than [`LONG_FLIGHT`].
+    pub long_flights: usize,
+}
+
+impl ChatteringCycle {
+    /// Whether the disk is thrown, chatters and rests within each period of the platform: a chain of single tosses.
+    #[must_use]
+    pub const fn is_single_toss(&self) -> bool {
+        self.platform_periods == 1
+    }
+}
+
+impl fmt::Display for ChatteringCycle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { impacts, platform_periods, long_flights } = self;
+        write!(f, "{long_flights} long flights, {impacts} impacts, {platform_periods} periods")
+    }
+}
