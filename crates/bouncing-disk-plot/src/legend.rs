@@ -115,10 +115,10 @@ fn draw_key(svg: &mut Svg, layer: &Layer, area: Rect) {
                 svg.path(&polyline(ends), style);
             }
         }
-        Layer::Scatter(scatter) => scatter.draw_markers(svg, &[area.outline().center()]),
+        Layer::Scatter(scatter) => scatter.draw_markers(svg, [area.outline().center()]),
         Layer::DensePoints(points) => {
             let sample = Scatter::new([]).marker(Marker::Dot).size(3.0).colour(points.style.solid().colour);
-            sample.draw_markers(svg, &[area.outline().center()]);
+            sample.draw_markers(svg, [area.outline().center()]);
         }
         Layer::Raster(_) | Layer::Text(_) | Layer::Arrow(_) => {}
     }

@@ -98,12 +98,14 @@ impl Scatter {
     }
 
     /// Draws the markers at points of the page.
-    pub(crate) fn draw_markers(&self, svg: &mut Svg, points: &[Point]) {
-        let style = match self.marker {
-            Marker::Dot => self.style.solid().into(),
-            _ => self.style,
-        };
-        svg.copies(&self.marker.outline(0.5 * self.size), points, &style);
+    pub(crate) fn draw_markers(&self, svg: &mut Svg, points: impl IntoIterator<Item = Point>) {
+        match self.marker.outline(0.5 * self.size) {
+            None => svg.dots(points, self.size, self.style.solid()),
+            Some(outline) => {
+                let copies = points.into_iter().map(|point| Affine::translate(point.to_vec2()) * &outline);
+                svg.path(&copies.flatten().collect(), &self.style);
+            }
+        }
     }
 
     /// Error bars; they are clipped by the frame.
@@ -137,27 +139,27 @@ impl Scatter {
     /// Markers; one on the edge of the frame is drawn whole.
     pub(crate) fn render_markers(&self, frame: &Frame<'_>, svg: &mut Svg) {
         let points = self.points.iter().map(|point| frame.point(*point));
-        let inside: Vec<_> = points.filter(|point| frame.contains(*point)).collect();
-        self.draw_markers(svg, &inside);
+        self.draw_markers(svg, points.filter(|point| frame.contains(*point)));
     }
 }
 
 impl Marker {
-    /// The outline about the origin.
-    fn outline(self, radius: f64) -> BezPath {
+    /// The outline about the origin; a dot has none.
+    fn outline(self, radius: f64) -> Option<BezPath> {
         let corners = |corners: &[(f64, f64)]| polygon(corners.iter().copied().map(Point::from));
         let cross = |reach: Vec2| -> BezPath {
             let bars = [reach, reach.turn_90()].map(|end| polyline([-end, end].map(Vec2::to_point)));
             bars.into_iter().flatten().collect()
         };
         let unit = match self {
-            Self::Dot | Self::Circle => return Circle::new(Point::ZERO, radius).to_path(TOLERANCE),
+            Self::Dot => return None,
+            Self::Circle => return Some(Circle::new(Point::ZERO, radius).to_path(TOLERANCE)),
             Self::Cross => cross(Vec2::new(0.85, 0.85)),
             Self::Plus => cross(Vec2::new(1.0, 0.0)),
             Self::Square => corners(&[(-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)]),
             Self::Triangle => corners(&[(0.0, -1.1), (0.95, 0.6), (-0.95, 0.6)]),
             Self::Diamond => corners(&[(0.0, -1.15), (1.0, 0.0), (0.0, 1.15), (-1.0, 0.0)]),
         };
-        Affine::scale(radius) * unit
+        Some(Affine::scale(radius) * unit)
     }
 }
