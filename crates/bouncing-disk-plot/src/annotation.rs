@@ -83,8 +83,7 @@ impl Text {
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
-        let place = self.place.on_page(frame);
-        if place.is_finite() { svg.label(&self.label, place, self.style) } else { Ok(()) }
+        svg.label(&self.label, self.place.on_page(frame), self.style)
     }
 }
 

@@ -78,7 +78,9 @@ impl Drawing {
         fill: Option<(Colour, f64)>,
     ) -> Self {
         let place = Affine::translate(Vec2::from(centre)).pre_scale_non_uniform(radii.0, radii.1);
-        let outline = self.to_page() * place * Circle::new(Point::ZERO, 1.0).to_path(TOLERANCE);
+        // Four curves, which stay within 0.0003 of the unit circle.
+        let circle = Circle::new(Point::ZERO, 1.0).to_path(1e-3);
+        let outline = self.to_page() * place * circle;
         self.with(Item::Shape(outline, Style { stroke, fill: fill.map(Fill::from) }))
     }
 

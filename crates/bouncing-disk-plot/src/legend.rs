@@ -9,10 +9,12 @@ use crate::label::Label;
 use crate::layer::Layer;
 use crate::line::{Band, Line, Rule};
 use crate::path::polyline;
-use crate::scatter::{Marker, Scatter};
 use crate::style::{Stroke, Style};
 use crate::svg::Svg;
 use crate::text_style::{Anchor, TextStyle};
+
+/// The diameter in points of the dot that stands for points too small to be seen alone.
+const DENSE_SAMPLE: f64 = 3.0;
 
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -117,8 +119,8 @@ fn draw_key(svg: &mut Svg, layer: &Layer, area: Rect) {
         }
         Layer::Scatter(scatter) => scatter.draw_markers(svg, [area.outline().center()]),
         Layer::DensePoints(points) => {
-            let sample = Scatter::new([]).marker(Marker::Dot).size(3.0).colour(points.style.solid().colour);
-            sample.draw_markers(svg, [area.outline().center()]);
+            let colour = points.style.solid().colour;
+            svg.dots([area.outline().center()], DENSE_SAMPLE, colour.into());
         }
         Layer::Raster(_) | Layer::Text(_) | Layer::Arrow(_) => {}
     }

@@ -84,3 +84,8 @@ pub use scatter::{Marker, Scatter};
 pub use style::{Dash, Fill, Stroke, Style};
 pub use text_style::Anchor;
 pub use ticks::Ticks;
+
+/// The example of the README, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -13,7 +13,7 @@ use crate::path::polyline;
 use crate::style::{Stroke, Style};
 use crate::svg::Svg;
 use crate::text_style::{Anchor, TextStyle};
-use crate::ticks::Scale;
+use crate::ticks::PlacedTicks;
 
 /// Lengths in points.
 const FRAME_WIDTH: f64 = 0.7;
@@ -43,7 +43,7 @@ pub struct Panel {
 struct Side<'a> {
     edge: Edge,
     axis: &'a Axis,
-    scale: Scale,
+    placed: PlacedTicks,
     /// Whether numbers and label stand at this edge; the edge opposite to a lone axis has only its ticks.
     labelled: bool,
 }
@@ -300,12 +300,12 @@ impl<'a> Side<'a> {
             Edge::Bottom | Edge::Top => (area.width, 5.0 * text_size),
             Edge::Left | Edge::Right => (area.height, 3.0 * text_size),
         };
-        Ok(Self { edge, axis, scale: axis.choose_ticks(length, spacing)?, labelled })
+        Ok(Self { edge, axis, placed: axis.choose_ticks(length, spacing)?, labelled })
     }
 
     /// The marks of the ticks, into the frame.
     fn marks(&self, area: Rect) -> BezPath {
-        let marks = self.scale.ticks.iter().flat_map(|tick| {
+        let marks = self.placed.ticks.iter().flat_map(|tick| {
             let length = if tick.label.is_some() { MAJOR_TICK } else { MINOR_TICK };
             let place = self.edge.place(area, self.axis.fraction(tick.value));
             polyline([place, place - length * self.edge.outward()])
@@ -325,7 +325,7 @@ impl<'a> Side<'a> {
                 Edge::Right => (0.0, Anchor::LeftCentre),
             };
             let shift = NUMBER_DISTANCE * self.edge.outward() + Vec2::new(0.0, below);
-            for tick in &self.scale.ticks {
+            for tick in &self.placed.ticks {
                 let Some(label) = &tick.label else { continue };
                 widest = widest.max(label.width(size));
                 let place = self.edge.place(area, self.axis.fraction(tick.value)) + shift;
@@ -337,7 +337,7 @@ impl<'a> Side<'a> {
     }
 
     fn render_power(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
-        let Some(power) = self.scale.power else { return Ok(()) };
+        let Some(power) = self.placed.power else { return Ok(()) };
         let size = svg.number_size();
         let label = Label::new(&format!("$\\times 10^{{{power}}}$"));
         let (x, y, anchor) = match self.edge {
@@ -352,8 +352,8 @@ impl<'a> Side<'a> {
     /// The label of the axis beyond its numbers, of which the widest is given.
     fn render_label(&self, area: Rect, widest: f64, svg: &mut Svg) -> Result<(), DrawError> {
         let text_size = svg.text_size();
-        let upright = matches!(self.edge, Edge::Bottom | Edge::Top);
-        let extent = if upright { 0.7 * svg.number_size() } else { widest };
+        let level = matches!(self.edge, Edge::Bottom | Edge::Top);
+        let extent = if level { 0.7 * svg.number_size() } else { widest };
         let numbers = if self.axis.shows_numbers() { NUMBER_DISTANCE + extent } else { 0.0 };
         let room = match self.edge {
             Edge::Bottom => 1.45,
@@ -370,7 +370,7 @@ impl<'a> Side<'a> {
             Edge::Right => place.x = place.x.min(svg.width() - 0.35 * text_size),
             Edge::Top => place.y = place.y.max(text_size),
         }
-        let rotation = if upright { 0.0 } else { 90.0 };
+        let rotation = if level { 0.0 } else { 90.0 };
         svg.label(self.axis.label_text(), place, TextStyle::new(Anchor::Middle).rotated(rotation))
     }
 }

@@ -3,7 +3,7 @@
 use kurbo::{BezPath, PathEl, Point};
 
 /// An outline of straight lines and cubic Bézier curves, in the local coordinates of a
-/// [`Drawing`](crate::Drawing).
+/// [`Drawing`](crate::Drawing). One with a point that is not finite is not drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
     outline: BezPath,

@@ -88,7 +88,7 @@ impl Svg {
         self.path_with("", path, style);
     }
 
-    /// Discs about points: lines of no length with round ends, which take a tenth of the text of outlines.
+    /// Discs about points: lines of no length with round ends, which take a fifth of the text of their outlines.
     pub(crate) fn dots(&mut self, centres: impl IntoIterator<Item = Point>, diameter: f64, fill: Fill) {
         let dots = centres.into_iter().flat_map(|centre| polyline([centre; 2])).collect();
         let stroke =
@@ -136,10 +136,10 @@ impl Svg {
         );
     }
 
-    /// A label whose baseline (or middle) is at a point.
+    /// A label whose baseline (or middle) is at a point; left out where the point is not finite.
     pub(crate) fn label(&mut self, label: &Label, at: Point, style: TextStyle) -> Result<(), DrawError> {
         let spans = label.spans()?;
-        if label.is_empty() {
+        if label.is_empty() || !at.is_finite() {
             return Ok(());
         }
         let (anchor, centred) = match style.anchor {
