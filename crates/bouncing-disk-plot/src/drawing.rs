@@ -197,3 +197,33 @@ impl Drawing {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn local_coordinates_run_upwards_and_back() {
+        let drawing =
+            Drawing::with_equal_scales(Rect::new(10.0, 20.0, 200.0, 100.0), (-1.0, 1.0), (0.0, 2.0));
+        let place = drawing.to_page() * Point::new(0.0, 2.0);
+        assert!((place - Point::new(110.0, 20.0)).hypot() < 1e-12, "{place:?}");
+        let (x, y) = drawing.local((110.0, 20.0));
+        assert!(x.abs() < 1e-12 && (y - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn ellipses_and_boxes_have_their_size_on_the_page() {
+        let drawing = Drawing::new(Rect::new(0.0, 0.0, 100.0, 50.0), (0.0, 10.0), (0.0, 10.0))
+            .ellipse((5.0, 5.0), (2.0, 1.0), None, Some((Colour::GREY, 1.0)))
+            .text_box((5.0, 5.0), (4.0, 2.0), 1.5, ["words"], Stroke::default(), Colour::WHITE);
+        let expected = kurbo::Rect::new(30.0, 20.0, 70.0, 30.0);
+        for item in &drawing.items {
+            let Item::Shape(path, _) = item else { continue };
+            let extent = path.bounding_box();
+            let distance = (extent.origin() - expected.origin()).hypot()
+                + (extent.size() - expected.size()).to_vec2().hypot();
+            assert!(distance < 1e-9, "{extent:?}");
+        }
+    }
+}

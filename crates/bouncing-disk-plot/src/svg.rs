@@ -234,6 +234,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::Colour;
 
     #[test]
     fn lengths_are_short() {
@@ -241,6 +242,18 @@ mod tests {
         assert_eq!(short(-0.0001), "0");
         assert_eq!(short(10.120_4), "10.12");
         assert_eq!(short(100.0), "100");
+    }
+
+    #[test]
+    fn paths_are_rounded_and_those_that_are_not_finite_left_out() {
+        let mut svg = Svg::new(10.0, 10.0, 10.0);
+        let style = Stroke::default().into();
+        svg.path(&polyline([Point::new(-0.0001, 1.0), Point::new(2.000_04, 0.123_46)]), &style);
+        svg.path(&polyline([Point::ZERO, Point::new(f64::NAN, 1.0)]), &style);
+        svg.dots([Point::new(3.0, 4.0)], 1.5, Fill::from(Colour::GREY));
+        let text = svg.finish();
+        assert!(text.contains("d=\"M0,1 L2,0.123\"") && text.contains("d=\"M3,4 L3,4\""), "{text}");
+        assert_eq!(text.matches("<path").count(), 2);
     }
 
     #[test]
