@@ -1,28 +1,16 @@
 //! Words and arrows in a panel.
 
+use kurbo::{Affine, BezPath, Point};
+
+use crate::builders::builders;
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Frame;
 use crate::label::Label;
-use crate::stroke::{Dash, Stroke};
-use crate::svg::{Svg, TextStyle, line_to, move_to};
-
-/// Which point of a text is placed: on its baseline, or (`..Centre`) at half the height of its capitals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Anchor {
-    /// The left end of the baseline.
-    Left,
-    /// The middle of the baseline.
-    Middle,
-    /// The right end of the baseline.
-    Right,
-    /// The left end, centred vertically.
-    LeftCentre,
-    /// The middle, centred vertically.
-    Centre,
-    /// The right end, centred vertically.
-    RightCentre,
-}
+use crate::path::{polygon, polyline};
+use crate::style::{Stroke, Style};
+use crate::svg::Svg;
+use crate::text_style::{Anchor, TextStyle};
 
 /// Where something is placed in a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +21,10 @@ enum Place {
 }
 
 impl Place {
-    fn on_page(self, frame: &Frame<'_>) -> (f64, f64) {
+    fn on_page(self, frame: &Frame<'_>) -> Point {
         match self {
             Self::Data(x, y) => frame.point((x, y)),
-            Self::Axes(x, y) => {
-                (frame.area.left + x * frame.area.width, frame.area.bottom() - y * frame.area.height)
-            }
+            Self::Axes(x, y) => frame.area.fractions() * Point::new(x, y),
         }
     }
 }
@@ -48,12 +34,10 @@ impl Place {
 pub struct Text {
     place: Place,
     label: Label,
-    anchor: Anchor,
-    colour: Colour,
-    size: Option<f64>,
-    rotation: f64,
-    halo: Option<Colour>,
+    style: TextStyle,
 }
+
+builders!(Text: colour);
 
 impl Text {
     /// A text at a point in data coordinates.
@@ -67,65 +51,39 @@ impl Text {
     }
 
     fn at(place: Place, label: Label) -> Self {
-        Self {
-            place,
-            label,
-            anchor: Anchor::LeftCentre,
-            colour: Colour::BLACK,
-            size: None,
-            rotation: 0.0,
-            halo: None,
-        }
+        Self { place, label, style: TextStyle::new(Anchor::LeftCentre) }
     }
 
     /// Chooses the point of the text that is placed; the left end, vertically centred, unless set.
     #[must_use]
     pub fn anchor(mut self, anchor: Anchor) -> Self {
-        self.anchor = anchor;
-        self
-    }
-
-    /// Sets the colour.
-    #[must_use]
-    pub fn colour(mut self, colour: Colour) -> Self {
-        self.colour = colour;
+        self.style.anchor = anchor;
         self
     }
 
     /// Sets the font size in points.
     #[must_use]
     pub fn size(mut self, points: f64) -> Self {
-        self.size = Some(points);
+        self.style = self.style.size(points);
         self
     }
 
     /// Turns the text anticlockwise.
     #[must_use]
     pub fn rotated(mut self, degrees: f64) -> Self {
-        self.rotation = degrees;
+        self.style = self.style.rotated(degrees);
         self
     }
 
     /// Puts a rim around the letters, which keeps them legible on a picture.
     #[must_use]
     pub fn halo(mut self, colour: Colour) -> Self {
-        self.halo = Some(colour);
+        self.style = self.style.halo(colour);
         self
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
-        let place = self.place.on_page(frame);
-        if !(place.0.is_finite() && place.1.is_finite()) {
-            return Ok(());
-        }
-        let style = TextStyle {
-            size: self.size.unwrap_or(frame.text_size),
-            anchor: self.anchor,
-            colour: self.colour,
-            rotation: self.rotation,
-            halo: self.halo,
-        };
-        svg.label(&self.label, place, style)
+        svg.label(&self.label, self.place.on_page(frame), self.style)
     }
 }
 
@@ -134,9 +92,11 @@ impl Text {
 pub struct Arrow {
     from: Place,
     to: Place,
-    stroke: Stroke,
+    style: Style,
     head: f64,
 }
+
+builders!(Arrow: colour, width);
 
 impl Arrow {
     /// An arrow between two points in data coordinates.
@@ -150,21 +110,7 @@ impl Arrow {
     }
 
     fn between(from: Place, to: Place) -> Self {
-        Self { from, to, stroke: Stroke::default(), head: 5.0 }
-    }
-
-    /// Sets the colour.
-    #[must_use]
-    pub fn colour(mut self, colour: Colour) -> Self {
-        self.stroke.colour = colour;
-        self
-    }
-
-    /// Sets the width of the line in points.
-    #[must_use]
-    pub fn width(mut self, points: f64) -> Self {
-        self.stroke.width = points;
-        self
+        Self { from, to, style: Stroke::default().into(), head: 5.0 }
     }
 
     /// Sets the length of the head in points.
@@ -175,35 +121,49 @@ impl Arrow {
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {
-        arrow(svg, &[self.from.on_page(frame), self.to.on_page(frame)], &self.stroke, self.head);
+        let ends = [self.from.on_page(frame), self.to.on_page(frame)];
+        for (path, style) in arrow(&ends, self.style.stroke.unwrap_or_default(), self.head) {
+            svg.path(&path, &style);
+        }
     }
 }
 
-/// A polyline on the page with a head at its last point.
-pub(crate) fn arrow(svg: &mut Svg, points: &[(f64, f64)], stroke: &Stroke, head: f64) {
-    let [.., before, tip] = points else { return };
-    let along = (tip.0 - before.0, tip.1 - before.1);
-    let length = (along.0 * along.0 + along.1 * along.1).sqrt();
-    if !(length > 0.0 && length.is_finite()) {
-        return;
+/// A line through points on the page and the head at its last point; nothing where the head has no direction.
+pub(crate) fn arrow(points: &[Point], stroke: Stroke, head: f64) -> Vec<(BezPath, Style)> {
+    let [start @ .., tip] = points else { return Vec::new() };
+    let Some(before) = start.last() else { return Vec::new() };
+    let along = (*tip - *before).normalize();
+    if !along.is_finite() {
+        return Vec::new();
     }
-    let (along, across) = ((along.0 / length, along.1 / length), (-along.1 / length, along.0 / length));
-    let base = (tip.0 - head * along.0, tip.1 - head * along.1);
+    // The head is drawn along x in units of its length, its tip at the origin.
+    let turned = Affine::new([along.x, along.y, -along.y, along.x, tip.x, tip.y]).pre_scale(head);
     // The line ends inside the head, so that its square end does not blunt the tip.
-    let mut line = String::new();
-    move_to(&mut line, points[0]);
-    for point in &points[1..points.len() - 1] {
-        line_to(&mut line, *point);
+    let line = polyline(start.iter().copied().chain([turned * Point::new(-0.7, 0.0)]));
+    let triangle = polygon([(0.0, 0.0), (-1.0, 0.38), (-0.75, 0.0), (-1.0, -0.38)].map(Point::from));
+    vec![(line, stroke.into()), (turned * triangle, stroke.solid().into())]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_head_points_to_the_last_point() {
+        let points = [Point::ZERO, Point::new(0.0, 10.0)];
+        let parts = arrow(&points, Stroke::default(), 5.0);
+        assert_eq!(parts[0].0.to_svg(), "M0,0 L0,6.5");
+        let head = parts[1].0.control_box();
+        assert!((head.y1 - 10.0).abs() < 1e-12 && (head.y0 - 5.0).abs() < 1e-12, "{head:?}");
+        assert!((head.x1 - 1.9).abs() < 1e-12 && (head.x0 + 1.9).abs() < 1e-12, "{head:?}");
     }
-    line_to(&mut line, (tip.0 - 0.7 * head * along.0, tip.1 - 0.7 * head * along.1));
-    svg.path(&line, Some(stroke), None);
-    let wing = 0.38 * head;
-    let mut triangle = String::new();
-    move_to(&mut triangle, *tip);
-    line_to(&mut triangle, (base.0 + wing * across.0, base.1 + wing * across.1));
-    line_to(&mut triangle, (tip.0 - 0.75 * head * along.0, tip.1 - 0.75 * head * along.1));
-    line_to(&mut triangle, (base.0 - wing * across.0, base.1 - wing * across.1));
-    triangle.push('z');
-    let solid = Stroke { dash: Dash::Solid, ..*stroke };
-    svg.path(&triangle, None, Some((solid.colour, solid.opacity)));
+
+    #[test]
+    fn an_arrow_without_direction_is_not_drawn() {
+        for points in
+            [vec![], vec![Point::ZERO], vec![Point::ZERO; 2], vec![Point::ZERO, Point::new(f64::NAN, 1.0)]]
+        {
+            assert!(arrow(&points, Stroke::default(), 5.0).is_empty());
+        }
+    }
 }

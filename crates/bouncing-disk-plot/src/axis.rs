@@ -2,7 +2,7 @@
 
 use crate::error::DrawError;
 use crate::label::Label;
-use crate::ticks::{self, Ticks};
+use crate::ticks::{self, PlacedTicks, Ticks};
 
 /// Linear or logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -130,7 +130,7 @@ impl Axis {
     }
 
     /// The ticks, for an axis of `length` points with about `spacing` points between labels.
-    pub(crate) fn choose_ticks(&self, length: f64, spacing: f64) -> Result<ticks::Scale, DrawError> {
+    pub(crate) fn choose_ticks(&self, length: f64, spacing: f64) -> Result<PlacedTicks, DrawError> {
         self.check()?;
         match self.scale {
             Scale::Logarithmic => Ok(ticks::logarithmic(&self.ticks, self.first, self.last).into()),

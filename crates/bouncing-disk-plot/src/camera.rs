@@ -1,7 +1,7 @@
 //! Perspective: points in space seen by a pinhole camera.
 
-use bouncing_disk_core::elementary::sin_cos;
-use glam::DVec3;
+use glam::dcamera::rh::view::look_at_affine3;
+use glam::{DAffine3, DMat3, DVec3};
 
 /// A pinhole camera whose upright direction is z.
 ///
@@ -9,9 +9,8 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: DVec3,
-    right: DVec3,
-    up: DVec3,
-    forward: DVec3,
+    /// Space as the eye has it: x to the right, y upwards, the target on the negative z axis.
+    view: DAffine3,
     distance: f64,
 }
 
@@ -19,11 +18,9 @@ impl Camera {
     /// A camera that looks at `target` from `distance` away, at an azimuth (rad, from x towards y) and an elevation
     /// above the horizontal (rad) of less than a right angle.
     pub fn around(target: DVec3, azimuth: f64, elevation: f64, distance: f64) -> Self {
-        let (sin_azimuth, cos_azimuth) = sin_cos(azimuth);
-        let (sin_elevation, cos_elevation) = sin_cos(elevation);
-        let back = DVec3::new(cos_elevation * cos_azimuth, cos_elevation * sin_azimuth, sin_elevation);
-        let right = DVec3::new(-sin_azimuth, cos_azimuth, 0.0);
-        Self { eye: target + distance * back, right, up: back.cross(right), forward: -back, distance }
+        let back = DMat3::from_rotation_z(azimuth) * DMat3::from_rotation_y(-elevation) * DVec3::X;
+        let eye = target + distance * back;
+        Self { eye, view: look_at_affine3(eye, target, DVec3::Z), distance }
     }
 
     /// Where the eye is.
@@ -33,9 +30,9 @@ impl Camera {
 
     /// A point as it appears, the target at the origin, `y` upwards.
     pub fn project(&self, point: DVec3) -> (f64, f64) {
-        let ray = point - self.eye;
-        let scale = self.distance / ray.dot(self.forward);
-        (scale * ray.dot(self.right), scale * ray.dot(self.up))
+        let seen = self.view.transform_point3(point);
+        let scale = -self.distance / seen.z;
+        (scale * seen.x, scale * seen.y)
     }
 
     /// Whether a surface at `point` with this outward normal turns its front to the eye.
@@ -58,8 +55,10 @@ mod tests {
         assert!(seen.0.abs() + seen.1.abs() < 1e-14);
         let above = camera.project(target + DVec3::Z);
         assert!(above.0.abs() < 1e-14 && above.1 > 0.8);
-        let (near, far) = (target - 0.5 * camera.forward, target + 0.5 * camera.forward);
-        let width = |point: DVec3| camera.project(point + camera.right).0 - camera.project(point).0;
+        let back = (camera.eye() - target).normalize();
+        let right = DVec3::Z.cross(back).normalize();
+        let (near, far) = (target + 0.5 * back, target - 0.5 * back);
+        let width = |point: DVec3| camera.project(point + right).0 - camera.project(point).0;
         assert!((width(target) - 1.0).abs() < 1e-14);
         assert!(width(near) > 1.0 && width(far) < 1.0);
     }

@@ -1,10 +1,14 @@
 //! Very many points: painted into one embedded image, so that the figure stays small.
 
+use tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};
+
+use crate::builders::builders;
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Frame;
 use crate::label::Label;
 use crate::png_image;
+use crate::style::{Fill, Style};
 use crate::svg::Svg;
 
 /// Pixels of the embedded image per point of the page; about 290 per inch.
@@ -14,29 +18,17 @@ const RESOLUTION: f64 = 4.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct DensePoints {
     points: Vec<(f64, f64)>,
-    colour: Colour,
     radius: f64,
-    opacity: f64,
-    name: Option<Label>,
+    pub(crate) style: Style,
+    pub(crate) name: Option<Label>,
 }
 
-impl DensePoints {
-    /// Points in data coordinates.
-    pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        Self {
-            points: points.into_iter().collect(),
-            colour: Colour::BLACK,
-            radius: 0.3,
-            opacity: 1.0,
-            name: None,
-        }
-    }
+builders!(DensePoints: style, colour, opacity, name);
 
-    /// Sets the colour.
-    #[must_use]
-    pub fn colour(mut self, colour: Colour) -> Self {
-        self.colour = colour;
-        self
+impl DensePoints {
+    /// Points in data coordinates. Where discs that are not opaque overlap, the colour grows darker.
+    pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self { points: points.into_iter().collect(), radius: 0.3, style: Colour::BLACK.into(), name: None }
     }
 
     /// Sets the radius of a disc in points of the page.
@@ -46,94 +38,49 @@ impl DensePoints {
         self
     }
 
-    /// Sets the opacity of a single disc, 0 to 1; where discs overlap the colour grows darker.
-    #[must_use]
-    pub fn opacity(mut self, opacity: f64) -> Self {
-        self.opacity = opacity;
-        self
-    }
-
-    /// Lists the points in the legend.
-    #[must_use]
-    pub fn name(mut self, name: impl Into<Label>) -> Self {
-        self.name = Some(name.into());
-        self
-    }
-
-    pub(crate) fn legend_name(&self) -> Option<&Label> {
-        self.name.as_ref()
-    }
-
-    pub(crate) fn colour_of_points(&self) -> Colour {
-        self.colour
-    }
-
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
         let area = frame.area;
-        let width = (area.width * RESOLUTION).ceil() as usize;
-        let height = (area.height * RESOLUTION).ceil() as usize;
+        let (width, height) = ((area.width * RESOLUTION).ceil(), (area.height * RESOLUTION).ceil());
         // The image covers the frame exactly, so pixels may differ from squares by less than one part in a hundred.
-        let (across, down) = (width as f64 / area.width, height as f64 / area.height);
-        let mut layer = Coverage::new(width, height);
-        for point in &self.points {
-            let (x, y) = frame.point(*point);
-            layer.add(
-                ((x - area.left) * across, (y - area.top) * down),
-                self.radius * RESOLUTION,
-                self.opacity,
-            );
-        }
-        let pixels = layer.levels();
-        let palette: Vec<_> = (0..=255).map(|opacity| (self.colour, opacity)).collect();
-        let png = png_image::indexed(width, height, &pixels, &palette)?;
-        svg.image(area, &png, false);
+        let (across, down) = (width / area.width, height / area.height);
+        let places = self.points.iter().map(|point| frame.point(*point));
+        let places = places.map(|place| ((place.x - area.left) * across, (place.y - area.top) * down));
+        let Fill { colour, opacity } = self.style.solid();
+        let pixels = paint(width as u32, height as u32, places, self.radius * RESOLUTION, opacity)?;
+        let palette: Vec<_> = (0..=255).map(|opacity| (colour, opacity)).collect();
+        let png = png_image::indexed(width as usize, height as usize, &pixels, &palette)?;
+        svg.image(area.outline(), &png, false);
         Ok(())
     }
 }
 
-/// How much of each pixel is covered, 0 to 1.
-struct Coverage {
-    width: usize,
-    height: usize,
-    clear: Vec<f32>,
-}
-
-impl Coverage {
-    fn new(width: usize, height: usize) -> Self {
-        Self { width, height, clear: vec![1.0; width * height] }
+/// How much discs cover each pixel of an image, from 0 to 255. Lengths are pixels.
+fn paint(
+    width: u32,
+    height: u32,
+    centres: impl Iterator<Item = (f64, f64)>,
+    radius: f64,
+    opacity: f64,
+) -> Result<Vec<u8>, DrawError> {
+    let mut image = Pixmap::new(width, height).ok_or(DrawError::Size {
+        what: "an embedded image",
+        width: f64::from(width),
+        height: f64::from(height),
+    })?;
+    // A disc smaller than a pixel is drawn as a pixel-wide one of proportionally lower opacity.
+    let (radius, opacity) =
+        if radius < 0.5 { (0.5, opacity * 4.0 * radius * radius) } else { (radius, opacity) };
+    let Some(disc) = PathBuilder::from_circle(0.0, 0.0, radius as f32) else {
+        return Ok(vec![0; image.pixels().len()]);
+    };
+    let mut paint = Paint::default();
+    paint.set_color(Color::from_rgba(0.0, 0.0, 0.0, opacity.clamp(0.0, 1.0) as f32).unwrap_or(Color::BLACK));
+    let (columns, rows) = (-radius..f64::from(width) + radius, -radius..f64::from(height) + radius);
+    for (x, y) in centres.filter(|(x, y)| columns.contains(x) && rows.contains(y)) {
+        let place = Transform::from_translate(x as f32, y as f32);
+        image.fill_path(&disc, &paint, FillRule::Winding, place, None);
     }
-
-    /// A disc with a soft edge of one pixel.
-    fn add(&mut self, (x, y): (f64, f64), radius: f64, opacity: f64) {
-        let reach = radius + 0.5;
-        let inside =
-            x > -reach && y > -reach && x < self.width as f64 + reach && y < self.height as f64 + reach;
-        // Also false for NaN.
-        if !inside {
-            return;
-        }
-        // A disc smaller than a pixel is drawn as a pixel-wide one of proportionally lower opacity.
-        let (drawn, opacity) =
-            if radius < 0.5 { (0.5, opacity * 4.0 * radius * radius) } else { (radius, opacity) };
-        let reach = drawn + 0.5;
-        let columns =
-            (x - reach).floor().max(0.0) as usize..((x + reach).ceil().max(0.0) as usize).min(self.width);
-        let rows =
-            (y - reach).floor().max(0.0) as usize..((y + reach).ceil().max(0.0) as usize).min(self.height);
-        for row in rows {
-            for column in columns.clone() {
-                let (across, down) = (column as f64 + 0.5 - x, row as f64 + 0.5 - y);
-                let distance = (across * across + down * down).sqrt();
-                let cover = (drawn + 0.5 - distance).clamp(0.0, 1.0) * opacity;
-                self.clear[row * self.width + column] *= (1.0 - cover) as f32;
-            }
-        }
-    }
-
-    /// Opacities from 0 to 255.
-    fn levels(&self) -> Vec<u8> {
-        self.clear.iter().map(|clear| ((1.0 - clear).clamp(0.0, 1.0) * 255.0 + 0.5) as u8).collect()
-    }
+    Ok(image.pixels().iter().map(|pixel| pixel.alpha()).collect())
 }
 
 #[cfg(test)]
@@ -142,19 +89,18 @@ mod tests {
 
     #[test]
     fn a_disc_covers_its_area() {
-        let mut coverage = Coverage::new(40, 40);
-        coverage.add((20.3, 19.6), 6.0, 1.0);
-        let area: f64 = coverage.clear.iter().map(|clear| 1.0 - f64::from(*clear)).sum();
-        let expected = std::f64::consts::PI * 36.0;
-        assert!((area / expected - 1.0).abs() < 0.02, "{area} {expected}");
+        for (radius, opacity) in [(6.0, 1.0), (6.0, 0.5), (0.25, 1.0)] {
+            let levels = paint(40, 40, [(20.3, 19.6)].into_iter(), radius, opacity).expect("an image");
+            let area: f64 = levels.iter().map(|level| f64::from(*level) / 255.0).sum();
+            let expected = std::f64::consts::PI * radius * radius * opacity;
+            assert!((area / expected - 1.0).abs() < 0.05, "{area} {expected}");
+        }
     }
 
     #[test]
     fn points_outside_and_nan_are_ignored() {
-        let mut coverage = Coverage::new(4, 4);
-        for point in [(f64::NAN, 1.0), (-5.0, 1.0), (1.0, 1e300), (f64::INFINITY, 2.0)] {
-            coverage.add(point, 1.0, 1.0);
-        }
-        assert!(coverage.levels().iter().all(|level| *level == 0));
+        let points = [(f64::NAN, 1.0), (-5.0, 1.0), (1.0, 1e300), (f64::INFINITY, 2.0)];
+        let levels = paint(4, 4, points.into_iter(), 1.0, 1.0).expect("an image");
+        assert!(levels.iter().all(|level| *level == 0));
     }
 }

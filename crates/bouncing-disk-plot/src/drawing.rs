@@ -1,83 +1,24 @@
 //! Free drawings: sketches, flow charts, perspective views.
 
-use crate::annotation::{Anchor, arrow};
+use kurbo::{Affine, BezPath, Circle, Point, Shape, Size, Vec2};
+
+use crate::annotation::arrow;
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Rect;
 use crate::label::Label;
-use crate::stroke::Stroke;
-use crate::svg::{Svg, TextStyle, ellipse_path, line_to, move_to, short};
+use crate::path::Path;
+use crate::style::{Fill, Stroke, Style};
+use crate::svg::{Svg, TOLERANCE};
+use crate::text_style::{Anchor, TextStyle};
 
-/// An outline in the local coordinates of a [`Drawing`].
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Path {
-    steps: Vec<PathStep>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum PathStep {
-    Move((f64, f64)),
-    Line((f64, f64)),
-    Curve((f64, f64), (f64, f64), (f64, f64)),
-    Close,
-}
-
-impl Path {
-    /// An empty outline.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Straight lines through points; broken at NaN.
-    pub fn through(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let mut path = Self::new();
-        let mut pen_down = false;
-        for (x, y) in points {
-            let finite = x.is_finite() && y.is_finite();
-            if finite {
-                path.steps.push(if pen_down { PathStep::Line((x, y)) } else { PathStep::Move((x, y)) });
-            }
-            pen_down = finite;
-        }
-        path
-    }
-
-    /// Lifts the pen and goes to a point.
-    #[must_use]
-    pub fn move_to(mut self, x: f64, y: f64) -> Self {
-        self.steps.push(PathStep::Move((x, y)));
-        self
-    }
-
-    /// A straight line.
-    #[must_use]
-    pub fn line_to(mut self, x: f64, y: f64) -> Self {
-        self.steps.push(PathStep::Line((x, y)));
-        self
-    }
-
-    /// A cubic Bézier curve with two control points.
-    #[must_use]
-    pub fn curve_to(mut self, first: (f64, f64), second: (f64, f64), end: (f64, f64)) -> Self {
-        self.steps.push(PathStep::Curve(first, second, end));
-        self
-    }
-
-    /// Back to the start of this part.
-    #[must_use]
-    pub fn close(mut self) -> Self {
-        self.steps.push(PathStep::Close);
-        self
-    }
-}
-
+/// What is drawn, in points of the page.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
-    Path { path: Path, stroke: Option<Stroke>, fill: Option<(Colour, f64)> },
-    Ellipse { centre: (f64, f64), radii: (f64, f64), stroke: Option<Stroke>, fill: Option<(Colour, f64)> },
-    Text { at: (f64, f64), label: Label, anchor: Anchor, size: Option<f64>, colour: Colour, rotation: f64 },
-    Arrow { points: Vec<(f64, f64)>, stroke: Stroke, head: f64, double: bool },
-    Box { centre: (f64, f64), size: (f64, f64), corner: f64, lines: Vec<Label>, stroke: Stroke, fill: Colour },
+    Shape(BezPath, Style),
+    Text(Point, Label, TextStyle),
+    /// Lines of text about a point.
+    Lines(Point, Vec<Label>),
 }
 
 /// A free drawing in local coordinates, `y` upwards.
@@ -110,29 +51,37 @@ impl Drawing {
 
     /// Adds a line along an outline.
     #[must_use]
-    pub fn stroke(mut self, path: Path, stroke: Stroke) -> Self {
-        self.items.push(Item::Path { path, stroke: Some(stroke), fill: None });
-        self
+    pub fn stroke(self, path: Path, stroke: Stroke) -> Self {
+        self.shape(path, stroke)
     }
 
     /// Adds a filled outline.
     #[must_use]
-    pub fn fill(mut self, path: Path, colour: Colour, opacity: f64) -> Self {
-        self.items.push(Item::Path { path, stroke: None, fill: Some((colour, opacity)) });
-        self
+    pub fn fill(self, path: Path, colour: Colour, opacity: f64) -> Self {
+        self.shape(path, Fill::new(colour, opacity))
     }
 
-    /// Adds an upright ellipse with half-axes in local units; an opacity of 0 leaves it open.
+    /// Adds an outline with a line, a filled area, or both.
+    #[must_use]
+    pub fn shape(self, path: Path, style: impl Into<Style>) -> Self {
+        let outline = self.to_page() * path.outline();
+        self.with(Item::Shape(outline, style.into()))
+    }
+
+    /// Adds an upright ellipse with half-axes in local units.
     #[must_use]
     pub fn ellipse(
-        mut self,
+        self,
         centre: (f64, f64),
         radii: (f64, f64),
         stroke: Option<Stroke>,
         fill: Option<(Colour, f64)>,
     ) -> Self {
-        self.items.push(Item::Ellipse { centre, radii, stroke, fill });
-        self
+        let place = Affine::translate(Vec2::from(centre)).pre_scale_non_uniform(radii.0, radii.1);
+        // Four curves, which stay within 0.0003 of the unit circle.
+        let circle = Circle::new(Point::ZERO, 1.0).to_path(1e-3);
+        let outline = self.to_page() * place * circle;
+        self.with(Item::Shape(outline, Style { stroke, fill: fill.map(Fill::from) }))
     }
 
     /// Adds a text.
@@ -144,7 +93,7 @@ impl Drawing {
     /// Adds a text with a font size in points, a colour and a rotation in degrees, anticlockwise.
     #[must_use]
     pub fn text_styled(
-        mut self,
+        self,
         at: (f64, f64),
         anchor: Anchor,
         label: impl Into<Label>,
@@ -152,8 +101,9 @@ impl Drawing {
         colour: Colour,
         rotation: f64,
     ) -> Self {
-        self.items.push(Item::Text { at, label: label.into(), anchor, size, colour, rotation });
-        self
+        let at = self.to_page() * Point::from(at);
+        let style = TextStyle { size, colour, rotation, ..TextStyle::new(anchor) };
+        self.with(Item::Text(at, label.into(), style))
     }
 
     /// Adds a line through points with a head of 5 points at the last one.
@@ -165,28 +115,27 @@ impl Drawing {
     /// Adds a line through points with a head of this length in points at the last one.
     #[must_use]
     pub fn arrow_with_head(
-        mut self,
+        self,
         points: impl IntoIterator<Item = (f64, f64)>,
         stroke: Stroke,
         head: f64,
     ) -> Self {
-        let points = points.into_iter().collect();
-        self.items.push(Item::Arrow { points, stroke, head, double: false });
-        self
+        let points: Vec<_> = points.into_iter().map(|point| self.to_page() * Point::from(point)).collect();
+        let parts = arrow(&points, stroke, head);
+        parts.into_iter().fold(self, |drawing, (path, style)| drawing.with(Item::Shape(path, style)))
     }
 
     /// Adds a line with heads at both ends, for dimensions.
     #[must_use]
-    pub fn double_arrow(mut self, from: (f64, f64), to: (f64, f64), stroke: Stroke) -> Self {
-        self.items.push(Item::Arrow { points: vec![from, to], stroke, head: 5.0, double: true });
-        self
+    pub fn double_arrow(self, from: (f64, f64), to: (f64, f64), stroke: Stroke) -> Self {
+        self.arrow([from, to], stroke).arrow([to, from], stroke)
     }
 
     /// Adds a box with centred lines of text, for flow charts. The size is in local units, the radius of the
     /// corners in points.
     #[must_use]
     pub fn text_box<L: Into<Label>>(
-        mut self,
+        self,
         centre: (f64, f64),
         size: (f64, f64),
         corner: f64,
@@ -194,34 +143,31 @@ impl Drawing {
         stroke: Stroke,
         fill: Colour,
     ) -> Self {
+        let area = kurbo::Rect::from_center_size(centre, Size::from(size));
+        let area = self.to_page().transform_rect_bbox(area);
+        let outline = area.to_rounded_rect(corner.max(0.0)).to_path(TOLERANCE);
         let lines = lines.into_iter().map(Into::into).collect();
-        self.items.push(Item::Box { centre, size, corner, lines, stroke, fill });
+        let middle = area.center();
+        self.with(Item::Shape(outline, Style::from(stroke).fill(fill))).with(Item::Lines(middle, lines))
+    }
+
+    fn with(mut self, item: Item) -> Self {
+        self.items.push(item);
         self
     }
 
     /// The local coordinates of a place on the page, for letters in the corner of a drawing with widened ranges.
-    pub fn local(&self, (left, top): (f64, f64)) -> (f64, f64) {
-        (
-            self.x.0 + (left - self.area.left) / self.area.width * (self.x.1 - self.x.0),
-            self.y.0 + (self.area.bottom() - top) / self.area.height * (self.y.1 - self.y.0),
-        )
+    pub fn local(&self, place: (f64, f64)) -> (f64, f64) {
+        (self.to_page().inverse() * Point::from(place)).into()
     }
 
-    fn point(&self, (x, y): (f64, f64)) -> (f64, f64) {
-        (
-            self.area.left + (x - self.x.0) / (self.x.1 - self.x.0) * self.area.width,
-            self.area.bottom() - (y - self.y.0) / (self.y.1 - self.y.0) * self.area.height,
-        )
+    /// The map from local coordinates to the page.
+    fn to_page(&self) -> Affine {
+        let range = kurbo::Rect::new(self.x.0, self.y.0, self.x.1, self.y.1);
+        self.area.fractions() * Affine::map_unit_square(range).inverse()
     }
 
-    fn lengths(&self, (across, up): (f64, f64)) -> (f64, f64) {
-        (
-            (across / (self.x.1 - self.x.0) * self.area.width).abs(),
-            (up / (self.y.1 - self.y.0) * self.area.height).abs(),
-        )
-    }
-
-    pub(crate) fn render(&self, svg: &mut Svg, text_size: f64) -> Result<(), DrawError> {
+    pub(crate) fn render(&self, svg: &mut Svg) -> Result<(), DrawError> {
         if !self.area.has_area() {
             return Err(DrawError::Size {
                 what: "a drawing",
@@ -235,78 +181,49 @@ impl Drawing {
                 return Err(DrawError::AxisRange { axis: "of a drawing".to_owned(), low, high });
             }
         }
-        self.items.iter().try_for_each(|item| self.render_item(item, svg, text_size))
-    }
-
-    fn render_item(&self, item: &Item, svg: &mut Svg, text_size: f64) -> Result<(), DrawError> {
-        match item {
-            Item::Path { path, stroke, fill } => svg.path(&self.path_data(path), stroke.as_ref(), *fill),
-            Item::Ellipse { centre, radii, stroke, fill } => {
-                let (across, down) = self.lengths(*radii);
-                let mut path = String::new();
-                ellipse_path(&mut path, self.point(*centre), across, down);
-                svg.path(&path, stroke.as_ref(), *fill);
-            }
-            Item::Text { at, label, anchor, size, colour, rotation } => {
-                let style = TextStyle {
-                    colour: *colour,
-                    rotation: *rotation,
-                    ..TextStyle::new(size.unwrap_or(text_size), *anchor)
-                };
-                svg.label(label, self.point(*at), style)?;
-            }
-            Item::Arrow { points, stroke, head, double } => {
-                let mut points: Vec<_> = points.iter().map(|point| self.point(*point)).collect();
-                arrow(svg, &points, stroke, *head);
-                if *double {
-                    points.reverse();
-                    arrow(svg, &points, stroke, *head);
-                }
-            }
-            Item::Box { centre, size, corner, lines, stroke, fill } => {
-                let (x, y) = self.point(*centre);
-                let (width, height) = self.lengths(*size);
-                let area = Rect::new(x - 0.5 * width, y - 0.5 * height, width, height);
-                svg.path(&rounded(area, *corner), Some(stroke), Some((*fill, 1.0)));
-                let pitch = 1.25 * text_size;
-                let first = y - 0.5 * pitch * (lines.len() as f64 - 1.0);
-                for (index, line) in lines.iter().enumerate() {
-                    let style = TextStyle::new(text_size, Anchor::Centre);
-                    svg.label(line, (x, first + pitch * index as f64), style)?;
+        for item in &self.items {
+            match item {
+                Item::Shape(path, style) => svg.path(path, style),
+                Item::Text(at, label, style) => svg.label(label, *at, *style)?,
+                Item::Lines(middle, lines) => {
+                    let pitch = Vec2::new(0.0, 1.25 * svg.text_size());
+                    let first = *middle - 0.5 * (lines.len() as f64 - 1.0) * pitch;
+                    for (index, line) in lines.iter().enumerate() {
+                        svg.label(line, first + index as f64 * pitch, TextStyle::new(Anchor::Centre))?;
+                    }
                 }
             }
         }
         Ok(())
     }
-
-    fn path_data(&self, path: &Path) -> String {
-        let mut data = String::new();
-        for step in &path.steps {
-            match step {
-                PathStep::Move(point) => move_to(&mut data, self.point(*point)),
-                PathStep::Line(point) => line_to(&mut data, self.point(*point)),
-                PathStep::Curve(first, second, end) => {
-                    for (index, point) in [first, second, end].into_iter().enumerate() {
-                        let (x, y) = self.point(*point);
-                        data.push_str(if index == 0 { "C" } else { " " });
-                        data.push_str(&format!("{} {}", short(x), short(y)));
-                    }
-                }
-                PathStep::Close => data.push('z'),
-            }
-        }
-        data
-    }
 }
 
-/// A rectangle with round corners as path data.
-fn rounded(area: Rect, radius: f64) -> String {
-    let radius = radius.clamp(0.0, 0.5 * area.width.min(area.height));
-    let (r, across, down) =
-        (short(radius), short(area.width - 2.0 * radius), short(area.height - 2.0 * radius));
-    let (x, y) = (short(area.left + radius), short(area.top));
-    format!(
-        "M{x} {y}h{across}a{r} {r} 0 0 1 {r} {r}v{down}a{r} {r} 0 0 1 -{r} {r}h-{across}\
-         a{r} {r} 0 0 1 -{r} -{r}v-{down}a{r} {r} 0 0 1 {r} -{r}z"
-    )
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn local_coordinates_run_upwards_and_back() {
+        let drawing =
+            Drawing::with_equal_scales(Rect::new(10.0, 20.0, 200.0, 100.0), (-1.0, 1.0), (0.0, 2.0));
+        let place = drawing.to_page() * Point::new(0.0, 2.0);
+        assert!((place - Point::new(110.0, 20.0)).hypot() < 1e-12, "{place:?}");
+        let (x, y) = drawing.local((110.0, 20.0));
+        assert!(x.abs() < 1e-12 && (y - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn ellipses_and_boxes_have_their_size_on_the_page() {
+        let drawing = Drawing::new(Rect::new(0.0, 0.0, 100.0, 50.0), (0.0, 10.0), (0.0, 10.0))
+            .ellipse((5.0, 5.0), (2.0, 1.0), None, Some((Colour::GREY, 1.0)))
+            .text_box((5.0, 5.0), (4.0, 2.0), 1.5, ["words"], Stroke::default(), Colour::WHITE);
+        let expected = kurbo::Rect::new(30.0, 20.0, 70.0, 30.0);
+        for item in &drawing.items {
+            let Item::Shape(path, _) = item else { continue };
+            let extent = path.bounding_box();
+            let distance = (extent.origin() - expected.origin()).hypot()
+                + (extent.size() - expected.size()).to_vec2().hypot();
+            assert!(distance < 1e-9, "{extent:?}");
+        }
+    }
 }

@@ -82,11 +82,11 @@ impl Figure {
         if !sizes.iter().all(|size| (1.0..=LARGEST_SIDE).contains(size)) {
             return Err(DrawError::Size { what: "the figure", width: self.width, height: self.height });
         }
-        let mut svg = Svg::new(self.width, self.height);
+        let mut svg = Svg::new(self.width, self.height, self.text_size);
         for part in &self.parts {
             match part {
-                Part::Panel(panel) => panel.render(&mut svg, (self.width, self.height), self.text_size)?,
-                Part::Drawing(drawing) => drawing.render(&mut svg, self.text_size)?,
+                Part::Panel(panel) => panel.render(&mut svg)?,
+                Part::Drawing(drawing) => drawing.render(&mut svg)?,
             }
         }
         Ok(svg.finish())

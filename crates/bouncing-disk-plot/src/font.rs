@@ -7,8 +7,6 @@ use resvg::usvg::fontdb;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 
-use crate::label::Style;
-
 const REGULAR: &[u8] = include_bytes!("../assets/fonts/STIXTwoText-Regular.ttf");
 const ITALIC: &[u8] = include_bytes!("../assets/fonts/STIXTwoText-Italic.ttf");
 const BOLD: &[u8] = include_bytes!("../assets/fonts/STIXTwoText-Bold.ttf");
@@ -20,6 +18,17 @@ pub(crate) const FAMILY: &str = "STIX Two Text";
 /// The families named in an SVG, for programs that show it with their own fonts.
 pub(crate) const FAMILIES: &str =
     "'STIX Two Text','STIX Two Math',STIXGeneral,'Times New Roman','Liberation Serif',serif";
+
+/// The shape of letters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum FontStyle {
+    /// Upright.
+    Roman,
+    /// Italic, for variables.
+    Italic,
+    /// Bold, upright.
+    Bold,
+}
 
 /// The fonts for the renderer.
 pub(crate) fn database() -> Arc<fontdb::Database> {
@@ -36,11 +45,11 @@ pub(crate) fn database() -> Arc<fontdb::Database> {
 }
 
 /// The width of a character in units of the font size; `None` when no bundled font has it.
-pub(crate) fn advance(character: char, style: Style) -> Option<f64> {
+pub(crate) fn advance(character: char, style: FontStyle) -> Option<f64> {
     let font = match style {
-        Style::Roman => REGULAR,
-        Style::Italic => ITALIC,
-        Style::Bold => BOLD,
+        FontStyle::Roman => REGULAR,
+        FontStyle::Italic => ITALIC,
+        FontStyle::Bold => BOLD,
     };
     let advance = advance_in(font, character).or_else(|| advance_in(MATH, character))?;
     // Combining marks sit on the letter before them.
@@ -67,17 +76,17 @@ mod tests {
     fn the_fonts_have_every_character_that_labels_use() {
         let used = "0123456789 αβγδεζηθικλμνξπρστυφϕχψωΓΔΘΛΞΠΣΦΨΩ×±−°≤≥≈≠∞·→←↔⟨⟩∂√∝∼≪≫′–—…()[]{}|/=+<>%\u{307}\u{308}\u{2009}";
         for character in used.chars() {
-            for style in [Style::Roman, Style::Italic, Style::Bold] {
+            for style in [FontStyle::Roman, FontStyle::Italic, FontStyle::Bold] {
                 assert!(advance(character, style).is_some(), "{character:?} {style:?}");
             }
         }
-        assert!(advance('漢', Style::Roman).is_none());
+        assert!(advance('漢', FontStyle::Roman).is_none());
     }
 
     #[test]
     fn widths_are_in_units_of_the_font_size() {
-        let width = advance('0', Style::Roman).expect("a digit");
+        let width = advance('0', FontStyle::Roman).expect("a digit");
         assert!((0.4..0.6).contains(&width), "{width}");
-        assert!(advance('\u{307}', Style::Italic).expect("dot above") < 1e-9);
+        assert!(advance('\u{307}', FontStyle::Italic).expect("dot above") < 1e-9);
     }
 }

@@ -1,5 +1,7 @@
 //! Rectangles on the page, grids of them, and the mapping from data to points.
 
+use kurbo::{Affine, Point};
+
 use crate::axis::Axis;
 
 /// A rectangle on the page, in points from the upper left corner of the figure.
@@ -41,6 +43,15 @@ impl Rect {
             width * self.width,
             height * self.height,
         )
+    }
+
+    pub(crate) fn outline(&self) -> kurbo::Rect {
+        kurbo::Rect::new(self.left, self.top, self.right(), self.bottom())
+    }
+
+    /// The map to the page from fractions of width and height, measured from the lower left corner.
+    pub(crate) fn fractions(&self) -> Affine {
+        Affine::map_unit_square(kurbo::Rect::new(self.left, self.bottom(), self.right(), self.top))
     }
 
     pub(crate) fn has_area(&self) -> bool {
@@ -158,22 +169,18 @@ pub(crate) struct Frame<'a> {
     pub(crate) area: Rect,
     pub(crate) x: &'a Axis,
     pub(crate) y: &'a Axis,
-    pub(crate) text_size: f64,
 }
 
 impl Frame<'_> {
-    /// The point on the page of a point in data coordinates; NaN where an axis cannot show it.
-    pub(crate) fn point(&self, (x, y): (f64, f64)) -> (f64, f64) {
-        let across = self.area.left + self.x.fraction(x) * self.area.width;
-        let down = self.area.bottom() - self.y.fraction(y) * self.area.height;
-        (across, down)
+    /// The point on the page of a point in data coordinates; not finite where an axis cannot show it.
+    pub(crate) fn point(&self, (x, y): (f64, f64)) -> Point {
+        self.area.fractions() * Point::new(self.x.fraction(x), self.y.fraction(y))
     }
 
     /// Whether a point of the page lies in the frame or on its edge.
-    pub(crate) fn contains(&self, (x, y): (f64, f64)) -> bool {
+    pub(crate) fn contains(&self, point: Point) -> bool {
         let slack = 0.01;
-        (self.area.left - slack..=self.area.right() + slack).contains(&x)
-            && (self.area.top - slack..=self.area.bottom() + slack).contains(&y)
+        self.area.outline().inflate(slack, slack).contains(point)
     }
 }
 

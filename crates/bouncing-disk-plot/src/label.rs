@@ -6,18 +6,7 @@
 //! written as such (`$τ_{imp}$`) or as commands.
 
 use crate::error::DrawError;
-use crate::font;
-
-/// The shape of letters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Style {
-    /// Upright.
-    Roman,
-    /// Italic, for variables.
-    Italic,
-    /// Bold, upright.
-    Bold,
-}
+use crate::font::{self, FontStyle};
 
 /// Where letters stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,7 +20,7 @@ pub(crate) enum Level {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     pub(crate) text: String,
-    pub(crate) style: Style,
+    pub(crate) style: FontStyle,
     pub(crate) level: Level,
 }
 
@@ -57,7 +46,7 @@ impl Label {
 
     /// Text without any markup.
     pub fn plain(text: &str) -> Self {
-        let span = Span { text: text.to_owned(), style: Style::Roman, level: Level::Base };
+        let span = Span { text: text.to_owned(), style: FontStyle::Roman, level: Level::Base };
         Self { source: text.to_owned(), spans: vec![span], fault: None }
     }
 
@@ -65,7 +54,7 @@ impl Label {
     #[must_use]
     pub fn bold(mut self) -> Self {
         for span in &mut self.spans {
-            span.style = Style::Bold;
+            span.style = FontStyle::Bold;
         }
         self
     }
@@ -130,7 +119,7 @@ fn parse(source: &str) -> Result<Vec<Span>, DrawError> {
             let mut parser = Parser { source, rest: part };
             spans.extend(parser.list(Level::Base, false)?);
         } else {
-            push(&mut spans, &part.replace("\\$", "$"), Style::Roman, Level::Base);
+            push(&mut spans, &part.replace("\\$", "$"), FontStyle::Roman, Level::Base);
         }
         rest = after.strip_prefix('$').unwrap_or(after);
         if end.is_some() {
@@ -153,7 +142,7 @@ fn malformed(label: &str, what: &'static str) -> DrawError {
     DrawError::MalformedLabel { what, label: label.to_owned() }
 }
 
-fn push(spans: &mut Vec<Span>, text: &str, style: Style, level: Level) {
+fn push(spans: &mut Vec<Span>, text: &str, style: FontStyle, level: Level) {
     if text.is_empty() {
         return;
     }
@@ -194,9 +183,9 @@ impl Parser<'_> {
             '_' => append(spans, words_upright(self.argument(Level::Subscript)?)),
             '^' => append(spans, words_upright(self.argument(Level::Superscript)?)),
             '\\' => self.command(level, spans)?,
-            '\'' => push(spans, "′", Style::Roman, level),
+            '\'' => push(spans, "′", FontStyle::Roman, level),
             '-' => operator(spans, '−', level),
-            ',' if level == Level::Base => push(spans, ",\u{2009}", Style::Roman, level),
+            ',' if level == Level::Base => push(spans, ",\u{2009}", FontStyle::Roman, level),
             c if c.is_whitespace() => {}
             c if is_operator(c) => operator(spans, c, level),
             c => push(spans, c.encode_utf8(&mut [0; 4]), letter_style(c), level),
@@ -254,18 +243,18 @@ impl Parser<'_> {
         match name {
             "mathrm" | "text" | "mathit" | "mathbf" => {
                 let style = match name {
-                    "mathit" => Style::Italic,
-                    "mathbf" => Style::Bold,
-                    _ => Style::Roman,
+                    "mathit" => FontStyle::Italic,
+                    "mathbf" => FontStyle::Bold,
+                    _ => FontStyle::Roman,
                 };
                 let text = self.verbatim()?;
                 push(spans, &text, style, level);
             }
             "" => match self.next() {
-                Some(',') => push(spans, "\u{2009}", Style::Roman, level),
-                Some(' ' | ';') => push(spans, "\u{a0}", Style::Roman, level),
+                Some(',') => push(spans, "\u{2009}", FontStyle::Roman, level),
+                Some(' ' | ';') => push(spans, "\u{a0}", FontStyle::Roman, level),
                 Some(c @ ('%' | '{' | '}' | '$' | '_')) => {
-                    push(spans, c.encode_utf8(&mut [0; 4]), Style::Roman, level);
+                    push(spans, c.encode_utf8(&mut [0; 4]), FontStyle::Roman, level);
                 }
                 other => {
                     let command = other.map_or(String::new(), String::from);
@@ -275,7 +264,7 @@ impl Parser<'_> {
             _ => match symbol(name) {
                 Some(c) if is_operator(c) => operator(spans, c, level),
                 Some(c) => push(spans, c.encode_utf8(&mut [0; 4]), letter_style(c), level),
-                None if is_function(name) => push(spans, name, Style::Roman, level),
+                None if is_function(name) => push(spans, name, FontStyle::Roman, level),
                 None => {
                     let (command, label) = (name.to_owned(), self.source.to_owned());
                     return Err(DrawError::UnknownCommand { command, label });
@@ -296,16 +285,16 @@ fn append(spans: &mut Vec<Span>, more: Vec<Span>) {
 fn words_upright(mut spans: Vec<Span>) -> Vec<Span> {
     for span in &mut spans {
         let word = span.text.len() > 1 && span.text.bytes().all(|b| b.is_ascii_alphabetic());
-        if word && span.style == Style::Italic {
-            span.style = Style::Roman;
+        if word && span.style == FontStyle::Italic {
+            span.style = FontStyle::Roman;
         }
     }
     spans
 }
 
-fn letter_style(character: char) -> Style {
+fn letter_style(character: char) -> FontStyle {
     let lower_greek = ('α'..='ω').contains(&character) || matches!(character, 'ϕ' | 'ϑ' | 'ϵ' | 'ϖ');
-    if character.is_ascii_alphabetic() || lower_greek { Style::Italic } else { Style::Roman }
+    if character.is_ascii_alphabetic() || lower_greek { FontStyle::Italic } else { FontStyle::Roman }
 }
 
 fn is_operator(character: char) -> bool {
@@ -325,7 +314,7 @@ fn operator(spans: &mut Vec<Span>, character: char, level: Level) {
     let spaced = level == Level::Base && (after_operand || !sign);
     let space = if spaced { "\u{a0}" } else { "" };
     let text = if character == '·' { "·".to_owned() } else { format!("{space}{character}{space}") };
-    push(spans, &text, Style::Roman, level);
+    push(spans, &text, FontStyle::Roman, level);
 }
 
 fn is_function(name: &str) -> bool {
@@ -395,7 +384,7 @@ fn symbol(name: &str) -> Option<char> {
 mod tests {
     use super::*;
 
-    fn spans(source: &str) -> Vec<(String, Style, Level)> {
+    fn spans(source: &str) -> Vec<(String, FontStyle, Level)> {
         let label = Label::new(source);
         let spans = label.spans().unwrap_or_else(|error| panic!("{error}"));
         spans.iter().map(|span| (span.text.clone(), span.style, span.level)).collect()
@@ -403,8 +392,8 @@ mod tests {
 
     #[test]
     fn letters_scripts_and_accents() {
+        use FontStyle::{Italic, Roman};
         use Level::{Base, Subscript, Superscript};
-        use Style::{Italic, Roman};
         assert_eq!(
             spans(r"$|\dot{\alpha}_f|$ (rad/s)"),
             [

@@ -30,13 +30,14 @@ pub enum Layer {
 }
 
 impl Layer {
+    /// What the legend says, for the kinds of layers that it lists.
     pub(crate) fn legend_name(&self) -> Option<&Label> {
         match self {
-            Self::Line(line) => line.legend_name(),
-            Self::Band(band) => band.legend_name(),
-            Self::Rule(rule) => rule.legend_name(),
-            Self::Scatter(scatter) => scatter.legend_name(),
-            Self::DensePoints(points) => points.legend_name(),
+            Self::Line(Line { name, .. })
+            | Self::Band(Band { name, .. })
+            | Self::Rule(Rule { name, .. })
+            | Self::Scatter(Scatter { name, .. })
+            | Self::DensePoints(DensePoints { name, .. }) => name.as_ref(),
             Self::Raster(_) | Self::Text(_) | Self::Arrow(_) => None,
         }
     }

@@ -1,13 +1,20 @@
 //! The legend of a panel.
 
+use kurbo::Point;
+
 use crate::colour::Colour;
 use crate::error::DrawError;
-use crate::frame::{Frame, Rect};
+use crate::frame::Rect;
 use crate::label::Label;
 use crate::layer::Layer;
-use crate::stroke::Stroke;
-use crate::svg::{Svg, TextStyle, line_to, move_to};
-use crate::{Anchor, Marker, Scatter};
+use crate::line::{Band, Line, Rule};
+use crate::path::polyline;
+use crate::style::{Stroke, Style};
+use crate::svg::Svg;
+use crate::text_style::{Anchor, TextStyle};
+
+/// The diameter in points of the dot that stands for points too small to be seen alone.
+const DENSE_SAMPLE: f64 = 3.0;
 
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,10 +72,11 @@ impl Legend {
         self
     }
 
+    /// Draws the legend of these layers into the area of their panel.
     pub(crate) fn render<'a>(
         &self,
         layers: impl Iterator<Item = &'a Layer>,
-        frame: &Frame<'_>,
+        area: Rect,
         svg: &mut Svg,
     ) -> Result<(), DrawError> {
         let entries: Vec<(&Label, &Layer)> =
@@ -76,48 +84,43 @@ impl Legend {
         if entries.is_empty() {
             return Ok(());
         }
-        let size = 0.92 * frame.text_size;
+        let size = svg.number_size();
         let (row, key, padding, space) = (1.3 * size, 18.0, 4.0, 5.0);
         let widest = entries.iter().map(|(name, _)| name.width(size)).fold(0.0, f64::max);
         let width = 2.0 * padding + key + space + widest;
         let height = 2.0 * padding - 2.0 + row * entries.len() as f64;
-        let (left, top) = self.corner.place(frame.area, (width, height), self.inset);
+        let (left, top) = self.corner.place(area, (width, height), self.inset);
         if self.framed {
-            let edge = Stroke::new(Colour::DARK_GREY, 0.5);
-            svg.rectangle(Rect::new(left, top, width, height), Some(&edge), Some((Colour::WHITE, 1.0)));
+            let edge = Style::from(Stroke::new(Colour::DARK_GREY, 0.5)).fill(Colour::WHITE);
+            svg.rectangle(Rect::new(left, top, width, height), &edge);
         }
         for (index, (name, layer)) in entries.into_iter().enumerate() {
             let middle = top + padding - 1.0 + row * (index as f64 + 0.5);
-            draw_key(svg, layer, left + padding, middle, key);
-            let style = TextStyle::new(size, Anchor::LeftCentre);
-            svg.label(name, (left + padding + key + space, middle), style)?;
+            draw_key(svg, layer, Rect::new(left + padding, middle - 3.0, key, 6.0));
+            let style = TextStyle::new(Anchor::LeftCentre).size(size);
+            svg.label(name, Point::new(left + padding + key + space, middle), style)?;
         }
         Ok(())
     }
 }
 
 /// A sample of a layer's line, marker or area.
-fn draw_key(svg: &mut Svg, layer: &Layer, left: f64, middle: f64, width: f64) {
-    let mut path = String::new();
-    move_to(&mut path, (left, middle));
-    line_to(&mut path, (left + width, middle));
-    let area = Rect::new(left, middle - 3.0, width, 6.0);
-    let centre = (left + 0.5 * width, middle);
+fn draw_key(svg: &mut Svg, layer: &Layer, area: Rect) {
     match layer {
-        Layer::Line(line) => {
-            let (stroke, fill) = line.styles();
-            if fill.is_some() {
-                svg.rectangle(area, stroke.as_ref(), fill);
-            } else if let Some(stroke) = stroke {
-                svg.path(&path, Some(&stroke), None);
+        Layer::Line(Line { style, .. })
+        | Layer::Band(Band { style, .. })
+        | Layer::Rule(Rule { style, .. }) => {
+            if style.fill.is_some() {
+                svg.rectangle(area, style);
+            } else {
+                let ends = [(0.0, 0.5), (1.0, 0.5)].map(|end| area.fractions() * Point::from(end));
+                svg.path(&polyline(ends), style);
             }
         }
-        Layer::Rule(rule) => svg.path(&path, Some(&rule.line_stroke()), None),
-        Layer::Band(band) => svg.rectangle(area, None, Some(band.fill())),
-        Layer::Scatter(scatter) => scatter.draw_markers(svg, &[centre]),
+        Layer::Scatter(scatter) => scatter.draw_markers(svg, [area.outline().center()]),
         Layer::DensePoints(points) => {
-            let sample = Scatter::new([]).marker(Marker::Dot).size(3.0).colour(points.colour_of_points());
-            sample.draw_markers(svg, &[centre]);
+            let colour = points.style.solid().colour;
+            svg.dots([area.outline().center()], DENSE_SAMPLE, colour.into());
         }
         Layer::Raster(_) | Layer::Text(_) | Layer::Arrow(_) => {}
     }

@@ -1,36 +1,44 @@
-//! Drawing: figures as the journal prints them, written as SVG with real text and rendered to PNG.
+//! Figures as a journal prints them, written as SVG with real text and rendered to PNG with bundled fonts.
 //!
 //! A [`Figure`] has a size in points (1/72 inch) and holds [`Panel`]s (axes with layers) and [`Drawing`]s (free
-//! sketches) at given rectangles; a [`Grid`] computes those. The journal's columns are [`SINGLE_COLUMN`] and
-//! [`DOUBLE_COLUMN`] wide.
+//! sketches) at given rectangles; a [`Grid`] computes those. The same figure gives the same text on every machine.
 //!
 //! ```
-//! use bouncing_disk_plot::{Axis, Colour, Figure, Grid, Legend, Corner, Line, Panel, Ticks, SINGLE_COLUMN};
+//! use bouncing_disk_plot::{Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Panel, SINGLE_COLUMN, Ticks};
 //!
 //! let grid = Grid::new(SINGLE_COLUMN, 180.0, 1, 1);
 //! let panel = Panel::new(grid.cell(0, 0))
 //!     .x(Axis::linear(0.3, 0.6).label(r"$\Gamma$"))
 //!     .y(Axis::linear(0.0, std::f64::consts::PI).label(r"$\tau_{imp}$ (rad)").ticks(Ticks::pi(1, 4)))
 //!     .letter("a")
-//!     .layer(Line::new([(0.33, 0.0), (0.5, 1.2)]).colour(Colour::BLUE).name("period 1"))
+//!     .layer(Line::new([(0.33, 0.0), (0.5, 1.2)]).colour(Colour::BLUE).dash(Dash::Dashed).name("period 1"))
 //!     .legend(Legend::at(Corner::TopRight));
-//! let svg = Figure::new(SINGLE_COLUMN, 180.0).panel(panel).to_svg()?;
-//! assert!(svg.contains("STIX Two Text"));
+//! let figure = Figure::new(SINGLE_COLUMN, 180.0).panel(panel);
+//! assert!(figure.to_svg()?.contains("STIX Two Text"));
+//! assert!(figure.to_png()?.starts_with(b"\x89PNG"));
 //! # Ok::<(), bouncing_disk_plot::DrawError>(())
 //! ```
 //!
-//! # Why no plotting library
+//! # Contents
 //!
-//! The labels of this paper mix italic variables, upright words, scripts and dotted accents in one line. Two libraries
-//! were judged, kuva from its source and plotters from its documentation. kuva 0.6.0 has the right axes, but sets titles, tick labels and legends in one style
-//! without scripts, drops the dot of a dotted alpha (its other way, a typesetter, adds some 200 crates), has no
-//! image primitive for basins of attraction, places panels on a fixed grid only, and has no free drawings.
-//! plotters has neither ticks inside the frame nor any of the label features. What remains after replacing
-//! labels, images, panels and sketches is an SVG writer; so this is one. It draws what these figures need and
-//! nothing else.
+//! | what | where |
+//! | --- | --- |
+//! | the page: its size, its parts, SVG and PNG | [`Figure`], [`SINGLE_COLUMN`], [`DOUBLE_COLUMN`] |
+//! | rectangles on the page | [`Grid`], [`Margins`], [`Rect`] |
+//! | a frame with axes | [`Panel`], [`Axis`], [`Scale`], [`Ticks`], [`Legend`], [`Corner`] |
+//! | layers: what a panel shows | [`Line`], [`Band`], [`Rule`], [`Scatter`] with its [`Marker`], [`DensePoints`], [`Raster`], [`Text`], [`Arrow`]; any of them is a [`Layer`] |
+//! | how shapes look, in all layers alike | [`Style`] of [`Stroke`] and [`Fill`], [`Dash`], [`Colour`] |
+//! | words with symbols and scripts | [`Label`], placed by an [`Anchor`] |
+//! | sketches, flow charts, perspective | [`Drawing`], [`Path`], [`Camera`] |
+//! | a table between rules | [`ruled_table`] |
+//! | what can go wrong | [`DrawError`] |
+//!
+//! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. Outlines, clipping and maps to the page
+//! are kurbo's, dense layers are painted by tiny-skia, and resvg renders the PNG.
 
 mod annotation;
 mod axis;
+mod builders;
 mod camera;
 mod colour;
 mod dense;
@@ -44,31 +52,40 @@ mod layer;
 mod legend;
 mod line;
 mod panel;
+mod path;
 mod picture;
 mod png_image;
 mod raster;
 mod ruled_table;
 mod scatter;
-mod stroke;
+mod style;
 mod svg;
+mod text_style;
 mod ticks;
 
-pub use annotation::{Anchor, Arrow, Text};
+pub use annotation::{Arrow, Text};
 pub use axis::{Axis, Scale};
 pub use camera::Camera;
 pub use colour::Colour;
 pub use dense::DensePoints;
-pub use drawing::{Drawing, Path};
+pub use drawing::Drawing;
 pub use error::DrawError;
 pub use figure::{DOUBLE_COLUMN, Figure, SINGLE_COLUMN};
 pub use frame::{Grid, Margins, Rect};
-pub use label::{Label, Style};
+pub use label::Label;
 pub use layer::Layer;
 pub use legend::{Corner, Legend};
 pub use line::{Band, Line, Rule};
 pub use panel::Panel;
+pub use path::Path;
 pub use raster::Raster;
 pub use ruled_table::ruled_table;
 pub use scatter::{Marker, Scatter};
-pub use stroke::{Dash, Stroke};
+pub use style::{Dash, Fill, Stroke, Style};
+pub use text_style::Anchor;
 pub use ticks::Ticks;
+
+/// The example of the README, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,11 +1,14 @@
 //! Curves, bands and reference lines.
 
+use kurbo::{BezPath, Line as Segment, ParamCurve, Point, Rect, Shape};
+
+use crate::builders::builders;
 use crate::colour::Colour;
-use crate::error::DrawError;
 use crate::frame::Frame;
 use crate::label::Label;
-use crate::stroke::{Dash, Stroke};
-use crate::svg::{Svg, line_to, move_to};
+use crate::path::{polygon, polyline};
+use crate::style::{Dash, Fill, Stroke, Style};
+use crate::svg::Svg;
 
 /// Points closer than this, in points of the page, are drawn as one.
 const RESOLUTION: f64 = 0.04;
@@ -16,231 +19,123 @@ const OVERHANG: f64 = 20.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     points: Vec<(f64, f64)>,
-    stroke: Option<Stroke>,
-    fill: Option<(Colour, f64)>,
-    name: Option<Label>,
+    pub(crate) style: Style,
+    pub(crate) name: Option<Label>,
 }
+
+builders!(Line: style, colour, width, dash, opacity, name);
 
 impl Line {
     /// A curve through points in data coordinates.
     pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let stroke = Some(Stroke { width: 1.0, ..Stroke::default() });
-        Self { points: points.into_iter().collect(), stroke, fill: None, name: None }
-    }
-
-    /// Sets the colour.
-    #[must_use]
-    pub fn colour(mut self, colour: Colour) -> Self {
-        self.stroke.get_or_insert_default().colour = colour;
-        self
-    }
-
-    /// Sets the width in points.
-    #[must_use]
-    pub fn width(mut self, points: f64) -> Self {
-        self.stroke.get_or_insert_default().width = points;
-        self
-    }
-
-    /// Sets the dashes.
-    #[must_use]
-    pub fn dash(mut self, dash: Dash) -> Self {
-        self.stroke.get_or_insert_default().dash = dash;
-        self
-    }
-
-    /// Sets the opacity, 0 to 1.
-    #[must_use]
-    pub fn opacity(mut self, opacity: f64) -> Self {
-        self.stroke.get_or_insert_default().opacity = opacity;
-        self
+        Self { points: points.into_iter().collect(), style: Style::default().width(1.0), name: None }
     }
 
     /// Fills the area that the points enclose.
     #[must_use]
     pub fn fill(mut self, colour: Colour, opacity: f64) -> Self {
-        self.fill = Some((colour, opacity));
+        self.style = self.style.fill((colour, opacity));
         self
     }
 
     /// Leaves out the line, for filled areas.
     #[must_use]
     pub fn without_stroke(mut self) -> Self {
-        self.stroke = None;
+        self.style = self.style.without_stroke();
         self
-    }
-
-    /// Lists the curve in the legend.
-    #[must_use]
-    pub fn name(mut self, name: impl Into<Label>) -> Self {
-        self.name = Some(name.into());
-        self
-    }
-
-    pub(crate) fn legend_name(&self) -> Option<&Label> {
-        self.name.as_ref()
-    }
-
-    pub(crate) fn styles(&self) -> (Option<Stroke>, Option<(Colour, f64)>) {
-        (self.stroke, self.fill)
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {
-        if self.fill.is_some() {
-            let mut path = String::new();
-            let mut pen_down = false;
-            for point in self.points.iter().map(|point| frame.point(*point)) {
-                if !(point.0.is_finite() && point.1.is_finite()) {
-                    continue;
-                }
-                if pen_down {
-                    line_to(&mut path, point)
-                } else {
-                    move_to(&mut path, point)
-                }
-                pen_down = true;
-            }
-            if pen_down {
-                path.push('z');
-            }
-            svg.path(&path, None, self.fill);
+        let points = self.points.iter().map(|point| frame.point(*point));
+        if let Some(fill) = self.style.fill {
+            svg.path(&polygon(points.clone().filter(|point| point.is_finite())), &fill.into());
         }
-        if let Some(stroke) = &self.stroke {
-            let path = polyline(frame, self.points.iter().map(|point| frame.point(*point)));
-            svg.path(&path, Some(stroke), None);
+        if let Some(stroke) = self.style.stroke {
+            svg.path(&curve(frame.area.outline(), points), &stroke.into());
         }
     }
 }
 
-/// Path data of a polyline: clipped near the frame, thinned to the resolution, broken at NaN.
-pub(crate) fn polyline(frame: &Frame<'_>, points: impl Iterator<Item = (f64, f64)>) -> String {
-    let mut path = String::new();
-    let mut previous: Option<(f64, f64)> = None;
-    let mut drawn: Option<(f64, f64)> = None;
-    // A point that was left out because it nearly coincides with the drawn one.
-    let mut skipped: Option<(f64, f64)> = None;
+/// A polyline that is clipped near the frame, thinned to the resolution and broken at NaN.
+fn curve(frame: Rect, points: impl Iterator<Item = Point>) -> BezPath {
+    let window = frame.inflate(OVERHANG, OVERHANG);
+    let near = |end: Option<Point>, point: Point| {
+        end.is_some_and(|end| (end.x - point.x).abs() < RESOLUTION && (end.y - point.y).abs() < RESOLUTION)
+    };
+    let mut path = BezPath::new();
+    // The end of a piece that was left out because it nearly coincides with what is drawn.
+    let mut skipped: Option<Point> = None;
+    let mut previous = Point::new(f64::NAN, f64::NAN);
     for point in points {
-        if !(point.0.is_finite() && point.1.is_finite()) {
-            if let Some(last) = skipped.take() {
-                line_to(&mut path, last);
+        let piece = clip(Segment::new(previous, point), window);
+        previous = point;
+        let Some(piece) = piece else { continue };
+        if !near(path.current_position(), piece.p0) {
+            if let Some(end) = skipped.take() {
+                path.line_to(end);
             }
-            (previous, drawn) = (None, None);
-            continue;
+            path.move_to(piece.p0);
         }
-        if let Some(start) = previous
-            && let Some((from, to)) = clip(frame, start, point)
-        {
-            let near = |a: (f64, f64), b: (f64, f64)| {
-                (a.0 - b.0).abs() < RESOLUTION && (a.1 - b.1).abs() < RESOLUTION
-            };
-            let connected = drawn.is_some_and(|end| near(end, from));
-            if !connected {
-                if let Some(last) = skipped.take() {
-                    line_to(&mut path, last);
-                }
-                move_to(&mut path, from);
-                drawn = Some(from);
-            }
-            if drawn.is_some_and(|end| near(end, to)) {
-                skipped = Some(to);
-            } else {
-                line_to(&mut path, to);
-                drawn = Some(to);
-                skipped = None;
-            }
+        if near(path.current_position(), piece.p1) {
+            skipped = Some(piece.p1);
+        } else {
+            path.line_to(piece.p1);
+            skipped = None;
         }
-        previous = Some(point);
     }
-    if let Some(last) = skipped {
-        line_to(&mut path, last);
+    if let Some(end) = skipped {
+        path.line_to(end);
     }
     path
 }
 
-/// The part of a segment within the frame and its overhang (Liang and Barsky's clipping).
-fn clip(frame: &Frame<'_>, from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
-    let (left, right) = (frame.area.left - OVERHANG, frame.area.right() + OVERHANG);
-    let (top, bottom) = (frame.area.top - OVERHANG, frame.area.bottom() + OVERHANG);
-    let (across, down) = (to.0 - from.0, to.1 - from.1);
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    let edges =
-        [(-across, from.0 - left), (across, right - from.0), (-down, from.1 - top), (down, bottom - from.1)];
-    for (outward, room) in edges {
-        if outward == 0.0 {
-            if room < 0.0 {
-                return None;
-            }
-        } else if outward < 0.0 {
-            enter = enter.max(room / outward);
-        } else {
-            leave = leave.min(room / outward);
-        }
+/// The part of a segment within a window; none of one with an end that is not finite.
+fn clip(segment: Segment, window: Rect) -> Option<Segment> {
+    let inside = (window.contains(segment.p0), window.contains(segment.p1));
+    if inside == (true, true) {
+        return Some(segment);
     }
-    if enter > leave {
+    if !segment.is_finite() || !window.overlaps(segment.bounding_box()) {
         return None;
     }
-    let at = |share: f64| (from.0 + share * across, from.1 + share * down);
-    Some((if enter > 0.0 { at(enter) } else { from }, if leave < 1.0 { at(leave) } else { to }))
+    let edges = window.to_path(RESOLUTION);
+    let crossings = edges.segments().flat_map(|edge| edge.intersect_line(segment)).map(|hit| hit.line_t);
+    let (first, last) = crossings.fold((1.0_f64, 0.0_f64), |(first, last), at| (first.min(at), last.max(at)));
+    let enter = if inside.0 { 0.0 } else { first };
+    let leave = if inside.1 { 1.0 } else { last };
+    (enter < leave).then(|| segment.subsegment(enter..leave))
 }
 
 /// The area between a lower and an upper curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
     points: Vec<(f64, f64, f64)>,
-    colour: Colour,
-    opacity: f64,
-    name: Option<Label>,
+    pub(crate) style: Style,
+    pub(crate) name: Option<Label>,
 }
+
+builders!(Band: style, colour, opacity, name);
 
 impl Band {
     /// A band through `(x, low, high)`; broken at NaN.
     pub fn new(points: impl IntoIterator<Item = (f64, f64, f64)>) -> Self {
-        Self { points: points.into_iter().collect(), colour: Colour::LIGHT_GREY, opacity: 0.5, name: None }
-    }
-
-    /// Sets the colour.
-    #[must_use]
-    pub fn colour(mut self, colour: Colour) -> Self {
-        self.colour = colour;
-        self
-    }
-
-    /// Sets the opacity, 0 to 1.
-    #[must_use]
-    pub fn opacity(mut self, opacity: f64) -> Self {
-        self.opacity = opacity;
-        self
-    }
-
-    /// Lists the band in the legend.
-    #[must_use]
-    pub fn name(mut self, name: impl Into<Label>) -> Self {
-        self.name = Some(name.into());
-        self
-    }
-
-    pub(crate) fn legend_name(&self) -> Option<&Label> {
-        self.name.as_ref()
-    }
-
-    pub(crate) fn fill(&self) -> (Colour, f64) {
-        (self.colour, self.opacity)
+        let style = Fill::new(Colour::LIGHT_GREY, 0.5).into();
+        Self { points: points.into_iter().collect(), style, name: None }
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {
-        let mut path = String::new();
-        let finite = |(x, y): (f64, f64)| x.is_finite() && y.is_finite();
-        let on_page = |&(x, low, high): &(f64, f64, f64)| (frame.point((x, low)), frame.point((x, high)));
-        let edges: Vec<_> = self.points.iter().map(on_page).collect();
-        for part in edges.split(|(low, high)| !(finite(*low) && finite(*high))).filter(|part| part.len() > 1)
-        {
-            let outline = part.iter().map(|edge| edge.0).chain(part.iter().rev().map(|edge| edge.1));
-            for (index, point) in outline.enumerate() {
-                if index == 0 { move_to(&mut path, point) } else { line_to(&mut path, point) }
-            }
-            path.push('z');
+        let edges: Vec<_> = self
+            .points
+            .iter()
+            .map(|&(x, low, high)| (frame.point((x, low)), frame.point((x, high))))
+            .collect();
+        let parts = edges.split(|(low, high)| !(low.is_finite() && high.is_finite()));
+        let mut path = BezPath::new();
+        for part in parts.filter(|part| part.len() > 1) {
+            let (low, high) = (part.iter().map(|edge| edge.0), part.iter().rev().map(|edge| edge.1));
+            path.extend(polygon(low.chain(high)));
         }
-        svg.path(&path, None, Some(self.fill()));
+        svg.path(&path, &self.style);
     }
 }
 
@@ -249,9 +144,11 @@ impl Band {
 pub struct Rule {
     vertical: bool,
     value: f64,
-    stroke: Stroke,
-    name: Option<Label>,
+    pub(crate) style: Style,
+    pub(crate) name: Option<Label>,
 }
+
+builders!(Rule: style, stroke, name);
 
 impl Rule {
     /// A vertical line at `x`.
@@ -265,51 +162,22 @@ impl Rule {
     }
 
     fn new(vertical: bool, value: f64) -> Self {
-        let stroke = Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed);
-        Self { vertical, value, stroke, name: None }
+        let style = Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed).into();
+        Self { vertical, value, style, name: None }
     }
 
-    /// Sets colour, width and dashes.
-    #[must_use]
-    pub fn stroke(mut self, stroke: Stroke) -> Self {
-        self.stroke = stroke;
-        self
-    }
-
-    /// Lists the line in the legend.
-    #[must_use]
-    pub fn name(mut self, name: impl Into<Label>) -> Self {
-        self.name = Some(name.into());
-        self
-    }
-
-    pub(crate) fn legend_name(&self) -> Option<&Label> {
-        self.name.as_ref()
-    }
-
-    pub(crate) fn line_stroke(&self) -> Stroke {
-        self.stroke
-    }
-
-    pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
-        let area = frame.area;
+    pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {
         let fraction =
             if self.vertical { frame.x.fraction(self.value) } else { frame.y.fraction(self.value) };
         if !(0.0..=1.0).contains(&fraction) {
-            return Ok(());
+            return;
         }
-        let mut path = String::new();
-        if self.vertical {
-            let x = area.left + fraction * area.width;
-            move_to(&mut path, (x, area.top));
-            line_to(&mut path, (x, area.bottom()));
+        let ends = if self.vertical {
+            [(fraction, 1.0), (fraction, 0.0)]
         } else {
-            let y = area.bottom() - fraction * area.height;
-            move_to(&mut path, (area.left, y));
-            line_to(&mut path, (area.right(), y));
-        }
-        svg.path(&path, Some(&self.stroke), None);
-        Ok(())
+            [(0.0, fraction), (1.0, fraction)]
+        };
+        svg.path(&(frame.area.fractions() * polyline(ends.map(Point::from))), &self.style);
     }
 }
 
@@ -317,27 +185,28 @@ impl Rule {
 mod tests {
     use super::*;
     use crate::axis::Axis;
-    use crate::frame::Rect;
+    use crate::svg::rounded;
 
     fn path(points: &[(f64, f64)]) -> String {
         let (x, y) = (Axis::linear(0.0, 100.0), Axis::linear(100.0, 0.0));
-        let frame = Frame { area: Rect::new(0.0, 0.0, 100.0, 100.0), x: &x, y: &y, text_size: 9.0 };
-        polyline(&frame, points.iter().map(|point| frame.point(*point)))
+        let frame = Frame { area: crate::frame::Rect::new(0.0, 0.0, 100.0, 100.0), x: &x, y: &y };
+        let points = points.iter().map(|point| frame.point(*point));
+        rounded(&curve(frame.area.outline(), points)).to_svg()
     }
 
     #[test]
     fn a_curve_breaks_at_nan() {
         assert_eq!(
             path(&[(0.0, 0.0), (10.0, 0.0), (20.0, f64::NAN), (30.0, 0.0), (40.0, 0.0)]),
-            "M0 0L10 0M30 0L40 0"
+            "M0,0 L10,0 M30,0 L40,0"
         );
     }
 
     #[test]
     fn segments_far_outside_are_clipped_or_left_out() {
-        assert_eq!(path(&[(50.0, 50.0), (50.0, 1e9)]), "M50 50L50 120");
+        assert_eq!(path(&[(50.0, 50.0), (50.0, 1e9)]), "M50,50 L50,120");
         assert_eq!(path(&[(500.0, 0.0), (600.0, 100.0)]), "");
-        assert_eq!(path(&[(-1e9, 50.0), (1e9, 50.0)]), "M-20 50L120 50");
+        assert_eq!(path(&[(-1e9, 50.0), (1e9, 50.0)]), "M-20,50 L120,50");
     }
 
     #[test]
@@ -345,6 +214,6 @@ mod tests {
         let points: Vec<_> = (0..=1000).map(|i| (f64::from(i) * 0.001, 0.0)).collect();
         let path = path(&points);
         assert!(path.matches('L').count() <= 26, "{path}");
-        assert!(path.ends_with("L1 0"), "{path}");
+        assert!(path.ends_with("L1,0"), "{path}");
     }
 }

@@ -1,6 +1,7 @@
 //! A panel: two to four axes in a frame, and layers.
 
-use crate::annotation::Anchor;
+use kurbo::{BezPath, Point, Vec2};
+
 use crate::axis::Axis;
 use crate::colour::Colour;
 use crate::error::DrawError;
@@ -8,9 +9,11 @@ use crate::frame::{Frame, Rect};
 use crate::label::Label;
 use crate::layer::Layer;
 use crate::legend::{Corner, Legend};
-use crate::stroke::Stroke;
-use crate::svg::{Svg, TextStyle, line_to, move_to};
-use crate::ticks::{Scale, Tick};
+use crate::path::polyline;
+use crate::style::{Stroke, Style};
+use crate::svg::Svg;
+use crate::text_style::{Anchor, TextStyle};
+use crate::ticks::PlacedTicks;
 
 /// Lengths in points.
 const FRAME_WIDTH: f64 = 0.7;
@@ -35,12 +38,45 @@ pub struct Panel {
     markers_on_top: bool,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// An edge of the frame and the axis it shows.
+#[derive(Debug)]
+struct Side<'a> {
+    edge: Edge,
+    axis: &'a Axis,
+    placed: PlacedTicks,
+    /// Whether numbers and label stand at this edge; the edge opposite to a lone axis has only its ticks.
+    labelled: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edge {
     Bottom,
-    Top,
     Left,
     Right,
+    Top,
+}
+
+impl Edge {
+    /// The place of a fraction of the axis, on the page.
+    fn place(self, area: Rect, fraction: f64) -> Point {
+        area.fractions()
+            * match self {
+                Self::Bottom => Point::new(fraction, 0.0),
+                Self::Left => Point::new(0.0, fraction),
+                Self::Right => Point::new(1.0, fraction),
+                Self::Top => Point::new(fraction, 1.0),
+            }
+    }
+
+    /// The direction out of the frame, on the page.
+    fn outward(self) -> Vec2 {
+        match self {
+            Self::Bottom => Vec2::new(0.0, 1.0),
+            Self::Left => Vec2::new(-1.0, 0.0),
+            Self::Right => Vec2::new(1.0, 0.0),
+            Self::Top => Vec2::new(0.0, -1.0),
+        }
+    }
 }
 
 impl Panel {
@@ -152,74 +188,58 @@ impl Panel {
         self
     }
 
-    /// Draws the panel on a page of the given width and height.
-    pub(crate) fn render(&self, svg: &mut Svg, page: (f64, f64), text_size: f64) -> Result<(), DrawError> {
+    pub(crate) fn render(&self, svg: &mut Svg) -> Result<(), DrawError> {
         let area = self.area;
         if !area.has_area() {
             return Err(DrawError::Size { what: "a panel", width: area.width, height: area.height });
         }
-        let x_ticks = self.x.choose_ticks(area.width, 5.0 * text_size)?;
-        let y_ticks = self.y.choose_ticks(area.height, 3.0 * text_size)?;
-        let right_ticks =
-            self.right.as_ref().map(|axis| axis.choose_ticks(area.height, 3.0 * text_size)).transpose()?;
+        let sides = self.sides(svg.text_size())?;
         if let Some(colour) = self.background {
-            svg.rectangle(area, None, Some((colour, 1.0)));
+            svg.rectangle(area, &colour.into());
         }
-        self.render_layers(svg, text_size)?;
-        let stroke = Stroke::new(Colour::BLACK, FRAME_WIDTH);
-        let mut marks = String::new();
-        let top_ticks =
-            self.top.as_ref().map(|axis| axis.choose_ticks(area.width, 5.0 * text_size)).transpose()?;
-        match (&self.top, &top_ticks) {
-            (Some(axis), Some(ticks)) => {
-                self.push_marks(&mut marks, &self.x, &x_ticks.ticks, &[Edge::Bottom]);
-                self.push_marks(&mut marks, axis, &ticks.ticks, &[Edge::Top]);
-            }
-            _ => self.push_marks(&mut marks, &self.x, &x_ticks.ticks, &[Edge::Bottom, Edge::Top]),
-        }
-        match (&self.right, &right_ticks) {
-            (Some(axis), Some(ticks)) => {
-                self.push_marks(&mut marks, &self.y, &y_ticks.ticks, &[Edge::Left]);
-                self.push_marks(&mut marks, axis, &ticks.ticks, &[Edge::Right]);
-            }
-            _ => self.push_marks(&mut marks, &self.y, &y_ticks.ticks, &[Edge::Left, Edge::Right]),
-        }
-        svg.path(&marks, Some(&stroke), None);
-        svg.rectangle(area, Some(&stroke), None);
+        self.render_layers(svg)?;
+        let stroke = Style::from(Stroke::new(Colour::BLACK, FRAME_WIDTH));
+        svg.path(&sides.iter().flat_map(|side| side.marks(area)).collect(), &stroke);
+        svg.rectangle(area, &stroke);
         if self.markers_on_top {
-            let frame = Frame { area, x: &self.x, y: &self.y, text_size };
+            let frame = Frame { area, x: &self.x, y: &self.y };
             for (layer, on_right) in &self.layers {
                 if let (Layer::Scatter(scatter), false) = (layer, on_right) {
                     scatter.render_markers(&frame, svg);
                 }
             }
         }
-        self.render_axis(svg, &self.x, &x_ticks, Edge::Bottom, page, text_size)?;
-        self.render_axis(svg, &self.y, &y_ticks, Edge::Left, page, text_size)?;
-        if let (Some(axis), Some(ticks)) = (&self.right, &right_ticks) {
-            self.render_axis(svg, axis, ticks, Edge::Right, page, text_size)?;
+        for side in sides.iter().filter(|side| side.labelled) {
+            side.render(area, svg)?;
         }
-        if let (Some(axis), Some(ticks)) = (&self.top, &top_ticks) {
-            self.render_axis(svg, axis, ticks, Edge::Top, page, text_size)?;
-        }
-        let frame = Frame { area, x: &self.x, y: &self.y, text_size };
         if let Some(legend) = &self.legend {
-            legend.render(self.layers.iter().map(|(layer, _)| layer), &frame, svg)?;
+            legend.render(self.layers.iter().map(|(layer, _)| layer), area, svg)?;
         }
-        self.render_letter(svg, text_size)?;
+        self.render_letter(svg)?;
         if let Some(title) = &self.title {
-            let above = (area.left + 0.5 * area.width, area.top - 4.0);
-            svg.label(title, above, TextStyle::new(text_size, Anchor::Middle))?;
+            let above = Edge::Top.place(area, 0.5) + 4.0 * Edge::Top.outward();
+            svg.label(title, above, TextStyle::new(Anchor::Middle))?;
         }
         Ok(())
     }
 
-    fn render_layers(&self, svg: &mut Svg, text_size: f64) -> Result<(), DrawError> {
+    /// The edges of the frame in the order in which they are labelled.
+    fn sides(&self, text_size: f64) -> Result<[Side<'_>; 4], DrawError> {
+        let side = |edge, axis, labelled| Side::new(edge, axis, labelled, self.area, text_size);
+        Ok([
+            side(Edge::Bottom, &self.x, true)?,
+            side(Edge::Left, &self.y, true)?,
+            side(Edge::Right, self.right.as_ref().unwrap_or(&self.y), self.right.is_some())?,
+            side(Edge::Top, self.top.as_ref().unwrap_or(&self.x), self.top.is_some())?,
+        ])
+    }
+
+    fn render_layers(&self, svg: &mut Svg) -> Result<(), DrawError> {
         let frame_of = |on_right: bool| {
             let y = if on_right { self.right.as_ref() } else { Some(&self.y) };
             let panel = self.letter.as_ref().map_or(String::new(), |(letter, _)| letter.clone());
             let y = y.ok_or(DrawError::NoRightAxis { panel })?;
-            Ok(Frame { area: self.area, x: &self.x, y, text_size })
+            Ok(Frame { area: self.area, x: &self.x, y })
         };
         let mut clipped = false;
         for (layer, on_right) in &self.layers {
@@ -237,7 +257,7 @@ impl Panel {
             match layer {
                 Layer::Line(line) => line.render(&frame, svg),
                 Layer::Band(band) => band.render(&frame, svg),
-                Layer::Rule(rule) => rule.render(&frame, svg)?,
+                Layer::Rule(rule) => rule.render(&frame, svg),
                 Layer::DensePoints(points) => points.render(&frame, svg)?,
                 Layer::Raster(raster) => raster.render(&frame, svg)?,
                 Layer::Text(text) => text.render(&frame, svg)?,
@@ -258,99 +278,99 @@ impl Panel {
         Ok(())
     }
 
-    /// The marks of the ticks, inward from the given edges.
-    fn push_marks(&self, path: &mut String, axis: &Axis, ticks: &[Tick], edges: &[Edge]) {
-        let area = self.area;
-        for tick in ticks {
-            let fraction = axis.fraction(tick.value);
-            let length = if tick.label.is_some() { MAJOR_TICK } else { MINOR_TICK };
-            let (x, y) = (area.left + fraction * area.width, area.bottom() - fraction * area.height);
-            for edge in edges {
-                let (from, to) = match edge {
-                    Edge::Bottom => ((x, area.bottom()), (x, area.bottom() - length)),
-                    Edge::Top => ((x, area.top), (x, area.top + length)),
-                    Edge::Left => ((area.left, y), (area.left + length, y)),
-                    Edge::Right => ((area.right(), y), (area.right() - length, y)),
-                };
-                move_to(path, from);
-                line_to(path, to);
-            }
-        }
-    }
-
-    /// The numbers at the ticks and the label of an axis.
-    fn render_axis(
-        &self,
-        svg: &mut Svg,
-        axis: &Axis,
-        scale: &Scale,
-        edge: Edge,
-        page: (f64, f64),
-        text_size: f64,
-    ) -> Result<(), DrawError> {
-        let area = self.area;
-        let size = 0.92 * text_size;
-        let mut widest: f64 = 0.0;
-        for tick in scale.ticks.iter().filter(|_| axis.shows_numbers()) {
-            let Some(label) = &tick.label else { continue };
-            widest = widest.max(label.width(size));
-            let fraction = axis.fraction(tick.value);
-            let (x, y) = (area.left + fraction * area.width, area.bottom() - fraction * area.height);
-            let (place, anchor) = match edge {
-                Edge::Bottom => ((x, area.bottom() + NUMBER_DISTANCE + 0.75 * size), Anchor::Middle),
-                Edge::Top => ((x, area.top - NUMBER_DISTANCE), Anchor::Middle),
-                Edge::Left => ((area.left - NUMBER_DISTANCE, y), Anchor::RightCentre),
-                Edge::Right => ((area.right() + NUMBER_DISTANCE, y), Anchor::LeftCentre),
-            };
-            svg.label(label, place, TextStyle::new(size, anchor))?;
-        }
-        let (middle_x, middle_y) = (area.left + 0.5 * area.width, area.top + 0.5 * area.height);
-        let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + widest } else { 0.0 };
-        if let (Some(power), true) = (scale.power, axis.shows_numbers()) {
-            let label = Label::new(&format!("$\\times 10^{{{power}}}$"));
-            let (place, anchor) = match edge {
-                Edge::Bottom => {
-                    ((area.right(), area.bottom() + NUMBER_DISTANCE + 1.85 * size), Anchor::Right)
-                }
-                Edge::Top => ((area.right(), area.top - NUMBER_DISTANCE - 1.1 * size), Anchor::Right),
-                Edge::Left => ((area.left, area.top - 3.5), Anchor::Left),
-                Edge::Right => ((area.right(), area.top - 3.5), Anchor::Right),
-            };
-            svg.label(&label, place, TextStyle::new(size, anchor))?;
-        }
-        // However wide the numbers are, the label stays on the page.
-        let mut style = TextStyle::new(text_size, Anchor::Middle);
-        let place = match edge {
-            Edge::Bottom => {
-                let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + 0.7 * size } else { 0.0 };
-                let distance = axis.distance().unwrap_or(numbers + 1.45 * text_size);
-                (middle_x, (area.bottom() + distance).min(page.1 - 0.3 * text_size))
-            }
-            Edge::Top => {
-                let numbers = if axis.shows_numbers() { NUMBER_DISTANCE + 0.7 * size } else { 0.0 };
-                let distance = axis.distance().unwrap_or(numbers + 0.45 * text_size);
-                (middle_x, (area.top - distance).max(text_size))
-            }
-            Edge::Left => {
-                style.rotation = 90.0;
-                let distance = axis.distance().unwrap_or(numbers + 0.7 * text_size);
-                ((area.left - distance).max(0.85 * text_size), middle_y)
-            }
-            Edge::Right => {
-                style.rotation = 90.0;
-                let distance = axis.distance().unwrap_or(numbers + 1.3 * text_size);
-                ((area.right() + distance).min(page.0 - 0.35 * text_size), middle_y)
-            }
-        };
-        svg.label(axis.label_text(), place, style)
-    }
-
-    fn render_letter(&self, svg: &mut Svg, text_size: f64) -> Result<(), DrawError> {
+    fn render_letter(&self, svg: &mut Svg) -> Result<(), DrawError> {
         let Some((letter, corner)) = &self.letter else { return Ok(()) };
         let label = Label::plain(&format!("({letter})"));
-        let width = label.width(text_size);
-        let (left, top) = corner.place(self.area, (width, text_size), 6.0);
-        let style = TextStyle { halo: Some(Colour::WHITE), ..TextStyle::new(text_size, Anchor::LeftCentre) };
-        svg.label(&label, (left, top + 0.5 * text_size), style)
+        let size = svg.text_size();
+        let (left, top) = corner.place(self.area, (label.width(size), size), 6.0);
+        let style = TextStyle::new(Anchor::LeftCentre).halo(Colour::WHITE);
+        svg.label(&label, Point::new(left, top + 0.5 * size), style)
+    }
+}
+
+impl<'a> Side<'a> {
+    fn new(
+        edge: Edge,
+        axis: &'a Axis,
+        labelled: bool,
+        area: Rect,
+        text_size: f64,
+    ) -> Result<Self, DrawError> {
+        let (length, spacing) = match edge {
+            Edge::Bottom | Edge::Top => (area.width, 5.0 * text_size),
+            Edge::Left | Edge::Right => (area.height, 3.0 * text_size),
+        };
+        Ok(Self { edge, axis, placed: axis.choose_ticks(length, spacing)?, labelled })
+    }
+
+    /// The marks of the ticks, into the frame.
+    fn marks(&self, area: Rect) -> BezPath {
+        let marks = self.placed.ticks.iter().flat_map(|tick| {
+            let length = if tick.label.is_some() { MAJOR_TICK } else { MINOR_TICK };
+            let place = self.edge.place(area, self.axis.fraction(tick.value));
+            polyline([place, place - length * self.edge.outward()])
+        });
+        marks.collect()
+    }
+
+    /// The numbers at the ticks, the power of ten that they leave out, and the label of the axis.
+    fn render(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
+        let size = svg.number_size();
+        let mut widest: f64 = 0.0;
+        if self.axis.shows_numbers() {
+            let (below, anchor) = match self.edge {
+                Edge::Bottom => (0.75 * size, Anchor::Middle),
+                Edge::Top => (0.0, Anchor::Middle),
+                Edge::Left => (0.0, Anchor::RightCentre),
+                Edge::Right => (0.0, Anchor::LeftCentre),
+            };
+            let shift = NUMBER_DISTANCE * self.edge.outward() + Vec2::new(0.0, below);
+            for tick in &self.placed.ticks {
+                let Some(label) = &tick.label else { continue };
+                widest = widest.max(label.width(size));
+                let place = self.edge.place(area, self.axis.fraction(tick.value)) + shift;
+                svg.label(label, place, TextStyle::new(anchor).size(size))?;
+            }
+            self.render_power(area, svg)?;
+        }
+        self.render_label(area, widest, svg)
+    }
+
+    fn render_power(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
+        let Some(power) = self.placed.power else { return Ok(()) };
+        let size = svg.number_size();
+        let label = Label::new(&format!("$\\times 10^{{{power}}}$"));
+        let (x, y, anchor) = match self.edge {
+            Edge::Bottom => (area.right(), area.bottom() + NUMBER_DISTANCE + 1.85 * size, Anchor::Right),
+            Edge::Top => (area.right(), area.top - NUMBER_DISTANCE - 1.1 * size, Anchor::Right),
+            Edge::Left => (area.left, area.top - 3.5, Anchor::Left),
+            Edge::Right => (area.right(), area.top - 3.5, Anchor::Right),
+        };
+        svg.label(&label, Point::new(x, y), TextStyle::new(anchor).size(size))
+    }
+
+    /// The label of the axis beyond its numbers, of which the widest is given.
+    fn render_label(&self, area: Rect, widest: f64, svg: &mut Svg) -> Result<(), DrawError> {
+        let text_size = svg.text_size();
+        let level = matches!(self.edge, Edge::Bottom | Edge::Top);
+        let extent = if level { 0.7 * svg.number_size() } else { widest };
+        let numbers = if self.axis.shows_numbers() { NUMBER_DISTANCE + extent } else { 0.0 };
+        let room = match self.edge {
+            Edge::Bottom => 1.45,
+            Edge::Left => 0.7,
+            Edge::Right => 1.3,
+            Edge::Top => 0.45,
+        };
+        let distance = self.axis.distance().unwrap_or(numbers + room * text_size);
+        let mut place = self.edge.place(area, 0.5) + distance * self.edge.outward();
+        // However wide the numbers are, the label stays on the page.
+        match self.edge {
+            Edge::Bottom => place.y = place.y.min(svg.height() - 0.3 * text_size),
+            Edge::Left => place.x = place.x.max(0.85 * text_size),
+            Edge::Right => place.x = place.x.min(svg.width() - 0.35 * text_size),
+            Edge::Top => place.y = place.y.max(text_size),
+        }
+        let rotation = if level { 0.0 } else { 90.0 };
+        svg.label(self.axis.label_text(), place, TextStyle::new(Anchor::Middle).rotated(rotation))
     }
 }

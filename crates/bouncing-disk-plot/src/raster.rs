@@ -2,7 +2,7 @@
 
 use crate::colour::Colour;
 use crate::error::DrawError;
-use crate::frame::{Frame, Rect};
+use crate::frame::Frame;
 use crate::png_image;
 use crate::svg::Svg;
 
@@ -55,17 +55,16 @@ impl Raster {
         let (from, to) = (frame.point((self.x.0, self.y.0)), frame.point((self.x.1, self.y.1)));
         // Image rows run downwards on the page: the first row of data is the last of the image, unless the axis
         // runs backwards; likewise for columns.
-        let (flip_columns, flip_rows) = (to.0 < from.0, to.1 < from.1);
+        let (flip_columns, flip_rows) = (to.x < from.x, to.y < from.y);
         let mut pixels = Vec::with_capacity(self.cells.len());
         for row in 0..height {
             let row = if flip_rows { height - 1 - row } else { row };
             let cells = &self.cells[row * width..(row + 1) * width];
             if flip_columns { pixels.extend(cells.iter().rev()) } else { pixels.extend(cells) }
         }
-        let area =
-            Rect::new(from.0.min(to.0), from.1.min(to.1), (to.0 - from.0).abs(), (to.1 - from.1).abs());
-        if !area.has_area() {
-            return Err(DrawError::Size { what: "a raster", width: area.width, height: area.height });
+        let area = kurbo::Rect::from_points(from, to);
+        if !(area.is_finite() && area.area() > 0.0) {
+            return Err(DrawError::Size { what: "a raster", width: area.width(), height: area.height() });
         }
         let png = png_image::indexed(width, height, &pixels, &self.palette)?;
         svg.image(area, &png, true);

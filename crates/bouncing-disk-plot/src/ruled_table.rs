@@ -1,12 +1,13 @@
 //! A table as the journal sets it: columns of text between three rules.
 
-use crate::annotation::Anchor;
 use crate::colour::Colour;
-use crate::drawing::{Drawing, Path};
+use crate::drawing::Drawing;
 use crate::figure::Figure;
 use crate::frame::Rect;
 use crate::label::Label;
-use crate::stroke::Stroke;
+use crate::path::Path;
+use crate::style::Stroke;
+use crate::text_style::Anchor;
 
 /// Lengths in points.
 const TEXT_SIZE: f64 = 9.0;

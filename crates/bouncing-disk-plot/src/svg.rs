@@ -3,38 +3,27 @@
 use std::fmt::Write as _;
 
 use base64::Engine as _;
+use kurbo::{BezPath, PathEl, Point, Shape};
 
-use crate::annotation::Anchor;
-use crate::colour::Colour;
 use crate::error::DrawError;
-use crate::font::FAMILIES;
+use crate::font::{FAMILIES, FontStyle};
 use crate::frame::Rect;
-use crate::label::{Label, Level, SCRIPT_SIZE, Style};
-use crate::stroke::Stroke;
+use crate::label::{Label, Level, SCRIPT_SIZE};
+use crate::path::polyline;
+use crate::style::{Dash, Fill, Stroke, Style};
+use crate::text_style::{Anchor, TextStyle};
+
+/// How far a curve may lie beside the circle that it stands for, in points.
+pub(crate) const TOLERANCE: f64 = 0.01;
 
 /// An SVG document being written. Lengths are points.
 #[derive(Debug)]
 pub(crate) struct Svg {
     text: String,
     clips: usize,
-}
-
-/// How a label is set.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TextStyle {
-    pub(crate) size: f64,
-    pub(crate) anchor: Anchor,
-    pub(crate) colour: Colour,
-    /// Degrees, anticlockwise.
-    pub(crate) rotation: f64,
-    /// A rim around the letters that keeps them legible on a picture.
-    pub(crate) halo: Option<Colour>,
-}
-
-impl TextStyle {
-    pub(crate) fn new(size: f64, anchor: Anchor) -> Self {
-        Self { size, anchor, colour: Colour::BLACK, rotation: 0.0, halo: None }
-    }
+    width: f64,
+    height: f64,
+    text_size: f64,
 }
 
 /// Heights in units of the font size: of capitals, for centring; of subscripts and superscripts.
@@ -43,14 +32,35 @@ const SUBSCRIPT_DROP: f64 = 0.20;
 const SUPERSCRIPT_RISE: f64 = 0.36;
 
 impl Svg {
-    pub(crate) fn new(width: f64, height: f64) -> Self {
-        let (width, height) = (short(width), short(height));
+    /// An empty white page, with the size of the text that has no other.
+    pub(crate) fn new(width: f64, height: f64, text_size: f64) -> Self {
+        let (wide, high) = (short(width), short(height));
         let text = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"{FAMILIES}\" fill=\"none\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}pt\" height=\"{high}pt\" \
+             viewBox=\"0 0 {wide} {high}\" font-family=\"{FAMILIES}\" fill=\"none\">\n\
+             <rect width=\"{wide}\" height=\"{high}\" fill=\"#ffffff\"/>\n"
         );
-        Self { text, clips: 0 }
+        Self { text, clips: 0, width, height, text_size }
+    }
+
+    /// The width of the page.
+    pub(crate) fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// The height of the page.
+    pub(crate) fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// The size of axis labels.
+    pub(crate) fn text_size(&self) -> f64 {
+        self.text_size
+    }
+
+    /// The size of the numbers at ticks and of legends.
+    pub(crate) fn number_size(&self) -> f64 {
+        0.92 * self.text_size
     }
 
     pub(crate) fn finish(mut self) -> String {
@@ -62,12 +72,10 @@ impl Svg {
     pub(crate) fn begin_clip(&mut self, area: Rect) {
         self.clips += 1;
         let number = self.clips;
-        let (x, y, width, height) =
-            (short(area.left), short(area.top), short(area.width), short(area.height));
+        let rectangle = attributes(area.outline());
         let _ = writeln!(
             self.text,
-            "<clipPath id=\"clip{number}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>\
-             </clipPath>\n<g clip-path=\"url(#clip{number})\">"
+            "<clipPath id=\"clip{number}\"><rect {rectangle}/></clipPath>\n<g clip-path=\"url(#clip{number})\">"
         );
     }
 
@@ -75,19 +83,31 @@ impl Svg {
         self.text.push_str("</g>\n");
     }
 
-    /// A path with a stroke, a fill, or both.
-    pub(crate) fn path(&mut self, path: &str, stroke: Option<&Stroke>, fill: Option<(Colour, f64)>) {
-        if path.is_empty() {
+    /// A path with a stroke, a fill, or both; one with a point that is not finite is left out.
+    pub(crate) fn path(&mut self, path: &BezPath, style: &Style) {
+        self.path_with("", path, style);
+    }
+
+    /// Discs about points: lines of no length with round ends, which take a fifth of the text of their outlines.
+    pub(crate) fn dots(&mut self, centres: impl IntoIterator<Item = Point>, diameter: f64, fill: Fill) {
+        let dots = centres.into_iter().flat_map(|centre| polyline([centre; 2])).collect();
+        let stroke =
+            Stroke { colour: fill.colour, width: diameter, dash: Dash::Solid, opacity: fill.opacity };
+        self.path_with(" stroke-linecap=\"round\"", &dots, &stroke.into());
+    }
+
+    fn path_with(&mut self, attributes: &str, path: &BezPath, style: &Style) {
+        if path.elements().is_empty() || !path.is_finite() {
             return;
         }
-        self.text.push_str("<path");
-        if let Some((colour, opacity)) = fill {
-            let _ = write!(self.text, " fill=\"{colour}\"");
-            if opacity < 1.0 {
-                let _ = write!(self.text, " fill-opacity=\"{}\"", short(opacity));
+        let _ = write!(self.text, "<path{attributes}");
+        if let Some(fill) = style.fill {
+            let _ = write!(self.text, " fill=\"{}\"", fill.colour);
+            if fill.opacity < 1.0 {
+                let _ = write!(self.text, " fill-opacity=\"{}\"", short(fill.opacity));
             }
         }
-        if let Some(stroke) = stroke {
+        if let Some(stroke) = style.stroke {
             let width = short(stroke.width);
             let _ = write!(self.text, " stroke=\"{}\" stroke-width=\"{width}\"", stroke.colour);
             self.text.push_str(" stroke-linejoin=\"round\"");
@@ -98,35 +118,28 @@ impl Svg {
                 let _ = write!(self.text, " stroke-opacity=\"{}\"", short(stroke.opacity));
             }
         }
-        let _ = writeln!(self.text, " d=\"{path}\"/>");
+        let _ = writeln!(self.text, " d=\"{}\"/>", rounded(path).to_svg());
     }
 
-    pub(crate) fn rectangle(&mut self, area: Rect, stroke: Option<&Stroke>, fill: Option<(Colour, f64)>) {
-        self.path(&rectangle_path(area), stroke, fill);
+    pub(crate) fn rectangle(&mut self, area: Rect, style: &Style) {
+        self.path(&area.outline().to_path(TOLERANCE), style);
     }
 
     /// An image stretched over a rectangle. `sharp` shows its cells as squares.
-    pub(crate) fn image(&mut self, area: Rect, png: &[u8], sharp: bool) {
+    pub(crate) fn image(&mut self, area: kurbo::Rect, png: &[u8], sharp: bool) {
         let data = base64::engine::general_purpose::STANDARD.encode(png);
-        let (x, y, width, height) =
-            (short(area.left), short(area.top), short(area.width), short(area.height));
         let style = if sharp { " style=\"image-rendering:pixelated\"" } else { "" };
         let _ = writeln!(
             self.text,
-            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\"{style} \
-             href=\"data:image/png;base64,{data}\"/>"
+            "<image {} preserveAspectRatio=\"none\"{style} href=\"data:image/png;base64,{data}\"/>",
+            attributes(area)
         );
     }
 
-    /// A label whose baseline (or middle) is at `(x, y)`.
-    pub(crate) fn label(
-        &mut self,
-        label: &Label,
-        (x, y): (f64, f64),
-        style: TextStyle,
-    ) -> Result<(), DrawError> {
+    /// A label whose baseline (or middle) is at a point; left out where the point is not finite.
+    pub(crate) fn label(&mut self, label: &Label, at: Point, style: TextStyle) -> Result<(), DrawError> {
         let spans = label.spans()?;
-        if label.is_empty() {
+        if label.is_empty() || !at.is_finite() {
             return Ok(());
         }
         let (anchor, centred) = match style.anchor {
@@ -137,19 +150,20 @@ impl Svg {
             Anchor::Centre => ("middle", true),
             Anchor::RightCentre => ("end", true),
         };
-        let shift = if centred { 0.5 * CAPITAL_HEIGHT * style.size } else { 0.0 };
-        let (size, colour) = (short(style.size), style.colour);
+        let size = style.size.unwrap_or(self.text_size);
+        let shift = if centred { 0.5 * CAPITAL_HEIGHT * size } else { 0.0 };
         self.text.push_str("<text");
         if style.rotation == 0.0 {
-            let _ = write!(self.text, " x=\"{}\" y=\"{}\"", short(x), short(y + shift));
+            let _ = write!(self.text, " x=\"{}\" y=\"{}\"", short(at.x), short(at.y + shift));
         } else {
-            let angle = short(-style.rotation);
-            let (x, y, shift) = (short(x), short(y), short(shift));
-            let _ = write!(self.text, " transform=\"translate({x} {y}) rotate({angle})\" y=\"{shift}\"");
+            let (x, y, angle) = (short(at.x), short(at.y), short(-style.rotation));
+            let _ =
+                write!(self.text, " transform=\"translate({x} {y}) rotate({angle})\" y=\"{}\"", short(shift));
         }
-        let _ = write!(self.text, " font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\"");
+        let (points, colour) = (short(size), style.colour);
+        let _ = write!(self.text, " font-size=\"{points}\" text-anchor=\"{anchor}\" fill=\"{colour}\"");
         if let Some(halo) = style.halo {
-            let width = short(0.3 * style.size);
+            let width = short(0.3 * size);
             let _ = write!(
                 self.text,
                 " stroke=\"{halo}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" paint-order=\"stroke\""
@@ -161,8 +175,8 @@ impl Svg {
         for span in spans {
             let target = match span.level {
                 Level::Base => 0.0,
-                Level::Subscript => SUBSCRIPT_DROP * style.size,
-                Level::Superscript => -SUPERSCRIPT_RISE * style.size,
+                Level::Subscript => SUBSCRIPT_DROP * size,
+                Level::Superscript => -SUPERSCRIPT_RISE * size,
             };
             self.text.push_str("<tspan");
             if (target - height) != 0.0 {
@@ -170,12 +184,12 @@ impl Svg {
             }
             height = target;
             if span.level != Level::Base {
-                let _ = write!(self.text, " font-size=\"{}\"", short(SCRIPT_SIZE * style.size));
+                let _ = write!(self.text, " font-size=\"{}\"", short(SCRIPT_SIZE * size));
             }
             match span.style {
-                Style::Roman => {}
-                Style::Italic => self.text.push_str(" font-style=\"italic\""),
-                Style::Bold => self.text.push_str(" font-weight=\"bold\""),
+                FontStyle::Roman => {}
+                FontStyle::Italic => self.text.push_str(" font-style=\"italic\""),
+                FontStyle::Bold => self.text.push_str(" font-weight=\"bold\""),
             }
             let _ = write!(self.text, ">{}</tspan>", escaped(&span.text));
         }
@@ -184,34 +198,26 @@ impl Svg {
     }
 }
 
-/// The outline of a rectangle as path data.
-pub(crate) fn rectangle_path(area: Rect) -> String {
-    let (x, y) = (short(area.left), short(area.top));
-    let (width, height) = (short(area.width), short(area.height));
-    format!("M{x} {y}h{width}v{height}h-{width}z")
+/// Place and size of a rectangle.
+fn attributes(area: kurbo::Rect) -> String {
+    let [x, y, width, height] = [area.x0, area.y0, area.width(), area.height()].map(short);
+    format!("x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"")
 }
 
-/// A circle as path data.
-pub(crate) fn circle_path(path: &mut String, (x, y): (f64, f64), radius: f64) {
-    ellipse_path(path, (x, y), radius, radius);
-}
-
-/// An upright ellipse as path data.
-pub(crate) fn ellipse_path(path: &mut String, (x, y): (f64, f64), across: f64, down: f64) {
-    let (left, y) = (short(x - across), short(y));
-    let (half, back) = (short(2.0 * across), short(-2.0 * across));
-    let (across, down) = (short(across), short(down));
-    let _ = write!(path, "M{left} {y}a{across} {down} 0 1 0 {half} 0a{across} {down} 0 1 0 {back} 0z");
-}
-
-/// Starts a new part of a path at a point.
-pub(crate) fn move_to(path: &mut String, (x, y): (f64, f64)) {
-    let _ = write!(path, "M{} {}", short(x), short(y));
-}
-
-/// A straight part of a path.
-pub(crate) fn line_to(path: &mut String, (x, y): (f64, f64)) {
-    let _ = write!(path, "L{} {}", short(x), short(y));
+/// A path whose coordinates have three decimals at most.
+pub(crate) fn rounded(path: &BezPath) -> BezPath {
+    // Adding zero turns a negative zero into a plain one.
+    let round = |length: f64| (length * 1000.0).round() / 1000.0 + 0.0;
+    let point = |point: Point| Point::new(round(point.x), round(point.y));
+    path.iter()
+        .map(|element| match element {
+            PathEl::MoveTo(end) => PathEl::MoveTo(point(end)),
+            PathEl::LineTo(end) => PathEl::LineTo(point(end)),
+            PathEl::QuadTo(control, end) => PathEl::QuadTo(point(control), point(end)),
+            PathEl::CurveTo(first, second, end) => PathEl::CurveTo(point(first), point(second), point(end)),
+            PathEl::ClosePath => PathEl::ClosePath,
+        })
+        .collect()
 }
 
 /// A length with at most three decimals: a thousandth of a point is far below any printer.
@@ -228,6 +234,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::Colour;
 
     #[test]
     fn lengths_are_short() {
@@ -238,10 +245,22 @@ mod tests {
     }
 
     #[test]
+    fn paths_are_rounded_and_those_that_are_not_finite_left_out() {
+        let mut svg = Svg::new(10.0, 10.0, 10.0);
+        let style = Stroke::default().into();
+        svg.path(&polyline([Point::new(-0.0001, 1.0), Point::new(2.000_04, 0.123_46)]), &style);
+        svg.path(&polyline([Point::ZERO, Point::new(f64::NAN, 1.0)]), &style);
+        svg.dots([Point::new(3.0, 4.0)], 1.5, Fill::from(Colour::GREY));
+        let text = svg.finish();
+        assert!(text.contains("d=\"M0,1 L2,0.123\"") && text.contains("d=\"M3,4 L3,4\""), "{text}");
+        assert_eq!(text.matches("<path").count(), 2);
+    }
+
+    #[test]
     fn labels_return_to_the_baseline() {
-        let mut svg = Svg::new(10.0, 10.0);
-        let style = TextStyle::new(10.0, Anchor::Left);
-        svg.label(&Label::new("$w_A < 1$"), (0.0, 0.0), style).expect("a good label");
+        let mut svg = Svg::new(10.0, 10.0, 10.0);
+        let style = TextStyle::new(Anchor::Left);
+        svg.label(&Label::new("$w_A < 1$"), Point::ZERO, style).expect("a good label");
         let text = svg.finish();
         assert!(text.contains("dy=\"2\"") && text.contains("dy=\"-2\""), "{text}");
         assert!(text.contains("&lt;"));

@@ -83,27 +83,23 @@ pub(crate) struct Tick {
 
 /// The ticks of an axis, and the power of ten that their numbers leave out.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Scale {
+pub(crate) struct PlacedTicks {
     pub(crate) ticks: Vec<Tick>,
     pub(crate) power: Option<i32>,
 }
 
-impl From<Vec<Tick>> for Scale {
+impl From<Vec<Tick>> for PlacedTicks {
     fn from(ticks: Vec<Tick>) -> Self {
         Self { ticks, power: None }
     }
 }
 
 /// The ticks of a linear axis; `Err` holds the step that does not work.
-pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<Scale, f64> {
+pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<PlacedTicks, f64> {
     let (low, high) = if low < high { (low, high) } else { (high, low) };
     let (step, parts) = match ticks.choice {
-        Choice::None => return Ok(Scale::default()),
-        Choice::At(ref given) => {
-            let inside = given.iter().filter(|(value, _)| (low..=high).contains(value));
-            let ticks = inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) });
-            return Ok(ticks.collect::<Vec<_>>().into());
-        }
+        Choice::None => return Ok(PlacedTicks::default()),
+        Choice::At(ref given) => return Ok(within(given, low, high).into()),
         Choice::Automatic => round_step((high - low) / room.max(1) as f64),
         Choice::Every(step) => (step, 2),
         Choice::PiFractions { numerator, denominator } => {
@@ -136,7 +132,7 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
         };
         Tick { value, label: Some(label) }
     });
-    Ok(Scale { ticks: ticks.collect(), power })
+    Ok(PlacedTicks { ticks: ticks.collect(), power })
 }
 
 /// The ticks of a logarithmic axis: decades, and the eight values between them.
@@ -144,10 +140,7 @@ pub(crate) fn logarithmic(ticks: &Ticks, low: f64, high: f64) -> Vec<Tick> {
     let (low, high) = if low < high { (low, high) } else { (high, low) };
     match &ticks.choice {
         Choice::None => return Vec::new(),
-        Choice::At(given) => {
-            let inside = given.iter().filter(|(value, _)| (low..=high).contains(value));
-            return inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) }).collect();
-        }
+        Choice::At(given) => return within(given, low, high),
         _ => {}
     }
     let inside = |value: f64| value >= low * (1.0 - 1e-9) && value <= high * (1.0 + 1e-9);
@@ -173,6 +166,12 @@ pub(crate) fn logarithmic(ticks: &Ticks, low: f64, high: f64) -> Vec<Tick> {
         }
     }
     ticks
+}
+
+/// Those of the given ticks that lie on the axis.
+fn within(given: &[(f64, Label)], low: f64, high: f64) -> Vec<Tick> {
+    let inside = given.iter().filter(|(value, _)| (low..=high).contains(value));
+    inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) }).collect()
 }
 
 /// The exact power of ten nearest in double precision.
@@ -269,7 +268,7 @@ fn pi_decimal(multiple: i64, step: f64) -> Label {
 mod tests {
     use super::*;
 
-    fn labels(ticks: impl Into<Scale>) -> Vec<String> {
+    fn labels(ticks: impl Into<PlacedTicks>) -> Vec<String> {
         ticks
             .into()
             .ticks
@@ -314,6 +313,6 @@ mod tests {
         assert_eq!(linear(&Ticks::every(1e-6), 0.0, 1.0, 5), Err(1e-6));
         assert_eq!(linear(&Ticks::every(-0.5), 0.0, 1.0, 5), Err(-0.5));
         assert!(linear(&Ticks::pi(1, 0), 0.0, 1.0, 5).is_err());
-        assert_eq!(linear(&Ticks::every(0.5).minor(5), 0.0, 1.0, 5).map(|scale| scale.ticks.len()), Ok(11));
+        assert_eq!(linear(&Ticks::every(0.5).minor(5), 0.0, 1.0, 5).map(|placed| placed.ticks.len()), Ok(11));
     }
 }
