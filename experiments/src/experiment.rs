@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -13,7 +14,6 @@ use crate::ledger::{self, LedgerError};
 use crate::measured::{Layout, MeasuredError, Series};
 use crate::progress::Progress;
 use crate::table::{Table, TableError};
-use bouncing_disk_plot::{DrawError, Figure};
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -11,11 +11,10 @@ mod parse;
 
 use std::collections::BTreeMap;
 
+use crate::experiment::ExperimentError;
 pub use error::MeasuredError;
 pub use folder::Measurements;
 pub use layout::{Column, LARGEST, LARGEST_FILE, Layout, MOST_ROWS, Range, Role, SMALLEST, TINIEST};
-
-use crate::experiment::ExperimentError;
 
 /// The numbers of one file, all legal: rows of the columns in the order of the layout.
 #[derive(Clone, Debug, PartialEq)]

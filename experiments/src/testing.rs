@@ -1,5 +1,6 @@
 //! Experiments for the tests of this crate.
 
+use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 use serde::{Deserialize, Serialize};
 
 use crate::claim::Claim;
@@ -7,7 +8,6 @@ use crate::experiment::{Experiment, ExperimentError, Quality, RegisteredExperime
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
-use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 
 /// A small experiment that works.
 pub(crate) struct Demo;

@@ -1,11 +1,11 @@
 //! A user's decelerations and coefficients of friction for Fig. 9.
 
+use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
 use crate::figures::regression::StraightLine;
 use crate::measured::{Column, Layout, Range, Series};
-use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 
 /// Speeds of the rotor after the motor is switched off.
 pub const DECELERATIONS: Layout = Layout {

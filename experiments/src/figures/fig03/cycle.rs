@@ -5,31 +5,12 @@ use bouncing_disk::{
     Engine, Error, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START,
     Trajectory,
 };
-use serde::{Deserialize, Serialize};
 
+use super::data::Cycle;
 use crate::experiment::{ExperimentError, Quality};
 
 /// A chattering orbit of the single-toss kind (Sec. IV A).
 const AXIAL_FORCING: f64 = 0.45;
-
-/// From one separation to the next; time in periods from the first collision between them, heights in
-/// amplitudes of the platform.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Cycle {
-    pub(super) axial_forcing: f64,
-    pub(super) restitution: f64,
-    pub(super) time_cycles: Vec<f64>,
-    pub(super) disk_height: Vec<f64>,
-    pub(super) platform_height: Vec<f64>,
-    /// The height of the first impact, which is at time 0.
-    pub(super) collision_height: f64,
-    pub(super) attachment_cycles: f64,
-    pub(super) attachment_height: f64,
-    pub(super) separation_cycles: f64,
-    pub(super) separation_height: f64,
-    /// Impacts before those that the attachment sums.
-    pub(super) impacts: usize,
-}
 
 fn model(error: bouncing_disk::core::Error) -> ExperimentError {
     ExperimentError::model(Error::from(error))

@@ -8,12 +8,12 @@ use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::sin;
 
 use super::data::{CoarseGrid, Comparison, Conflict, Consistency, HandSpeed, Reading, TossPoint};
-use super::sweep::{best_angle, ratio, speed, speed_curve, speeds};
-use super::{TossCase, maximum_index};
+use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
 use crate::experiment::ExperimentError;
 use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
+use crate::figures::toss_case::TossCase;
 use crate::paper::{Measured, SectionThree, TableOne};
 use crate::printed::PrintedNumber;
 

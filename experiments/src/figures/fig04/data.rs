@@ -3,8 +3,8 @@
 use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
-use super::TossCase;
 use crate::claim::Agreement;
+use crate::figures::toss_case::TossCase;
 use crate::paper::{SectionThree, TableOne};
 
 /// The data of Fig. 4.

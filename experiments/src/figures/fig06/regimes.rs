@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::data::{BestLag, Fig06Data, Shadow, Slice};
+use super::data::{BestLag, Fig06Data, ID, Shadow, Slice};
 use super::rotation::{extent, period_ones};
-use super::statements::ID;
 use crate::claim::{self, Claim};
 use crate::figures::circular::occupied_arc;
 use crate::ledger;

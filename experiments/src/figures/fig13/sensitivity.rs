@@ -3,7 +3,7 @@
 use bouncing_disk::core::elementary::cos;
 
 use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
-use super::reading::{
+use super::sweeps::{
     Reading, cosine_fit, elasticity, extent, low_period_words, read, speed, stall, sweep_points, words,
 };
 use crate::claim::{Agreement, Claim};
