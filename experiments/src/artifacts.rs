@@ -54,7 +54,7 @@ pub fn make(
     measurements: &Measurements,
     progress: &dyn Progress,
 ) -> Result<Vec<File>, ExperimentError> {
-    let mut outcome = entry.run(quality, progress)?;
+    let mut outcome = entry.compute(quality, progress)?;
     if let Some(claim) = outcome.claims().iter().find(|claim| claim.lacks_data()) {
         return Err(ExperimentError::NoData { quantity: claim.quantity().to_owned() });
     }

@@ -56,7 +56,7 @@ impl Growth {
                     slope_error_per_s,
                 })
             }
-            _ => Err(series.unusable(None, GrowthError { diameter })),
+            _ => Err(series.unusable(None, GrowthError { diameter }).into()),
         }
     }
 

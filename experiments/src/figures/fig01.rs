@@ -24,7 +24,7 @@ impl Experiment for Fig01 {
     const ID: &'static str = "fig01";
 
     const TITLE: &'static str = "The displacement variables of the bouncing disk";
-    const READING: &str = include_str!("fig01/reading.md");
+    const DISCUSSION: &str = include_str!("fig01/discussion.md");
 
     fn caption(data: &Fig01Data) -> String {
         format!(
@@ -47,7 +47,7 @@ impl Experiment for Fig01 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

@@ -22,7 +22,7 @@ impl Experiment for Fig02 {
     const ID: &'static str = "fig02";
 
     const TITLE: &'static str = "Trajectories of tossing hands and stators";
-    const READING: &str = include_str!("fig02/reading.md");
+    const DISCUSSION: &str = include_str!("fig02/discussion.md");
 
     fn caption(data: &Fig02Data) -> String {
         format!(
@@ -37,7 +37,7 @@ impl Experiment for Fig02 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig02Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig02Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 
@@ -78,7 +78,7 @@ mod tests {
     /// The polygon of n points of an ellipse has sin(2π/n)/(2π/n) of its area.
     #[test]
     fn the_path_encloses_the_area_of_its_ellipse() {
-        let data = Fig02::run(Quality::Paper, &Silent).expect("runs");
+        let data = Fig02::compute(Quality::Paper, &Silent).expect("runs");
         for panel in &data.panels {
             let step = 2.0 * PI / (panel.path.phase_rad.len() - 1) as f64;
             let polygon = panel.area_of_ellipse.abs() * sin(step) / step;

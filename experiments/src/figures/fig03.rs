@@ -28,7 +28,7 @@ impl Experiment for Fig03 {
     const ID: &'static str = "fig03";
 
     const TITLE: &'static str = "Flow chart of the simulation";
-    const READING: &str = include_str!("fig03/reading.md");
+    const DISCUSSION: &str = include_str!("fig03/discussion.md");
 
     fn caption(data: &Fig03Data) -> String {
         let (census, cycle) = (&data.census, &data.cycle);
@@ -48,7 +48,7 @@ impl Experiment for Fig03 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn the_arrows_drawn_are_the_transitions_seen() {
-        let data = Fig03::run(Quality::Draft, &Silent).expect("runs");
+        let data = Fig03::compute(Quality::Draft, &Silent).expect("runs");
         let seen: Vec<_> = data.census.transitions.iter().map(|counted| counted.transition).collect();
         let mut legal = Transition::LEGAL.to_vec();
         legal.sort_unstable();

@@ -23,7 +23,7 @@ impl Experiment for Fig04 {
     type Data = Fig04Data;
     const ID: &'static str = "fig04";
     const TITLE: &'static str = "The performance of single tosses";
-    const READING: &str = include_str!("fig04/reading.md");
+    const DISCUSSION: &str = include_str!("fig04/discussion.md");
 
     fn caption(data: &Fig04Data) -> String {
         let grid = &data.consistency.coarse_grid;
@@ -50,7 +50,7 @@ impl Experiment for Fig04 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

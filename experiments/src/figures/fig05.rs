@@ -23,7 +23,7 @@ impl Experiment for Fig05 {
     const ID: &'static str = "fig05";
 
     const TITLE: &'static str = "Hand motions and the resulting dough trajectories";
-    const READING: &str = include_str!("fig05/reading.md");
+    const DISCUSSION: &str = include_str!("fig05/discussion.md");
 
     fn caption(data: &Fig05Data) -> String {
         format!(
@@ -37,7 +37,7 @@ impl Experiment for Fig05 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

@@ -35,7 +35,7 @@ impl Experiment for Fig06 {
     type Data = Fig06Data;
     const ID: &'static str = "fig06";
     const TITLE: &'static str = "Bifurcation diagrams";
-    const READING: &str = include_str!("fig06/reading.md");
+    const DISCUSSION: &str = include_str!("fig06/discussion.md");
 
     fn caption(data: &Fig06Data) -> String {
         format!(
@@ -61,7 +61,7 @@ impl Experiment for Fig06 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 
@@ -111,7 +111,7 @@ mod tests {
     /// What is judged over a list of data is not judged where the list is empty.
     #[test]
     fn no_statement_of_the_paper_holds_without_data() {
-        let mut data = Fig06::run(Quality::Draft, &Silent).expect("runs");
+        let mut data = Fig06::compute(Quality::Draft, &Silent).expect("runs");
         assert!(Fig06::claims(&data).iter().all(|claim| !claim.lacks_data()));
         data.followed.clear();
         data.chattering.clear();

@@ -24,7 +24,7 @@ impl Experiment for Fig07 {
     type Data = Fig07Data;
     const ID: &'static str = "fig07";
     const TITLE: &'static str = "Basins of attraction";
-    const READING: &str = include_str!("fig07/reading.md");
+    const DISCUSSION: &str = include_str!("fig07/discussion.md");
 
     fn caption(data: &Fig07Data) -> String {
         let others = data.panels.iter().flat_map(|panel| &panel.others).count();
@@ -48,7 +48,7 @@ impl Experiment for Fig07 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn no_statement_of_the_paper_holds_without_data() {
-        let mut data = Fig07::run(Quality::Draft, &Silent).expect("runs");
+        let mut data = Fig07::compute(Quality::Draft, &Silent).expect("runs");
         assert!(Fig07::claims(&data).iter().all(|claim| !claim.lacks_data()));
         data.windows.curve.clear();
         data.along_window.clear();

@@ -23,7 +23,7 @@ impl Experiment for Fig08 {
     const ID: &'static str = "fig08";
 
     const TITLE: &'static str = "Geometric details of the ultrasonic motor";
-    const READING: &str = include_str!("fig08/reading.md");
+    const DISCUSSION: &str = include_str!("fig08/discussion.md");
 
     fn caption(data: &Fig08Data) -> String {
         format!(
@@ -38,7 +38,7 @@ impl Experiment for Fig08 {
         )
     }
 
-    fn run(_quality: Quality, progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
+    fn compute(_quality: Quality, progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
         compute::compute(progress)
     }
 

@@ -23,7 +23,7 @@ impl Experiment for Fig09 {
     type Data = Fig09Data;
     const ID: &'static str = "fig09";
     const TITLE: &'static str = "Coefficient of friction from the rotor's deceleration";
-    const READING: &str = include_str!("fig09/reading.md");
+    const DISCUSSION: &str = include_str!("fig09/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[DECELERATIONS, FRICTIONS];
 
     fn caption(data: &Fig09Data) -> String {
@@ -45,7 +45,7 @@ impl Experiment for Fig09 {
         )
     }
 
-    fn run(_: Quality, progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
+    fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
         compute::compute(progress)
     }
 

@@ -25,7 +25,7 @@ impl Experiment for Fig10 {
     const ID: &'static str = "fig10";
 
     const TITLE: &'static str = "Transient speed curves of the ultrasonic motor";
-    const READING: &str = include_str!("fig10/reading.md");
+    const DISCUSSION: &str = include_str!("fig10/discussion.md");
 
     const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
 
@@ -50,7 +50,7 @@ impl Experiment for Fig10 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

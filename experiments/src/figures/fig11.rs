@@ -26,7 +26,7 @@ impl Experiment for Fig11 {
     type Data = Fig11Data;
     const ID: &'static str = "fig11";
     const TITLE: &'static str = "Effect of preload on steady-state speed and stall torque";
-    const READING: &str = include_str!("fig11/reading.md");
+    const DISCUSSION: &str = include_str!("fig11/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
 
     fn caption(data: &Fig11Data) -> String {
@@ -57,7 +57,7 @@ impl Experiment for Fig11 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

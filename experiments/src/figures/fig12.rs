@@ -20,7 +20,7 @@ impl Experiment for Fig12 {
     type Data = Fig12Data;
     const ID: &'static str = "fig12";
     const TITLE: &'static str = "Speed transients of long-period and low-period chattering";
-    const READING: &str = include_str!("fig12/reading.md");
+    const DISCUSSION: &str = include_str!("fig12/discussion.md");
 
     fn caption(data: &Fig12Data) -> String {
         let (long, low) = (&data.long_period, &data.low_period);
@@ -41,7 +41,7 @@ impl Experiment for Fig12 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

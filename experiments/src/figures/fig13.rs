@@ -24,7 +24,7 @@ impl Experiment for Fig13 {
     type Data = Fig13Data;
     const ID: &'static str = "fig13";
     const TITLE: &'static str = "Effect of the estimated parameters on steady-state speed and stall torque";
-    const READING: &str = include_str!("fig13/reading.md");
+    const DISCUSSION: &str = include_str!("fig13/discussion.md");
 
     fn caption(data: &Fig13Data) -> String {
         let left_out: usize = sweeps::sweep_points(data).filter(|point| point.stall().is_none()).count();
@@ -49,7 +49,7 @@ impl Experiment for Fig13 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

@@ -23,7 +23,7 @@ impl Experiment for Fig14 {
     type Data = Fig14Data;
     const ID: &'static str = "fig14";
     const TITLE: &'static str = "Growth of the dough over multiple tosses";
-    const READING: &str = include_str!("fig14/reading.md");
+    const DISCUSSION: &str = include_str!("fig14/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[DIAMETERS];
 
     fn caption(data: &Fig14Data) -> String {
@@ -47,7 +47,7 @@ impl Experiment for Fig14 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
         compute::compute(quality, progress)
     }
 

@@ -21,7 +21,7 @@ impl Experiment for Table1 {
     type Data = Table1Data;
     const ID: &'static str = "table1";
     const TITLE: &'static str = "Full specification of a single toss";
-    const READING: &str = include_str!("table1/reading.md");
+    const DISCUSSION: &str = include_str!("table1/discussion.md");
 
     fn caption(data: &Table1Data) -> String {
         format!(
@@ -33,7 +33,7 @@ impl Experiment for Table1 {
         )
     }
 
-    fn run(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
+    fn compute(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
         compute::compute()
     }
 

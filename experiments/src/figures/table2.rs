@@ -21,7 +21,7 @@ impl Experiment for Table2 {
     type Data = Table2Data;
     const ID: &'static str = "table2";
     const TITLE: &'static str = "Effects of input parameter uncertainties";
-    const READING: &str = include_str!("table2/reading.md");
+    const DISCUSSION: &str = include_str!("table2/discussion.md");
 
     fn caption(data: &Table2Data) -> String {
         format!(
@@ -32,7 +32,7 @@ impl Experiment for Table2 {
         )
     }
 
-    fn run(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
+    fn compute(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
         compute::compute(progress)
     }
 

@@ -21,7 +21,7 @@ impl Experiment for Table3 {
     type Data = Table3Data;
     const ID: &'static str = "table3";
     const TITLE: &'static str = "Default values for the dimensional parameters";
-    const READING: &str = include_str!("table3/reading.md");
+    const DISCUSSION: &str = include_str!("table3/discussion.md");
 
     fn caption(data: &Table3Data) -> String {
         format!(
@@ -40,7 +40,7 @@ impl Experiment for Table3 {
         )
     }
 
-    fn run(quality: Quality, _: &dyn Progress) -> Result<Table3Data, ExperimentError> {
+    fn compute(quality: Quality, _: &dyn Progress) -> Result<Table3Data, ExperimentError> {
         compute::compute(quality)
     }
 

@@ -6,7 +6,7 @@ use bouncing_disk::{
     Trajectory,
 };
 
-use super::data::Cycle;
+use super::data::ChatteringCycle;
 use crate::experiment::{ExperimentError, Quality};
 
 /// A chattering orbit of the single-toss kind (Sec. IV A).
@@ -16,7 +16,7 @@ fn model(error: bouncing_disk::core::Error) -> ExperimentError {
     ExperimentError::model(Error::from(error))
 }
 
-pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
+pub(super) fn cycle(quality: Quality) -> Result<ChatteringCycle, ExperimentError> {
     let restitution = crate::paper::value("section4.restitution")?;
     // The vertical motion does not depend on the rotary one.
     let system =
@@ -34,7 +34,7 @@ pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
     let first = trajectory.records().iter().find(|record| record.event.kind() == EventKind::Impact);
     let collision = first.map_or(0.0, |record| from_start(record.time));
     let since = |time: PhaseTime| from_start(time) - collision;
-    let mut cycle = Cycle {
+    let mut cycle = ChatteringCycle {
         axial_forcing: AXIAL_FORCING,
         restitution,
         time_cycles: Vec::new(),

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Fig03Data {
     pub(super) census: Census,
-    pub(super) cycle: Cycle,
+    pub(super) cycle: ChatteringCycle,
     pub(super) sprung: Sprung,
 }
 
@@ -100,7 +100,7 @@ pub(super) struct Checked {
 /// From one separation to the next; time in periods from the first collision between them, heights in
 /// amplitudes of the platform.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Cycle {
+pub(super) struct ChatteringCycle {
     pub(super) axial_forcing: f64,
     pub(super) restitution: f64,
     pub(super) time_cycles: Vec<f64>,

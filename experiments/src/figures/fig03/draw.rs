@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
     Stroke, Text, Ticks,
 };
 
-use super::data::{Census, Cycle, Fig03Data};
+use super::data::{Census, ChatteringCycle, Fig03Data};
 
 const CHART_HEIGHT: f64 = 232.0;
 const INSET_HEIGHT: f64 = 150.0;
@@ -180,7 +180,7 @@ fn chart(data: &Fig03Data) -> Drawing {
     drawing
 }
 
-fn inset(cycle: &Cycle) -> Panel {
+fn inset(cycle: &ChatteringCycle) -> Panel {
     let area = Rect::new(40.0, CHART_HEIGHT + 10.0, CHART_WIDTH - 50.0, INSET_HEIGHT - 44.0);
     let points = |heights: &[f64], before: bool| {
         let all = cycle.time_cycles.iter().copied().zip(heights.iter().copied());

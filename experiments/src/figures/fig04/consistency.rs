@@ -14,7 +14,7 @@ use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
 use crate::figures::toss_case::TossCase;
-use crate::paper::{Measured, SectionThree, TableOne};
+use crate::paper::{SectionThree, TableOne, Uncertain};
 use crate::printed::PrintedNumber;
 
 /// Numbers that the paper prints about tosses with θ = 0.
@@ -116,7 +116,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn inputs(&self) -> [&Measured; PARAMETERS] {
+    fn inputs(&self) -> [&Uncertain; PARAMETERS] {
         let table = self.table;
         [
             &table.stroke_m,

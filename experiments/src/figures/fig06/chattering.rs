@@ -20,13 +20,13 @@ const LONGEST_CYCLE: usize = 20_000;
 
 /// From one separation to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cycle {
+pub(super) struct ChatteringCycle {
     pub(super) impacts: usize,
     pub(super) platform_periods: u64,
     pub(super) long_flights: usize,
 }
 
-impl Cycle {
+impl ChatteringCycle {
     /// A long toss, chattering, rest: one flight of any length to speak of in one period of the platform.
     fn is_single_toss(&self) -> bool {
         self.platform_periods == 1
@@ -38,7 +38,7 @@ pub(super) fn cycles(
     forcings: &[f64],
     restitution: f64,
     policy: ChatterPolicy,
-) -> Result<Vec<Option<Cycle>>, Error> {
+) -> Result<Vec<Option<ChatteringCycle>>, Error> {
     let mut orbits = Vec::new();
     let mut cycles = vec![None; forcings.len()];
     let mut leaving = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn cycles(
     }
     let walked = sweep(
         &orbits,
-        |_| (Cycle { impacts: 0, platform_periods: 0, long_flights: 0 }, false),
+        |_| (ChatteringCycle { impacts: 0, platform_periods: 0, long_flights: 0 }, false),
         |(cycle, rests), event| match event {
             SweepEvent::Impact(landing) => {
                 cycle.impacts += 1;
@@ -87,7 +87,7 @@ fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<T
 /// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.
 pub(super) fn chattering_slice(
     axial_forcing: f64,
-    cycle: Option<Cycle>,
+    cycle: Option<ChatteringCycle>,
     inputs: Inputs,
     settings: MultiTossSettings,
 ) -> Result<Option<Slice>, ExperimentError> {
@@ -103,12 +103,12 @@ pub(super) fn chattering_slice(
 
 /// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their cycles and bisected.
 pub(super) fn single_tosses(
-    forcings: &[(f64, Option<Cycle>)],
+    forcings: &[(f64, Option<ChatteringCycle>)],
     section: &SectionFour,
     policy: ChatterPolicy,
 ) -> Result<SingleTosses, ExperimentError> {
     let (restitution, printed_end) = (section.restitution, section.single_tosses_end);
-    let is_single = |cycle: &Option<Cycle>| cycle.is_some_and(|cycle| cycle.is_single_toss());
+    let is_single = |cycle: &Option<ChatteringCycle>| cycle.is_some_and(|cycle| cycle.is_single_toss());
     let (mut last, mut first_other) = (f64::NAN, printed_end);
     for (forcing, cycle) in
         forcings.iter().filter(|(forcing, _)| *forcing * PI > 1.0 && *forcing < printed_end)

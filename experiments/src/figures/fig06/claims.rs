@@ -6,8 +6,8 @@ use bouncing_disk::core::elementary::cos;
 
 use super::data::{Fig06Data, ID};
 use super::{regimes, rotation};
+use crate::catalogue;
 use crate::claim::{self, Claim};
-use crate::ledger;
 
 /// The doublings whose Γ is printed.
 const PRINTED_DOUBLINGS: usize = 5;
@@ -52,7 +52,7 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
         claims.push(claim);
     }
     let rounded: Vec<f64> = (1..=PRINTED_DOUBLINGS)
-        .filter_map(|n| ledger::number(&format!("section4.doubling_{n}"), 0).ok())
+        .filter_map(|n| catalogue::number(&format!("section4.doubling_{n}"), 0).ok())
         .map(|printed| printed.value)
         .collect();
     for n in PRINTED_RATIOS {
@@ -80,7 +80,7 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
 
 /// What is printed twice is compared with itself, and the first of it with the data.
 fn printed(key: &str) -> f64 {
-    ledger::number(key, 0).map_or(f64::NAN, |printed| printed.value)
+    catalogue::number(key, 0).map_or(f64::NAN, |printed| printed.value)
 }
 
 /// What the closed forms and the searches may differ by: the last bracket of the bisection on the threshold, and its own error

@@ -198,7 +198,7 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         _ => "no period-1 orbit".to_owned(),
     };
     // What half a unit of the last digit of the printed lag does to the speed.
-    let printed = crate::ledger::number("section4.semielliptical_phase_lag", 0);
+    let printed = crate::catalogue::number("section4.semielliptical_phase_lag", 0);
     let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
     let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
     vec![

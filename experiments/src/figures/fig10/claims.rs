@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use super::data::{Alike, Fig10Data};
+use crate::catalogue;
 use crate::claim::{Agreement, Claim, all};
 use crate::figures::alike::{AlikeMotor, INTERVALS};
 use crate::figures::motor_case::{LOW_PERIOD_FLIGHTS, perturbation_claim};
 use crate::figures::samples;
-use crate::ledger;
 
 const ID: &str = "fig10";
 
@@ -23,7 +23,7 @@ pub(super) fn claims(data: &Fig10Data) -> Vec<Claim> {
 }
 
 fn axial_forcings(data: &Fig10Data) -> Vec<Claim> {
-    let merging = ledger::number("section4.merging", 0).map_or(f64::NAN, |printed| printed.value);
+    let merging = catalogue::number("section4.merging", 0).map_or(f64::NAN, |printed| printed.value);
     let motors = data.alike.motors.iter().flatten();
     let lowest = motors.clone().map(|motor| motor.axial_forcing).fold(f64::INFINITY, f64::min);
     vec![

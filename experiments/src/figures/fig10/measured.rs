@@ -42,7 +42,9 @@ pub(super) fn trials(series: &Series) -> Result<Vec<Trial>, ExperimentError> {
         let last_s = time_s.last().copied().unwrap_or_default();
         if !(first_s..=last_s).contains(&fit.time_constant) {
             let time_constant_s = fit.time_constant;
-            return Err(series.unusable(Some(trial), Undetermined { time_constant_s, first_s, last_s }));
+            return Err(series
+                .unusable(Some(trial), Undetermined { time_constant_s, first_s, last_s })
+                .into());
         }
         Ok(Trial { trial, time_s, angular_speed_rad_per_s, fit })
     });
@@ -83,7 +85,7 @@ mod tests {
 
     use super::*;
 
-    /// Synthetic readings 20 (1 - exp(-t/0.5)) at 0 to 3 s.
+    /// Synthetic speeds 20 (1 - exp(-t/0.5)) at 0 to 3 s.
     fn synthetic(trial: u32, scale: f64) -> String {
         let fit = ExponentialFit { steady_speed: 20.0, time_constant: 0.5, residual: 0.0 };
         (0..=60).fold(String::new(), |mut text, index| {

@@ -9,12 +9,12 @@ use bouncing_disk::core::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, OrbitEvent, Phase, Vibration};
 
 use super::data::{Coexisting, EndOfBouncing};
+use crate::catalogue;
 use crate::claim::Agreement;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::{MotorCase, core_error};
 use crate::figures::printed_inputs::DRAWN;
 use crate::figures::synthetic::Noise;
-use crate::ledger;
 
 /// Seed of the rotors.
 const SEED: u64 = 318;
@@ -25,7 +25,7 @@ const MOST_IMPACTS: usize = 10_000;
 impl EndOfBouncing {
     pub(super) fn of(motor: &MotorCase) -> Result<Self, ExperimentError> {
         let largest_launch_speed = motor.system()?.peak_acceleration();
-        let printed = ledger::number("table3.restitution", 0)?;
+        let printed = catalogue::number("table3.restitution", 0)?;
         let restitutions = [printed.value - printed.half_unit, printed.value + printed.half_unit];
         let mut noise = Noise::new(SEED);
         let mut most_impacts = 0;

@@ -51,7 +51,7 @@ fn ticks(ends: (f64, f64), original: (f64, f64), step: f64, parts: u32) -> Ticks
 }
 
 /// The value and half-length of the error bar of a point.
-type Reading = fn(&Point) -> Option<(f64, f64)>;
+type Quantity = fn(&Point) -> Option<(f64, f64)>;
 
 fn steady_speed(point: &Point) -> Option<(f64, f64)> {
     let spread = point.statistics.steady_speed_rad_per_s;
@@ -149,20 +149,20 @@ fn squares(points: Vec<(f64, f64)>) -> Scatter {
 }
 
 /// The measured points of a panel, if there are any, with the crosses of the paper.
-fn crosses(data: &Fig11Data, frequency_hz: f64, reading: fn(&MeasuredMotor) -> f64) -> Option<Scatter> {
+fn crosses(data: &Fig11Data, frequency_hz: f64, quantity: fn(&MeasuredMotor) -> f64) -> Option<Scatter> {
     let points = data.measured.at(frequency_hz);
-    let read = points.iter().map(|point| (point.preload_mn, reading(point)));
+    let read = points.iter().map(|point| (point.preload_mn, quantity(point)));
     let crosses = Scatter::new(read).marker(Marker::Cross).colour(Colour::GREEN).width(1.2).size(6.0);
     (!points.is_empty()).then(|| crosses.name("measured"))
 }
 
 /// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a low-period cycle.
-fn layers(curve: &Curve, index: usize, reading: Reading, names: Names) -> Vec<Layer> {
+fn layers(curve: &Curve, index: usize, quantity: Quantity, names: Names) -> Vec<Layer> {
     let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
     let read = |low_period: bool| -> Vec<(f64, f64, f64)> {
         let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
         wanted
-            .filter_map(|point| reading(point).map(|(value, error)| (point.preload_mn, value, error)))
+            .filter_map(|point| quantity(point).map(|(value, error)| (point.preload_mn, value, error)))
             .collect()
     };
     let dots = read(false);

@@ -1,4 +1,4 @@
-//! Reading off the sweeps of Fig. 13.
+//! Quantity off the sweeps of Fig. 13.
 
 use bouncing_disk::core::elementary::{cos, ln};
 
@@ -15,7 +15,7 @@ pub(super) fn sweep(data: &Fig13Data, parameter: Parameter) -> Option<&Sweep> {
 }
 
 /// What is read from a point: the steady speed in rad/s, or the stall acceleration.
-pub(super) type Reading = fn(&SweepPoint) -> Option<f64>;
+pub(super) type Quantity = fn(&SweepPoint) -> Option<f64>;
 
 pub(super) fn speed(point: &SweepPoint) -> Option<f64> {
     Some(point.statistics.steady_speed_rad_per_s.mean)
@@ -25,8 +25,8 @@ pub(super) fn stall(point: &SweepPoint) -> Option<f64> {
     point.stall()
 }
 
-/// All points drawn, those on a low-period cycle among them, as (value, reading).
-pub(super) fn read(data: &Fig13Data, parameter: Parameter, of: Reading) -> Vec<(f64, f64)> {
+/// All points drawn, those on a low-period cycle among them, as (value, quantity).
+pub(super) fn read(data: &Fig13Data, parameter: Parameter, of: Quantity) -> Vec<(f64, f64)> {
     let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
     points.iter().filter_map(|point| of(point).map(|value| (point.value, value))).collect()
 }
@@ -60,11 +60,11 @@ pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
 }
 
 /// Elasticity: the exponent of a power law through all positive points.
-pub(super) fn elasticity(data: &Fig13Data, parameter: Parameter, of: Reading) -> Option<StraightLine> {
+pub(super) fn elasticity(data: &Fig13Data, parameter: Parameter, of: Quantity) -> Option<StraightLine> {
     let points: Vec<(f64, f64)> = read(data, parameter, of)
         .into_iter()
-        .filter(|(value, reading)| *value > 0.0 && *reading > 0.0)
-        .map(|(value, reading)| (ln(value), ln(reading)))
+        .filter(|(value, quantity)| *value > 0.0 && *quantity > 0.0)
+        .map(|(value, quantity)| (ln(value), ln(quantity)))
         .collect();
     StraightLine::through(&points)
 }

@@ -9,14 +9,14 @@ use bouncing_disk::{InitialSpin, LaunchSpeeds, Platform, Stroke, System, single_
 use super::data::{
     Alike, Arc, AtSeparation, AtStart, Components, ComputedEntries, Fastest, Restitution, Row, Table1Data,
 };
+use crate::catalogue;
 use crate::experiment::ExperimentError;
 use crate::figures::hand_path::HandPath;
 use crate::figures::motor_case::core_error;
 use crate::figures::printed_inputs::{DRAWN, agreement, draws};
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
-use crate::ledger;
-use crate::paper::{self, Measured, SectionThree, TableOne};
+use crate::paper::{self, SectionThree, TableOne, Uncertain};
 
 /// Amplitude angles at which Eq. (13), and phase lags at which Eq. (15) is checked.
 const CHECKED: u32 = 64;
@@ -62,16 +62,16 @@ pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
     })
 }
 
-fn slip_slope() -> Result<Measured, ExperimentError> {
+fn slip_slope() -> Result<Uncertain, ExperimentError> {
     let key = "section3.slip_slope";
-    let printed = ledger::number(key, 0)?;
-    Ok(Measured { value: printed.value, uncertainty: printed.uncertainty.unwrap_or_default() })
+    let printed = catalogue::number(key, 0)?;
+    Ok(Uncertain { value: printed.value, uncertainty: printed.uncertainty.unwrap_or_default() })
 }
 
 fn computed_entries(
     table: &TableOne,
     section: &SectionThree,
-    slip_slope_deg: Measured,
+    slip_slope_deg: Uncertain,
 ) -> Result<ComputedEntries, ExperimentError> {
     let inputs = launch(table, section);
     Ok(ComputedEntries {
@@ -118,7 +118,7 @@ fn alike() -> Result<Alike, ExperimentError> {
 }
 
 /// The inputs of Eq. (14): both launch speeds, c and a_e.
-fn launch(table: &TableOne, section: &SectionThree) -> [Measured; 4] {
+fn launch(table: &TableOne, section: &SectionThree) -> [Uncertain; 4] {
     [
         section.launch_speed_m_per_s,
         section.launch_angular_speed_rad_per_s,
@@ -285,7 +285,7 @@ fn rows(
                 symbol: symbol.to_owned(),
                 label: label.to_owned(),
                 unit: unit.to_owned(),
-                printed: Some(ledger::text(&format!("table1.{name}"))?.to_owned()),
+                printed: Some(catalogue::text(&format!("table1.{name}"))?.to_owned()),
                 computed: None,
                 uncertainty: None,
                 decimals: 0,

@@ -7,7 +7,7 @@ use crate::experiment::ExperimentError;
 use crate::figures::printed_inputs::{DRAWN, agreement, tosses};
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
+use crate::paper::{self, SectionThree, TableOne, TableTwo, Uncertain};
 use crate::progress::Progress;
 
 /// Share of an uncertainty over which a slope is taken.
@@ -22,7 +22,7 @@ struct Input {
     name: &'static str,
     label: &'static str,
     unit: &'static str,
-    measured: Measured,
+    printed_value: Uncertain,
     printed: f64,
     set: fn(&mut TossCase, f64),
     get: fn(&TossCase) -> f64,
@@ -35,7 +35,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             name: "stroke",
             label: "$c$",
             unit: "m",
-            measured: table.stroke_m,
+            printed_value: table.stroke_m,
             printed: printed.stroke_effect_rad_per_s,
             set: |case, value| case.stroke_m = value,
             get: |case| case.stroke_m,
@@ -45,7 +45,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             name: "angular_frequency",
             label: r"$\omega$",
             unit: "rad/s",
-            measured: table.angular_frequency_rad_per_s,
+            printed_value: table.angular_frequency_rad_per_s,
             printed: printed.angular_frequency_effect_rad_per_s,
             set: |case, value| case.angular_frequency_rad_per_s = value,
             get: |case| case.angular_frequency_rad_per_s,
@@ -55,7 +55,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             name: "contact_radius",
             label: "$a_e$",
             unit: "m",
-            measured: table.contact_radius_m,
+            printed_value: table.contact_radius_m,
             printed: printed.contact_radius_effect_rad_per_s,
             set: |case, value| case.contact_radius_m = value,
             get: |case| case.contact_radius_m,
@@ -65,7 +65,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             name: "gyration_radius",
             label: "$a_g$",
             unit: "m",
-            measured: table.gyration_radius_m,
+            printed_value: table.gyration_radius_m,
             printed: printed.gyration_radius_effect_rad_per_s,
             set: |case, value| case.gyration_radius_m = value,
             get: |case| case.gyration_radius_m,
@@ -75,7 +75,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             name: "friction",
             label: r"$\mu$",
             unit: "",
-            measured: table.friction,
+            printed_value: table.friction,
             printed: printed.friction_effect_rad_per_s,
             set: |case, value| case.friction = value,
             get: |case| case.friction,
@@ -85,7 +85,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             name: "amplitude_angle",
             label: r"$\phi_L$",
             unit: "rad",
-            measured: table.amplitude_angle_rad,
+            printed_value: table.amplitude_angle_rad,
             printed: printed.amplitude_angle_effect_rad_per_s,
             set: |case, value| case.amplitude_angle_rad = value,
             get: |case| case.amplitude_angle_rad,
@@ -94,7 +94,7 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
 }
 
 fn effect(table: &TossCase, input: &Input, alike: &[TossCase]) -> Result<Effect, ExperimentError> {
-    let Measured { value, uncertainty } = input.measured;
+    let Uncertain { value, uncertainty } = input.printed_value;
     let speed = |share: f64| {
         let mut case = *table;
         (input.set)(&mut case, value + share * uncertainty);

@@ -22,7 +22,7 @@ pub struct Table2Data {
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Effect {
     pub(super) input: String,
-    /// The entry of the ledger.
+    /// The entry of the catalogue.
     pub(super) key: String,
     pub(super) unit: String,
     pub(super) value: f64,

@@ -6,6 +6,7 @@ use bouncing_disk::TransientSettings;
 use bouncing_disk::core::ChatterPolicy;
 
 use super::data::{Drop, Following, Input, Table3Data};
+use crate::catalogue;
 use crate::claim::Agreement;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
@@ -13,8 +14,7 @@ use crate::figures::printed_inputs::DRAWN;
 use crate::figures::stall::Stall;
 use crate::figures::synthetic::Noise;
 use crate::figures::uncertainty::Propagated;
-use crate::ledger;
-use crate::paper::{self, Measured, SectionFive};
+use crate::paper::{self, SectionFive, Uncertain};
 
 /// Seed of the drops whose height and gravity round to the printed ones.
 const DROP_SEED: u64 = 95;
@@ -54,7 +54,7 @@ fn ball_gyration_radius(section: &SectionFive) -> f64 {
 /// An input in SI units, and the power of ten of its printed unit.
 type Value = (fn(&MotorCase) -> f64, f64);
 
-/// Symbol, label, unit, name in the ledger, whether it is known, value.
+/// Symbol, label, unit, name in the catalogue, whether it is known, value.
 type Listed = (&'static str, &'static str, &'static str, Option<&'static str>, bool, Value);
 
 /// The inputs in the order of Sec. V A.
@@ -87,7 +87,7 @@ const INPUTS: [Listed; 9] = [
 fn inputs(cases: &[MotorCase; 2]) -> Result<Vec<Input>, ExperimentError> {
     let input = |(symbol, label, unit, name, known, (value, power)): Listed| {
         let printed = match name {
-            Some(name) => ledger::text(&format!("table3.{name}"))?.to_owned(),
+            Some(name) => catalogue::text(&format!("table3.{name}"))?.to_owned(),
             None => String::new(),
         };
         Ok(Input {
@@ -186,13 +186,13 @@ fn derived(
 fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, ExperimentError> {
     let heights = paper::ball_drop()?;
     let gravity = section.gravity_m_per_s2;
-    let inputs = [Measured { value: heights.drop_height_m, uncertainty: 0.0 }, heights.rebound_height_m];
+    let inputs = [Uncertain { value: heights.drop_height_m, uncertainty: 0.0 }, heights.rebound_height_m];
     let restitution =
         Propagated::of(inputs, |[drop, rebound]| Ok::<_, ExperimentError>((rebound / drop).sqrt()))?;
     let speed = |height: f64| (2.0 * gravity * height).sqrt();
     let height = |speed: f64| speed * speed / (2.0 * gravity);
     let ends = |key: &str, power: i32| -> Result<[f64; 2], ExperimentError> {
-        let printed = ledger::number(key, power)?;
+        let printed = catalogue::number(key, power)?;
         Ok([printed.value - printed.half_unit, printed.value + printed.half_unit])
     };
     let printed_heights = ends("section5.drop_height", -2)?;

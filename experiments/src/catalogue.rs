@@ -4,15 +4,46 @@
 //! claim that answers it takes all this from here ([`Claim::printed`], [`Claim::printed_statement`]), and so do the
 //! experiments that need a printed number as an input ([`crate::paper`]).
 
-use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::printed::PrintedNumber;
+
+/// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Class {
+    /// A number or statement of the paper that a computation can confirm or contradict.
+    #[default]
+    Paper,
+    /// A number of the paper for which a parameter of ours was chosen so that it comes out.
+    Fitted,
+    /// A parameter, a choice of a picture, a measurement that is put in, a quotation.
+    Input,
+    /// True by construction: a definition, an equation that the code implements, printed against printed.
+    Identity,
+    /// A further reading of a printed number, or a finding that the paper does not have.
+    ThisWork,
+}
+
+impl Class {
+    /// All of them, the paper's first.
+    pub const ALL: [Self; 5] = [Self::Paper, Self::Fitted, Self::Input, Self::Identity, Self::ThisWork];
+
+    /// The name used in `claims.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Fitted => "fitted",
+            Self::Input => "input",
+            Self::Identity => "identity",
+            Self::ThisWork => "this-work",
+        }
+    }
+}
 
 /// One printed number or statement.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +70,7 @@ pub struct PrintedEntry {
 /// Why an entry cannot be used.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum LedgerError {
+pub enum CatalogueError {
     /// A file does not have the form of this version.
     #[error("data/paper/{file} does not have the form of this version: {cause}")]
     File {
@@ -132,9 +163,9 @@ struct Stored {
     class: Class,
 }
 
-fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, LedgerError> {
+fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, CatalogueError> {
     let content: File =
-        serde_json::from_str(text).map_err(|cause| LedgerError::File { file, cause: Arc::new(cause) })?;
+        serde_json::from_str(text).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
     let entries = content.values.0.into_iter().map(|(entry, stored)| {
         let Stored { figure, place, quantity, unit, printed, reason, class } = stored;
         PrintedEntry { key: format!("{name}.{entry}"), figure, place, quantity, unit, printed, reason, class }
@@ -147,8 +178,8 @@ fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>,
 /// # Errors
 ///
 /// When a file does not have the form of this version.
-pub fn entries() -> Result<&'static [PrintedEntry], LedgerError> {
-    static ENTRIES: OnceLock<Result<Vec<PrintedEntry>, LedgerError>> = OnceLock::new();
+pub fn entries() -> Result<&'static [PrintedEntry], CatalogueError> {
+    static ENTRIES: OnceLock<Result<Vec<PrintedEntry>, CatalogueError>> = OnceLock::new();
     let read_all = || {
         let files = FILES.iter().map(|(name, file, text)| read(name, file, text));
         Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
@@ -161,9 +192,9 @@ pub fn entries() -> Result<&'static [PrintedEntry], LedgerError> {
 /// # Errors
 ///
 /// When there is none.
-pub fn find(key: &str) -> Result<&'static PrintedEntry, LedgerError> {
+pub fn find(key: &str) -> Result<&'static PrintedEntry, CatalogueError> {
     let found = entries()?.iter().find(|entry| entry.key == key);
-    found.ok_or_else(|| LedgerError::Unknown { key: key.to_owned() })
+    found.ok_or_else(|| CatalogueError::Unknown { key: key.to_owned() })
 }
 
 /// The printed number called `key`, times a power of ten.
@@ -171,9 +202,9 @@ pub fn find(key: &str) -> Result<&'static PrintedEntry, LedgerError> {
 /// # Errors
 ///
 /// When there is none.
-pub fn number(key: &str, power: i32) -> Result<PrintedNumber, LedgerError> {
+pub fn number(key: &str, power: i32) -> Result<PrintedNumber, CatalogueError> {
     let printed = text(key)?;
-    PrintedNumber::read_shifted(printed, power).ok_or_else(|| LedgerError::NoNumber {
+    PrintedNumber::read_shifted(printed, power).ok_or_else(|| CatalogueError::NoNumber {
         key: key.to_owned(),
         printed: printed.to_owned(),
         wanted: "number",
@@ -185,68 +216,12 @@ pub fn number(key: &str, power: i32) -> Result<PrintedNumber, LedgerError> {
 /// # Errors
 ///
 /// When there is none.
-pub fn text(key: &str) -> Result<&'static str, LedgerError> {
-    find(key)?.printed.as_deref().ok_or_else(|| LedgerError::NoNumber {
+pub fn text(key: &str) -> Result<&'static str, CatalogueError> {
+    find(key)?.printed.as_deref().ok_or_else(|| CatalogueError::NoNumber {
         key: key.to_owned(),
         printed: String::new(),
         wanted: "printed text",
     })
-}
-
-/// The claims of a figure or table that nothing can be computed for.
-pub fn not_computable(figure: &str) -> Vec<Claim> {
-    let of_figure = entries().unwrap_or_default().iter().filter(|entry| entry.figure == figure);
-    of_figure
-        .filter_map(|entry| entry.reason.as_deref().map(|reason| Claim::of_reason(entry, reason)))
-        .collect()
-}
-
-/// What is wrong with the claims of a figure or table: entries that are not answered by exactly one claim, claims that
-/// answer what is not theirs, numbers that come from no entry, claims without data, and claims that count for the paper though
-/// they do not answer an entry of its own.
-pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
-    let mut faults = Vec::new();
-    let entries = match entries() {
-        Ok(entries) => entries,
-        Err(error) => return vec![error.to_string()],
-    };
-    let own: BTreeSet<&str> =
-        entries.iter().filter(|entry| entry.figure == figure).map(|entry| entry.key.as_str()).collect();
-    for key in &own {
-        let answers = claims.iter().filter(|claim| matches!(claim.source(), Source::Entry(of) if of == key));
-        let count = answers.count();
-        if count != 1 {
-            faults.push(format!("{key} is answered by {count} claims"));
-        }
-    }
-    for claim in claims {
-        if claim.lacks_data() {
-            faults.push(format!("\"{}\" has no data to be judged by", claim.quantity()));
-        }
-        let of_paper = match claim.source() {
-            Source::Entry(key) => find(key).is_ok_and(|entry| entry.class == Class::Paper),
-            _ => false,
-        };
-        if claim.class() == Class::Paper && !of_paper {
-            faults.push(format!("\"{}\" counts for the paper and is not its own", claim.quantity()));
-        }
-        if claim.verdict() == Verdict::Differs && claim.remarks().is_empty() {
-            faults.push(format!("\"{}\" differs and no reason is given", claim.quantity()));
-        }
-        match claim.source() {
-            Source::Entry(key) if !own.contains(key.as_str()) => {
-                faults.push(format!("{key} is no entry of {figure}"));
-            }
-            Source::Reading(key) if find(key).is_err() => faults.push(format!("{key} is no entry")),
-            Source::ThisWork
-                if !matches!(claim.computed(), Computed::Boolean(_)) && claim.share().is_none() =>
-            {
-                faults.push(format!("\"{}\" comes from no entry", claim.quantity()));
-            }
-            _ => {}
-        }
-    }
-    faults
 }
 
 #[cfg(test)]
@@ -310,46 +285,6 @@ mod tests {
         assert_eq!(value("section4.cut_speed").to_bits(), PAPER_SMALLEST_SPEED.to_bits());
         assert_eq!(value("section4.cut_duration").to_bits(), PAPER_SHORT_FLIGHT.to_bits());
         assert_eq!(value("section4.cut_flights").to_bits(), f64::from(PAPER_SHORT_FLIGHTS).to_bits());
-    }
-
-    #[test]
-    fn claims_take_the_printed_side_from_the_entry() {
-        let claim = Claim::printed("section4.doubling_1", 0.486_003);
-        assert_eq!((claim.id(), claim.place(), claim.printed_text()), ("fig06", "Fig. 6 caption", "0.486"));
-        assert_eq!(claim.verdict(), Verdict::Reproduced);
-        let claim = Claim::printed_statement("section4.single_tosses_end", false, "0.36");
-        assert_eq!((claim.printed_text(), claim.verdict()), ("true", Verdict::Differs));
-        let claim = Claim::printed_uncertainty("table2", "section3.predicted_airborne_speed", "all", 5.2);
-        assert_eq!((claim.id(), claim.printed_text(), claim.verdict()), ("table2", "5", Verdict::Reproduced));
-        assert!(matches!(claim.source(), Source::Reading(_)));
-    }
-
-    #[test]
-    fn an_unknown_key_differs_and_says_so() {
-        for claim in [
-            Claim::printed("section4.no_such_number", 1.0),
-            Claim::printed_label("section4.no_such_label", ""),
-            Claim::printed_statement("section4.no_such_statement", true, ""),
-            Claim::printed("section4.three_branches", 3.0),
-        ] {
-            assert_eq!(claim.verdict(), Verdict::Differs, "{claim:?}");
-            assert!(!claim.remarks().is_empty(), "{claim:?}");
-        }
-    }
-
-    #[test]
-    fn faults_name_what_is_missing_double_foreign_or_from_nowhere() {
-        let mut claims = not_computable("table1");
-        let missing = faults("table1", &claims).len();
-        claims.push(Claim::printed("table1.friction", 0.577));
-        assert_eq!(faults("table1", &claims).len(), missing - 1);
-        claims.push(Claim::printed("table1.friction", 0.577));
-        claims.push(Claim::printed("section4.merging", 0.561));
-        claims.push(Claim::number("table1", "", "an own number", "", "1", 1.0));
-        let faults = faults("table1", &claims).join("; ");
-        for part in ["friction is answered by 2", "merging is no entry of table1", "an own number"] {
-            assert!(faults.contains(part), "{faults}");
-        }
     }
 
     #[test]
