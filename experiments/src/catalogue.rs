@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::json;
 use crate::printed::PrintedNumber;
 
 /// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
@@ -77,7 +78,7 @@ pub enum CatalogueError {
         /// The file.
         file: &'static str,
         /// What the parser reported.
-        cause: Arc<serde_json::Error>,
+        cause: Arc<serde_path_to_error::Error<serde_json::Error>>,
     },
     /// There is no such entry.
     #[error("data/paper has no entry \"{key}\"")]
@@ -165,7 +166,7 @@ struct Stored {
 
 fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, CatalogueError> {
     let content: File =
-        serde_json::from_str(text).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
+        json::read(text.as_bytes()).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
     let entries = content.values.0.into_iter().map(|(entry, stored)| {
         let Stored { figure, place, quantity, unit, printed, reason, class } = stored;
         PrintedEntry { key: format!("{name}.{entry}"), figure, place, quantity, unit, printed, reason, class }
@@ -291,6 +292,6 @@ mod tests {
     fn a_file_of_another_form_is_named() {
         let text = r#"{"place": "", "title": "", "values": {"a": {"figure": "fig01", "plaice": ""}}}"#;
         let error = read("section9", "section9.json", text).expect_err("misspelt");
-        assert!(error.to_string().contains("section9.json") && error.to_string().contains("plaice"));
+        assert!(error.to_string().contains("section9.json") && error.to_string().contains("values.a.plaice"));
     }
 }

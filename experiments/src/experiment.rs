@@ -89,7 +89,7 @@ pub enum ExperimentError {
     Data(#[from] FiniteError),
     /// Stored data do not have the form this version reads.
     #[error("the stored data do not fit this version")]
-    Stored(#[source] serde_json::Error),
+    Stored(#[source] serde_path_to_error::Error<serde_json::Error>),
     /// A number printed in the paper could not be read.
     #[error("the catalogue of printed numbers failed")]
     Catalogue(#[from] CatalogueError),
@@ -291,7 +291,8 @@ impl<E: Experiment> RegisteredExperiment for Erased<E> {
     }
 
     fn read(&self, stored: Value) -> Result<Box<dyn ErasedData>, ExperimentError> {
-        Ok(Box::new(Typed::<E>(serde_json::from_value(stored).map_err(ExperimentError::Stored)?)))
+        let data = serde_path_to_error::deserialize(stored).map_err(ExperimentError::Stored)?;
+        Ok(Box::new(Typed::<E>(data)))
     }
 }
 

@@ -42,6 +42,7 @@ pub(super) fn arrows(census: &Census) -> Vec<ChartArrow> {
     census.transitions.iter().map(|counted| arrow(counted.transition)).collect()
 }
 
+/// Long, for it is a table: one arm for each arrow of the chart.
 fn arrow(transition: Transition) -> ChartArrow {
     use EventKind::{Attachment, Impact, Separation, SlipReversal, SlipToStick, StickToSlip};
     use ModeKind::{Flight, Sliding, Sticking};

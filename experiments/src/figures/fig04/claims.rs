@@ -6,7 +6,7 @@ use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::{asin, tan};
 
 use super::consistency::PARAMETER_NAMES;
-use super::data::{Best, Fig04Data, LagCurve, LagOptimum, RatioSearch, Reading, TossPoint};
+use super::data::{Best, CoarseGrid, Fig04Data, LagCurve, LagOptimum, RatioSearch, Reading, TossPoint};
 use crate::claim::{self, Agreement, Claim, Verdict};
 use crate::figures::toss_case::TossCase;
 use crate::printed::PrintedNumber;
@@ -346,7 +346,6 @@ fn consistency(data: &Fig04Data) -> Vec<Claim> {
     let place = "Sec. III B";
     let text = &data.printed;
     let consistency = &data.consistency;
-    let grid = &consistency.coarse_grid;
     let mut claims = Vec::new();
     let hand = &consistency.hand_speed;
     claims.push(Claim::statement(
@@ -398,6 +397,12 @@ fn consistency(data: &Fig04Data) -> Vec<Claim> {
             ),
         ));
     }
+    claims.extend(even_grid(&consistency.coarse_grid));
+    claims
+}
+
+/// What an even grid of amplitude angles gives.
+fn even_grid(grid: &CoarseGrid) -> impl Iterator<Item = Claim> + '_ {
     let range = grid.gyration_radius_range_m.map_or_else(
         || "no a_g gives all numbers".to_owned(),
         |(low, high)| format!("a_g from {low:.4} to {high:.4} m gives all numbers"),
@@ -418,14 +423,13 @@ fn consistency(data: &Fig04Data) -> Vec<Claim> {
         grid.frequency_range_rad_per_s.1,
         100.0 * grid.share_by_chance,
     );
-    for (index, number) in grid.reading.numbers.iter().enumerate() {
+    grid.reading.numbers.iter().enumerate().map(move |(index, number)| {
         let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
         let claim = Claim::reading(ID, &number.key, quantity, number.computed)
             .fitted("a_g, and the number of intervals")
             .note(described(&grid.reading));
-        claims.push(if index == 0 { claim.note(&evidence) } else { claim });
-    }
-    claims
+        if index == 0 { claim.note(&evidence) } else { claim }
+    })
 }
 
 /// How the optimum depends on friction.

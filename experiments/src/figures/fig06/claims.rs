@@ -28,6 +28,7 @@ pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = doublings(data);
     claims.extend(period_one(data));
     claims.extend(introduction(data));
+    claims.extend(leaving(data));
     claims.extend(rotation::claims(data));
     claims.extend(regimes::claims(data));
     claims
@@ -158,13 +159,6 @@ fn introduction(data: &Fig06Data) -> Vec<Claim> {
             format!("Γ = {}: {first:.0} and {second:.0}", motion.axial_forcing)
         })
         .collect();
-    let below = || data.contact.iter().filter(|contact| contact.distance_in_ulps < 0.0);
-    let above = || data.contact.iter().filter(|contact| contact.distance_in_ulps > 0.0);
-    let nearest = |low: f64| format!("{low:.0}");
-    let (_, last_below) = rotation::extent(below().map(|contact| contact.distance_in_ulps));
-    let (first_above, _) = rotation::extent(above().map(|contact| contact.distance_in_ulps));
-    let thrown: usize = below().map(|contact| contact.thrown).sum();
-    let bouncing: usize = below().map(|contact| contact.still_bouncing).sum();
     let runs = format!(
         "{} motions from rest at the Γ of Fig. 7 and restitutions {} to {elastic}, over {shortest:.0} to {longest:.0} periods of the platform",
         motions.len(),
@@ -199,6 +193,19 @@ fn introduction(data: &Fig06Data) -> Vec<Claim> {
                 own.join("; ")
             ),
         ),
+    ]
+}
+
+/// Whether a disk at rest leaves the platform.
+fn leaving(data: &Fig06Data) -> [Claim; 2] {
+    let below = || data.contact.iter().filter(|contact| contact.distance_in_ulps < 0.0);
+    let above = || data.contact.iter().filter(|contact| contact.distance_in_ulps > 0.0);
+    let nearest = |low: f64| format!("{low:.0}");
+    let (_, last_below) = rotation::extent(below().map(|contact| contact.distance_in_ulps));
+    let (first_above, _) = rotation::extent(above().map(|contact| contact.distance_in_ulps));
+    let thrown: usize = below().map(|contact| contact.thrown).sum();
+    let bouncing: usize = below().map(|contact| contact.still_bouncing).sum();
+    [
         Claim::printed_statement(
             "section1.no_bouncing",
             claim::all(below(), |contact| !contact.leaves && contact.still_bouncing == 0),

@@ -26,29 +26,8 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
                 .flat_map(|slice| of(slice).iter().map(|value| (slice.axial_forcing, *value)))
                 .collect()
         };
-        let mut panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
-        for (forcing, name) in data.basin_axial_forcings.into_iter().zip(["a", "b", "c", "d", "e"]) {
-            let stroke = Stroke::new(Colour::VERMILION, 0.5).dashed(Dash::Dotted);
-            panel = panel.layer(Rule::vertical(forcing).stroke(stroke));
-            if row == 0 {
-                let place = (forcing - low) / (high - low);
-                // (b) and (c) are neighbours.
-                let (shift, anchor) = match name {
-                    "b" => (0.006, Anchor::Right),
-                    "c" => (-0.006, Anchor::Left),
-                    _ => (0.0, Anchor::Middle),
-                };
-                let text = Text::at_axes(place + shift, 1.035, format!("({name})"));
-                panel = panel.layer(text.anchor(anchor).size(8.0).colour(Colour::VERMILION));
-            }
-        }
-        let crisis = data.merging.axial_forcing();
-        panel =
-            panel.layer(Rule::vertical(crisis).stroke(Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed)));
-        if (row, column) == (0, 0) {
-            panel = panel.layer(Text::at_data(crisis + 0.004, 0.5, "crisis").size(8.0).colour(Colour::BLUE));
-        }
-        panel
+        let panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
+        marked(panel, data, (row, column))
             .layer(
                 DensePoints::new(dots(&data.chattering))
                     .colour(Colour::LIGHT_GREY)
@@ -91,6 +70,32 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
         panel(1, 1, "d", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.semielliptical),
         zoom(data, zoom_area(&grid, UPPER, HEIGHT)),
     ])
+}
+
+/// Lines at the Γ of Fig. 7 and at the crisis, with their names where there is room.
+fn marked(mut panel: Panel, data: &Fig06Data, (row, column): (usize, usize)) -> Panel {
+    let (low, high) = data.axial_forcing_range;
+    for (forcing, name) in data.basin_axial_forcings.into_iter().zip(["a", "b", "c", "d", "e"]) {
+        let stroke = Stroke::new(Colour::VERMILION, 0.5).dashed(Dash::Dotted);
+        panel = panel.layer(Rule::vertical(forcing).stroke(stroke));
+        if row == 0 {
+            let place = (forcing - low) / (high - low);
+            // (b) and (c) are neighbours.
+            let (shift, anchor) = match name {
+                "b" => (0.006, Anchor::Right),
+                "c" => (-0.006, Anchor::Left),
+                _ => (0.0, Anchor::Middle),
+            };
+            let text = Text::at_axes(place + shift, 1.035, format!("({name})"));
+            panel = panel.layer(text.anchor(anchor).size(8.0).colour(Colour::VERMILION));
+        }
+    }
+    let crisis = data.merging.axial_forcing();
+    panel = panel.layer(Rule::vertical(crisis).stroke(Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed)));
+    if (row, column) == (0, 0) {
+        panel = panel.layer(Text::at_data(crisis + 0.004, 0.5, "crisis").size(8.0).colour(Colour::BLUE));
+    }
+    panel
 }
 
 /// The place of the enlarged part: below the others, over both columns.

@@ -292,6 +292,63 @@ fn large_and_small(slice: &Slice) -> Option<[usize; 2]> {
     Some(if one > other { [0, 1] } else { [1, 0] })
 }
 
+/// The two impacts of period 2 against the platform: |w_T| in the larger of them, and the distances of the mean speed from the
+/// platform's speed in the impact of large and in that of small |w_A|, each in words, too.
+#[derive(Default)]
+struct TwoImpacts {
+    misses: Vec<f64>,
+    distances: Vec<(f64, f64)>,
+    words: Vec<String>,
+    weights: Vec<String>,
+}
+
+fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> TwoImpacts {
+    let motions = [
+        (
+            "(c)",
+            data.linear.phase_lag_rad,
+            (|slice| (&slice.linear, slice.linear_mean)) as fn(&Slice) -> (&Vec<f64>, f64),
+        ),
+        ("(d)", data.semielliptical.phase_lag_rad, |slice| {
+            (&slice.semielliptical, slice.semielliptical_mean)
+        }),
+    ];
+    let mut result = TwoImpacts::default();
+    for (name, lag, of) in motions {
+        // The least of the two impacts: Eq. (16) would have to hold in both.
+        let own: Vec<f64> = twos
+            .iter()
+            .map(|(slice, _)| {
+                let pairs = of(slice).0.iter().zip(&slice.impact_phase_cycles);
+                pairs.map(|(speed, phase)| (speed - cos(TAU * phase + lag)).abs()).fold(0.0, f64::max)
+            })
+            .collect();
+        let (least, most) = extent(own.iter().copied());
+        result
+            .words
+            .push(format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in {name}"));
+        result.misses.extend(own);
+        let platform = |slice: &Slice, impact: usize| cos(TAU * slice.impact_phase_cycles[impact] + lag);
+        let own: Vec<(f64, f64)> = twos
+            .iter()
+            .map(|(slice, [large, small])| {
+                let mean = of(slice).1;
+                ((mean - platform(slice, *large)).abs(), (mean - platform(slice, *small)).abs())
+            })
+            .collect();
+        let nearer = own.iter().filter(|(large, small)| large < small).count();
+        let at_end = own.last().map_or((f64::NAN, f64::NAN), |pair| *pair);
+        result.weights.push(format!(
+            "{name}: nearer to that of the large-|w_A| impact at {nearer} of {} values of Γ, at the last by {:.3} against {:.3} ωΦ",
+            own.len(),
+            at_end.0,
+            at_end.1
+        ));
+        result.distances.extend(own);
+    }
+    result
+}
+
 /// What is said about the region of period 2.
 fn period_two(data: &Fig06Data) -> Vec<Claim> {
     let twos: Vec<(&Slice, [usize; 2])> = between(data, 0, 1)
@@ -310,49 +367,7 @@ fn period_two(data: &Fig06Data) -> Vec<Claim> {
         (Some(first), Some(last)) => format!("{first:.4} to {last:.4}"),
         _ => "none".to_owned(),
     };
-    let motions = [
-        (
-            "(c)",
-            data.linear.phase_lag_rad,
-            (|slice| (&slice.linear, slice.linear_mean)) as fn(&Slice) -> (&Vec<f64>, f64),
-        ),
-        ("(d)", data.semielliptical.phase_lag_rad, |slice| {
-            (&slice.semielliptical, slice.semielliptical_mean)
-        }),
-    ];
-    let mut misses = Vec::new();
-    let mut distances = Vec::new();
-    let (mut words, mut weights) = (Vec::new(), Vec::new());
-    for (name, lag, of) in motions {
-        // The least of the two impacts: Eq. (16) would have to hold in both.
-        let own: Vec<f64> = twos
-            .iter()
-            .map(|(slice, _)| {
-                let pairs = of(slice).0.iter().zip(&slice.impact_phase_cycles);
-                pairs.map(|(speed, phase)| (speed - cos(TAU * phase + lag)).abs()).fold(0.0, f64::max)
-            })
-            .collect();
-        let (least, most) = extent(own.iter().copied());
-        words.push(format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in {name}"));
-        misses.extend(own);
-        let platform = |slice: &Slice, impact: usize| cos(TAU * slice.impact_phase_cycles[impact] + lag);
-        let own: Vec<(f64, f64)> = twos
-            .iter()
-            .map(|(slice, [large, small])| {
-                let mean = of(slice).1;
-                ((mean - platform(slice, *large)).abs(), (mean - platform(slice, *small)).abs())
-            })
-            .collect();
-        let nearer = own.iter().filter(|(large, small)| large < small).count();
-        let at_end = own.last().map_or((f64::NAN, f64::NAN), |pair| *pair);
-        weights.push(format!(
-            "{name}: nearer to that of the large-|w_A| impact at {nearer} of {} values of Γ, at the last by {:.3} against {:.3} ωΦ",
-            own.len(),
-            at_end.0,
-            at_end.1
-        ));
-        distances.extend(own);
-    }
+    let TwoImpacts { misses, distances, words, weights } = two_impacts(data, &twos);
     vec![
         Claim::printed_statement(
             "section4.period_two_branches",

@@ -230,6 +230,39 @@ fn traced(data: &Fig07Data) -> String {
     })
 }
 
+/// Whether there is a further attractor at the Γ of panel (b).
+fn two_attractors(data: &Fig07Data, b: &Panel) -> Claim {
+    let others: Vec<String> = b
+        .others
+        .iter()
+        .map(|other| {
+            let impacts: Vec<String> =
+                other.impacts.iter().map(|(phase, speed)| format!("({phase:.4}, {speed:.4})")).collect();
+            format!(
+                "{} impacts in {} periods at (τ_imp/2π, |w_A Γ/(ωA)|) = {}, largest multiplier {:.3}",
+                other.impacts.len(),
+                other.platform_periods,
+                impacts.join(" "),
+                other.spectral_radius,
+            )
+        })
+        .collect();
+    Claim::printed_statement(
+        "section4.two_attractors",
+        b.others.is_empty(),
+        if others.is_empty() {
+            "no other attractor was found".to_owned()
+        } else {
+            format!(
+                "{}; it holds {:.2} % of the window{}",
+                others.join("; "),
+                100.0 * b.shares.other,
+                traced(data)
+            )
+        },
+    )
+}
+
 fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
     let depth =
         |panel: &Panel| panel.lowest_not_chattering.map_or("all".to_owned(), |low| format!("{low:.3}"));
@@ -248,21 +281,6 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
     let (_, last) = data.decay.last().copied().unwrap_or((0, f64::NAN));
     let decay: Vec<String> =
         data.decay.iter().map(|(count, share)| format!("{count}: {:.2} %", 100.0 * share)).collect();
-    let others: Vec<String> = b
-        .others
-        .iter()
-        .map(|other| {
-            let impacts: Vec<String> =
-                other.impacts.iter().map(|(phase, speed)| format!("({phase:.4}, {speed:.4})")).collect();
-            format!(
-                "{} impacts in {} periods at (τ_imp/2π, |w_A Γ/(ωA)|) = {}, largest multiplier {:.3}",
-                other.impacts.len(),
-                other.platform_periods,
-                impacts.join(" "),
-                other.spectral_radius,
-            )
-        })
-        .collect();
     vec![
         Claim::printed_statement(
             "section4.rest_chatters",
@@ -278,20 +296,7 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
                 rest.join(", "),
             ),
         ),
-        Claim::printed_statement(
-            "section4.two_attractors",
-            b.others.is_empty(),
-            if others.is_empty() {
-                "no other attractor was found".to_owned()
-            } else {
-                format!(
-                    "{}; it holds {:.2} % of the window{}",
-                    others.join("; "),
-                    100.0 * b.shares.other,
-                    traced(data)
-                )
-            },
-        ),
+        two_attractors(data, b),
         Claim::printed_statement(
             "section4.fractal_boundary",
             claim::all(&d.boundary_exponents, |exponent| *exponent < SMOOTH_FROM),

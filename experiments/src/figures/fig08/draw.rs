@@ -84,34 +84,7 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
     // The preload.
     drawing =
         drawing.arrow([(x, y + 0.75 * radius), (x, y + 0.04 * radius)], Stroke::new(Colour::VERMILION, 1.4));
-    // Diameter.
-    let side = x - radius - 3.2;
-    for height in [y - radius, y + radius] {
-        drawing = drawing
-            .stroke(Path::through([(x, height), (side - 1.0, height)]), Stroke::new(Colour::GREY, 0.5));
-    }
-    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text_styled(
-        (side - 2.0, y),
-        Anchor::Middle,
-        format!("{} mm", data.ball_diameter_mm).as_str(),
-        Some(8.5),
-        Colour::BLACK,
-        90.0,
-    );
-    // The motion of the tip.
-    let swing = arc(&camera, 6.6, (AZIMUTH - 0.75, AZIMUTH + 0.75), tip - 4.0);
-    let middle = swing.get(swing.len() / 2).copied().unwrap_or((x, y));
-    let mut back = swing.clone();
-    back.reverse();
-    drawing = drawing.arrow(swing, black()).arrow(back, black());
-    drawing = drawing.text((middle.0, middle.1 - 2.3), Anchor::Centre, r"$\beta$");
-    let lift = x - 9.0;
-    let level = at(tip).1;
-    drawing = drawing.double_arrow((lift, level - 9.0), (lift, level - 3.0), black()).text(
-        (lift - 1.0, level - 6.0),
-        Anchor::RightCentre,
-        "$s$",
-    );
+    drawing = sizes(drawing, data, &camera, tip);
     // Poling and voltage.
     let middle = 0.5 * (transducer.top + transducer.bottom);
     let front = |height: f64| camera.project(polar(TRANSDUCER.0, AZIMUTH, height));
@@ -128,13 +101,56 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
     drawing = source(drawing, &camera, &transducer);
     let edge = drawing.local((CONTACT.left + 2.0, CONTACT.top + 0.5 * CONTACT.height));
     drawing = drawing
-        .ellipse((x, level), (2.2, 1.6), Some(Stroke::new(Colour::GREY, 0.5)), None)
-        .stroke(Path::through([(x + 2.2, level), edge]), Stroke::new(Colour::GREY, 0.5));
+        .ellipse((x, at(tip).1), (2.2, 1.6), Some(Stroke::new(Colour::GREY, 0.5)), None)
+        .stroke(Path::through([(x + 2.2, at(tip).1), edge]), Stroke::new(Colour::GREY, 0.5));
+    names(drawing, data, &camera, (foot, magnet.top))
+}
+
+/// The diameter of the ball, and how the tip of the beam moves.
+fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let (x, y) = at(0.0);
+    // Diameter.
+    let side = x - radius - 3.2;
+    for height in [y - radius, y + radius] {
+        drawing = drawing
+            .stroke(Path::through([(x, height), (side - 1.0, height)]), Stroke::new(Colour::GREY, 0.5));
+    }
+    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text_styled(
+        (side - 2.0, y),
+        Anchor::Middle,
+        format!("{} mm", data.ball_diameter_mm).as_str(),
+        Some(8.5),
+        Colour::BLACK,
+        90.0,
+    );
+    // The motion of the tip.
+    let swing = arc(camera, 6.6, (AZIMUTH - 0.75, AZIMUTH + 0.75), tip - 4.0);
+    let middle = swing.get(swing.len() / 2).copied().unwrap_or((x, y));
+    let mut back = swing.clone();
+    back.reverse();
+    drawing = drawing.arrow(swing, black()).arrow(back, black());
+    drawing = drawing.text((middle.0, middle.1 - 2.3), Anchor::Centre, r"$\beta$");
+    let lift = x - 9.0;
+    let level = at(tip).1;
+    drawing.double_arrow((lift, level - 9.0), (lift, level - 3.0), black()).text(
+        (lift - 1.0, level - 6.0),
+        Anchor::RightCentre,
+        "$s$",
+    )
+}
+
+/// What the parts are called.
+fn names(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, (foot, magnet_top): (f64, f64)) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let (x, y) = at(0.0);
     let right = 16.0;
     drawing = leader(
         drawing,
-        (x + 4.0, at(magnet.top - 3.0).1),
-        (right, at(magnet.top - 1.0).1),
+        (x + 4.0, at(magnet_top - 3.0).1),
+        (right, at(magnet_top - 1.0).1),
         &["magnet", "(reduces the preload)"],
     );
     drawing = leader(drawing, (x + 0.7, y + 0.45 * radius), (right, y + 10.5), &["preload $mg$"]);

@@ -82,19 +82,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     }
     let trends: Vec<Trend> =
         curves.iter().map(|curve| Trend::of(curve, trend_mn(&printed), 1e3 * printed.plateau_n)).collect();
-    let over_balance: Vec<f64> = curves
-        .iter()
-        .flat_map(|curve| &curve.points)
-        .filter(|point| point.preload_acceleration_m_per_s2 >= low)
-        .filter(|point| point.preload_acceleration_m_per_s2 <= high && !point.statistics.is_low_period())
-        .filter_map(|point| {
-            let estimate = point.statistics.stall_acceleration_rad_per_s2?.mean;
-            let limit =
-                MotorCase { preload_acceleration_m_per_s2: point.preload_acceleration_m_per_s2, ..motor }
-                    .largest_acceleration();
-            Some(estimate / (limit * point.net_share_at_rest))
-        })
-        .collect();
+    let over_balance = estimates_over_balance(&curves, &motor, [low, high]);
     let second = MotorCase { frequency_hz: frequencies[1], preload_acceleration_m_per_s2: middle, ..motor };
     Ok(Fig11Data {
         holes: Holes::of(&curves),
@@ -116,6 +104,23 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
         perturbations,
         measured: MeasuredMotors::default(),
     })
+}
+
+/// α̇_ss/t_c over (μ a_e g/a_g²) S(0) of the motors between two preloads that are on no low-period cycle.
+fn estimates_over_balance(curves: &[Curve], motor: &MotorCase, [low, high]: [f64; 2]) -> Vec<f64> {
+    curves
+        .iter()
+        .flat_map(|curve| &curve.points)
+        .filter(|point| point.preload_acceleration_m_per_s2 >= low)
+        .filter(|point| point.preload_acceleration_m_per_s2 <= high && !point.statistics.is_low_period())
+        .filter_map(|point| {
+            let estimate = point.statistics.stall_acceleration_rad_per_s2?.mean;
+            let limit =
+                MotorCase { preload_acceleration_m_per_s2: point.preload_acceleration_m_per_s2, ..*motor }
+                    .largest_acceleration();
+            Some(estimate / (limit * point.net_share_at_rest))
+        })
+        .collect()
 }
 
 fn no_data(quantity: &str) -> ExperimentError {
