@@ -25,6 +25,7 @@ pub mod fig14;
 mod hand_path;
 mod impulse;
 mod motor_case;
+mod power_of_ten;
 mod printed_inputs;
 mod regression;
 mod samples;
@@ -35,9 +36,3 @@ pub mod table2;
 pub mod table3;
 mod toss_case;
 mod uncertainty;
-
-/// The power of ten of a number that is one.
-fn exponent(value: f64) -> String {
-    let text = format!("{value:e}");
-    text.split_once('e').map_or(text.clone(), |(_, power)| power.replace('-', "\u{2212}"))
-}
