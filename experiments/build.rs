@@ -1,7 +1,7 @@
 //! Digests of everything that determines a result, so that finished figures can be recognised as up to date.
 //!
 //! A figure depends on the libraries, on all shared code of this crate, on the lock file and the data, and on its
-//! own module `src/figures/ID.rs`. A module that names another one (`fig06::`, a shared helper) depends on that
+//! own module, `src/figures/ID.rs` and the folder `src/figures/ID`. A module that names another one (`fig06::`, a shared helper) depends on that
 //! one too. Naming is what counts: depending on too much only recomputes too much. A user's own measurements are not
 //! known when this is built; `src/cache_key.rs` sees them when a figure is made.
 
@@ -12,7 +12,7 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// Files that only list experiments; adding one to them changes no other.
+/// Files that only list experiments; adding one to them changes no other. They may hold no function that a figure uses.
 const LISTS: [&str; 2] = ["src/registry.rs", "src/figures.rs"];
 
 fn main() -> Result<(), Box<dyn Error>> {

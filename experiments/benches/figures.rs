@@ -19,7 +19,7 @@ fn figure<E: Experiment>(c: &mut Criterion, quality: Quality) {
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         group.bench_function(format!("threads_{threads}"), |bencher| {
-            bencher.iter(|| black_box(pool.install(|| E::run(quality, &Silent)).expect("no failure")));
+            bencher.iter(|| black_box(pool.install(|| E::compute(quality, &Silent)).expect("no failure")));
         });
     }
     group.finish();

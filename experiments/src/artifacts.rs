@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
+use crate::finite::{self, FiniteError};
 use crate::json;
 use crate::measured::Measurements;
 use crate::progress::Progress;
@@ -54,7 +55,7 @@ pub fn make(
     measurements: &Measurements,
     progress: &dyn Progress,
 ) -> Result<Vec<File>, ExperimentError> {
-    let mut outcome = entry.run(quality, progress)?;
+    let mut outcome = entry.compute(quality, progress)?;
     if let Some(claim) = outcome.claims().iter().find(|claim| claim.lacks_data()) {
         return Err(ExperimentError::NoData { quantity: claim.quantity().to_owned() });
     }
@@ -73,7 +74,7 @@ pub fn make(
         warnings,
         data: outcome.to_json()?,
     };
-    let text = json::to_text(&serde_json::to_value(record).map_err(ExperimentError::Stored)?);
+    let text = json::to_text(&finite::to_value(&record)?).map_err(FiniteError::from)?;
     let mut files = vec![(format!("{id}.json"), text.into_bytes())];
     if let Some(table) = outcome.table() {
         files.push((format!("{id}.csv"), table.to_csv()?.into_bytes()));
@@ -90,7 +91,7 @@ pub fn make(
 ///
 /// When another version wrote them and they do not fit.
 pub fn read(entry: &dyn RegisteredExperiment, bytes: &[u8]) -> Result<Stored, ExperimentError> {
-    let record: Record = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
+    let record: Record = json::read(bytes).map_err(ExperimentError::Stored)?;
     Ok(Stored { outcome: entry.read(record.data)?, quality: record.quality, warnings: record.warnings })
 }
 
@@ -148,6 +149,11 @@ mod tests {
     #[test]
     fn data_of_another_version_are_refused() {
         let entries = demo_entries();
-        assert!(read(&*entries[0], b"{\"id\": 3}").is_err());
+        let error = read(&*entries[0], b"{\"id\": 3}").expect_err("a number");
+        let text = crate::experiment::chain(&error);
+        assert!(
+            text.starts_with("the stored data do not fit this version: id: invalid type: integer"),
+            "{text}"
+        );
     }
 }

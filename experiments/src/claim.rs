@@ -1,7 +1,7 @@
 //! A number or statement printed in the paper, compared with ours.
 //!
 //! The verdict is the result of a comparison; nothing in this crate can set it by hand. What is printed comes from the
-//! [ledger]; a printed number is compared at the precision it is printed with: half a unit of its last digit, read off
+//! [catalogue]; a printed number is compared at the precision it is printed with: half a unit of its last digit, read off
 //! the printed text. A statement that depends on digits which the paper does not print is judged over many inputs that print
 //! alike: [`Claim::printed_share`].
 //!
@@ -12,7 +12,8 @@ use std::iter::Sum;
 
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::ledger::{self, PrintedEntry};
+pub use crate::catalogue::Class;
+use crate::catalogue::{self, PrintedEntry};
 use crate::printed::PrintedNumber;
 
 /// The outcome of a comparison.
@@ -41,39 +42,6 @@ impl Verdict {
             Self::Differs => "differs",
             Self::DependsOnUnprintedDigits => "depends-on-unprinted-digits",
             Self::NotComputable => "not-computable",
-        }
-    }
-}
-
-/// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Class {
-    /// A number or statement of the paper that a computation can confirm or contradict.
-    #[default]
-    Paper,
-    /// A number of the paper for which a parameter of ours was chosen so that it comes out.
-    Fitted,
-    /// A parameter, a choice of a picture, a measurement that is put in, a quotation.
-    Input,
-    /// True by construction: a definition, an equation that the code implements, printed against printed.
-    Identity,
-    /// A further reading of a printed number, or a finding that the paper does not have.
-    ThisWork,
-}
-
-impl Class {
-    /// All of them, the paper's first.
-    pub const ALL: [Self; 5] = [Self::Paper, Self::Fitted, Self::Input, Self::Identity, Self::ThisWork];
-
-    /// The name used in `claims.json`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Paper => "paper",
-            Self::Fitted => "fitted",
-            Self::Input => "input",
-            Self::Identity => "identity",
-            Self::ThisWork => "this-work",
         }
     }
 }
@@ -212,14 +180,14 @@ pub enum Source {
     /// Not printed: a check of this work, in words.
     #[default]
     ThisWork,
-    /// The answer to an entry of the [ledger].
+    /// The answer to an entry of the [catalogue].
     Entry(String),
     /// Another reading of an entry that is answered elsewhere.
     Reading(String),
 }
 
 impl Claim {
-    /// The answer to the entry `key` of the [ledger], a printed number: `computed`, in the unit of the entry, compared
+    /// The answer to the entry `key` of the [catalogue], a printed number: `computed`, in the unit of the entry, compared
     /// within half a unit of the last printed digit. A computed NaN or infinity differs from every number.
     ///
     /// An unknown key, or an entry that is no number, gives a claim that differs and says so in its note.
@@ -309,7 +277,7 @@ impl Claim {
     }
 
     fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
-        let claim = match ledger::find(key) {
+        let claim = match catalogue::find(key) {
             Ok(entry) => Self { class: entry.class, ..make(entry) },
             Err(error) => {
                 // The first part of the key at least says which file was meant.
@@ -336,7 +304,7 @@ impl Claim {
         Self { source: Source::Entry(entry.key.clone()), class: entry.class, ..claim }
     }
 
-    /// A printed number, compared within half a unit of its last printed digit. In a figure it comes from the ledger:
+    /// A printed number, compared within half a unit of its last printed digit. In a figure it comes from the catalogue:
     /// [`printed`](Self::printed).
     ///
     /// `printed` is the text exactly as printed: `"0.486"`, `"14 ± 5"` (compared with 14), `"0.323π"`,
@@ -407,7 +375,7 @@ impl Claim {
     }
 
     /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper will
-    /// want. What is printed comes from the ledger: [`printed_statement`](Self::printed_statement).
+    /// want. What is printed comes from the catalogue: [`printed_statement`](Self::printed_statement).
     ///
     /// `quantity` is the statement, `holds` whether our data agree (`None`: there are none), `evidence` the numbers
     /// that show it.
@@ -501,7 +469,7 @@ impl Claim {
     /// Whether it should have been judged by data and there are none. Such a claim is no finding but a fault of the experiment.
     pub fn lacks_data(&self) -> bool {
         let reasoned = match &self.source {
-            Source::Entry(key) => ledger::find(key).is_ok_and(|entry| entry.reason.is_some()),
+            Source::Entry(key) => catalogue::find(key).is_ok_and(|entry| entry.reason.is_some()),
             _ => false,
         };
         matches!(self.computed, Computed::Nothing) && !reasoned
@@ -625,7 +593,7 @@ mod tests {
         assert!(Claim::printed_statement(key, None, "no transients").lacks_data());
         assert!(Claim::printed_share(key, Agreement::of([]), "").lacks_data());
         assert!(!Claim::printed_statement(key, false, "").lacks_data());
-        let inputs = ledger::not_computable("fig10");
+        let inputs = crate::answers::not_computable("fig10");
         assert!(!inputs.is_empty() && inputs.iter().all(|claim| !claim.lacks_data()));
         assert!(
             inputs.iter().any(|claim| claim.class() == Class::Input),

@@ -2,9 +2,9 @@
 //!
 //! The template beside this file holds references like `{fig06:/merging/survived:.7}`: figure, JSON pointer into its data, format. Of a long list
 //! `axial_forcing~0.56` in a pointer takes the entry whose `axial_forcing` is nearest to 0.56: a place in a list means nothing, and shifts. The page is made
-//! with them in paper quality, together with `docs/results.md`. `{claims:/section4.merging:.4}` is the computed number of the claim that answers an entry of the ledger, or
+//! with them in paper quality, together with `docs/results.md`. `{claims:/section4.merging:.4}` is the computed number of the claim that answers an entry of the catalogue, or
 //! the share of the inputs that print alike for which it holds. What the template writes out itself are numbers that the paper prints, which must stand in
-//! the [ledger](crate::ledger): a test reads all of them.
+//! the [catalogue](crate::catalogue): a test reads all of them.
 
 use serde_json::Value;
 
@@ -149,7 +149,7 @@ fn value_at<'a>(data: &'a Value, pointer: &str) -> Option<&'a Value> {
     })
 }
 
-/// The numbers of the claims that answer entries of the ledger, by key: shares where a statement is judged by them.
+/// The numbers of the claims that answer entries of the catalogue, by key: shares where a statement is judged by them.
 pub fn claim_numbers<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Value {
     let numbers = claims.into_iter().filter_map(|claim| {
         let Source::Entry(key) = claim.source() else { return None };
@@ -178,7 +178,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::{ledger, registry};
+    use crate::{catalogue, registry};
 
     #[test]
     fn references_are_filled_in_and_faults_named() {
@@ -229,7 +229,7 @@ mod tests {
         for piece in pieces(TEMPLATE).skip(1).step_by(2) {
             let reference = Reference::read(piece).expect("well formed");
             if reference.id == CLAIMS {
-                ledger::find(&reference.pointer[1..]).expect("an entry");
+                catalogue::find(&reference.pointer[1..]).expect("an entry");
             } else {
                 assert!(known.contains(&reference.id), "{piece}");
             }
@@ -254,7 +254,7 @@ mod tests {
     /// What is written out beside the references is printed in the paper, or names a place in it.
     #[test]
     fn every_other_number_of_the_template_is_printed_in_the_paper() {
-        let entries = ledger::entries().expect("reads");
+        let entries = catalogue::entries().expect("reads");
         let printed = entries.iter().flat_map(|entry| {
             let texts = [entry.printed.as_deref().unwrap_or_default(), &entry.quantity, &entry.place];
             texts.into_iter().flat_map(numbers).collect::<Vec<_>>()

@@ -3,17 +3,18 @@
 use std::fmt;
 use std::str::FromStr;
 
+use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::answers;
+use crate::catalogue::CatalogueError;
 use crate::claim::Claim;
 use crate::finite::{self, FiniteError};
-use crate::ledger::{self, LedgerError};
 use crate::measured::{Layout, MeasuredError, Series};
 use crate::progress::Progress;
 use crate::table::{Table, TableError};
-use bouncing_disk_plot::{DrawError, Figure};
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -88,10 +89,10 @@ pub enum ExperimentError {
     Data(#[from] FiniteError),
     /// Stored data do not have the form this version reads.
     #[error("the stored data do not fit this version")]
-    Stored(#[source] serde_json::Error),
+    Stored(#[source] serde_path_to_error::Error<serde_json::Error>),
     /// A number printed in the paper could not be read.
-    #[error("the ledger of printed numbers failed")]
-    Ledger(#[from] LedgerError),
+    #[error("the catalogue of printed numbers failed")]
+    Catalogue(#[from] CatalogueError),
     /// A number or statement has no data to be judged by.
     #[error("\"{quantity}\" has no data to be judged by")]
     NoData {
@@ -150,8 +151,8 @@ pub trait Experiment: Sync + Send + 'static {
     const TITLE: &'static str;
 
     /// What the figure shows, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number
-    /// of the claim that answers this entry of the [ledger].
-    const READING: &'static str;
+    /// of the claim that answers this entry of the [catalogue](crate::catalogue).
+    const DISCUSSION: &'static str;
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
 
@@ -163,7 +164,7 @@ pub trait Experiment: Sync + Send + 'static {
     /// # Errors
     ///
     /// When the model fails.
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
 
     /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The computed
     /// numbers stay what they are; after an error the data are unchanged.
@@ -183,7 +184,7 @@ pub trait Experiment: Sync + Send + 'static {
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
     /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
-    /// [ledger] by its key. Entries of the ledger that have a reason why nothing can be computed are
+    /// [catalogue](crate::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be computed are
     /// added by the framework.
     fn claims(data: &Self::Data) -> Vec<Claim>;
 
@@ -214,7 +215,11 @@ pub trait RegisteredExperiment: Sync + Send {
     /// # Errors
     ///
     /// When the model fails.
-    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn ErasedData>, ExperimentError>;
+    fn compute(
+        &self,
+        quality: Quality,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn ErasedData>, ExperimentError>;
 
     /// Reads data that an earlier run stored.
     ///
@@ -253,8 +258,8 @@ pub trait ErasedData: Send + Sync {
     /// See [`Experiment::caption`].
     fn caption(&self) -> String;
 
-    /// See [`Experiment::READING`].
-    fn reading(&self) -> &'static str;
+    /// See [`Experiment::DISCUSSION`].
+    fn discussion(&self) -> &'static str;
 
     /// See [`Experiment::parameters`].
     fn parameters(&self) -> Vec<(String, String)>;
@@ -283,12 +288,17 @@ impl<E: Experiment> RegisteredExperiment for Erased<E> {
         E::MEASUREMENTS
     }
 
-    fn run(&self, quality: Quality, progress: &dyn Progress) -> Result<Box<dyn ErasedData>, ExperimentError> {
-        Ok(Box::new(Typed::<E>(E::run(quality, progress)?)))
+    fn compute(
+        &self,
+        quality: Quality,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn ErasedData>, ExperimentError> {
+        Ok(Box::new(Typed::<E>(E::compute(quality, progress)?)))
     }
 
     fn read(&self, stored: Value) -> Result<Box<dyn ErasedData>, ExperimentError> {
-        Ok(Box::new(Typed::<E>(serde_json::from_value(stored).map_err(ExperimentError::Stored)?)))
+        let data = serde_path_to_error::deserialize(stored).map_err(ExperimentError::Stored)?;
+        Ok(Box::new(Typed::<E>(data)))
     }
 }
 
@@ -309,7 +319,7 @@ impl<E: Experiment> ErasedData for Typed<E> {
 
     fn claims(&self) -> Vec<Claim> {
         let mut claims = E::claims(&self.0);
-        claims.extend(ledger::not_computable(E::ID));
+        claims.extend(answers::not_computable(E::ID));
         claims
     }
 
@@ -317,8 +327,8 @@ impl<E: Experiment> ErasedData for Typed<E> {
         E::caption(&self.0)
     }
 
-    fn reading(&self) -> &'static str {
-        E::READING
+    fn discussion(&self) -> &'static str {
+        E::DISCUSSION
     }
 
     fn parameters(&self) -> Vec<(String, String)> {

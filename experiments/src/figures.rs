@@ -24,6 +24,7 @@ pub mod fig13;
 pub mod fig14;
 mod hand_path;
 mod motor_case;
+mod power_of_ten;
 mod printed_inputs;
 mod regression;
 mod samples;
@@ -34,9 +35,3 @@ pub mod table2;
 pub mod table3;
 mod toss_case;
 mod uncertainty;
-
-/// The power of ten of a number that is one.
-fn exponent(value: f64) -> String {
-    let text = format!("{value:e}");
-    text.split_once('e').map_or(text.clone(), |(_, power)| power.replace('-', "\u{2212}"))
-}

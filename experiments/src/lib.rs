@@ -1,18 +1,21 @@
 //! Every figure and table of Liu, Friend and Yeo, Phys. Rev. E **80**, 046201 (2009): its data, its drawing and
 //! its printed numbers compared with ours.
 //!
-//! One module of [`figures`] makes one figure or table. It implements [`Experiment`]:
+//! One module of [`figures`] makes one figure or table, in four files: `data.rs` has its types, `compute.rs`, `draw.rs` and
+//! `claims.rs` what follows. It implements [`Experiment`]:
 //!
-//! * `run` computes plain, serialisable data (units in the field names); it knows no picture,
+//! * `compute` computes plain, serialisable data (units in the field names); it knows no picture,
 //! * `draw` turns that data into a [`Figure`](bouncing_disk_plot::Figure); it computes nothing,
 //! * `claims` compares every number the paper prints with the computed one ([`Claim`]); what is printed stands in the
-//!   [`ledger`] alone.
+//!   [`catalogue`] alone.
 //!
 //! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery, [`results`] the
 //! committed page.
 
+pub mod answers;
 pub mod artifacts;
 pub mod cache_key;
+pub mod catalogue;
 pub mod claim;
 pub mod count;
 pub mod errata;
@@ -20,7 +23,6 @@ pub mod experiment;
 pub mod figures;
 mod finite;
 pub mod json;
-pub mod ledger;
 pub mod measured;
 pub mod output;
 pub mod page;

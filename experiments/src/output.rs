@@ -9,18 +9,16 @@ mod error;
 mod lock;
 mod partial;
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use std::{fs, io};
 
-pub use error::OutputError;
 use lock::Lock;
 use partial::Partial;
 
-use crate::Quality;
 use crate::cache_key::{CacheKey, Stale};
-use crate::regular_file;
+use crate::{Quality, regular_file};
+pub use error::OutputError;
 
 /// How long a run waits for others to finish writing: they take seconds, unless they are suspended.
 const LONGEST_WAIT: Duration = Duration::from_secs(600);

@@ -1,23 +1,23 @@
-//! Printed numbers as typed inputs of the experiments, read from the [ledger].
+//! Printed numbers as typed inputs of the experiments, read from the [catalogue].
 
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use crate::catalogue::{self, CatalogueError};
 use crate::experiment::ExperimentError;
-use crate::ledger::{self, LedgerError};
 
 /// A value with its uncertainty, printed as `value ± uncertainty`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Measured {
+pub struct Uncertain {
     /// The value.
     pub value: f64,
     /// Its uncertainty.
     pub uncertainty: f64,
 }
 
-impl std::fmt::Display for Measured {
+impl std::fmt::Display for Uncertain {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{} ± {}", self.value, self.uncertainty)
     }
@@ -27,48 +27,48 @@ impl std::fmt::Display for Measured {
 type Keys = [(&'static str, i32)];
 
 /// What can be read from entries.
-trait FromLedger: Sized {
-    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError>;
+trait FromCatalogue: Sized {
+    fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError>;
 }
 
-fn values(keys: &Keys) -> Result<Vec<f64>, LedgerError> {
-    keys.iter().map(|(key, power)| Ok(ledger::number(key, *power)?.value)).collect()
+fn values(keys: &Keys) -> Result<Vec<f64>, CatalogueError> {
+    keys.iter().map(|(key, power)| Ok(catalogue::number(key, *power)?.value)).collect()
 }
 
-fn no_number(key: &str, wanted: &'static str) -> LedgerError {
-    let printed = ledger::text(key).unwrap_or_default().to_owned();
-    LedgerError::NoNumber { key: key.to_owned(), printed, wanted }
+fn no_number(key: &str, wanted: &'static str) -> CatalogueError {
+    let printed = catalogue::text(key).unwrap_or_default().to_owned();
+    CatalogueError::NoNumber { key: key.to_owned(), printed, wanted }
 }
 
-impl<const N: usize> FromLedger for [f64; N] {
-    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+impl<const N: usize> FromCatalogue for [f64; N] {
+    fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError> {
         let first = keys.first().map_or("", |(key, _)| *key);
         Self::try_from(values(keys)?).map_err(|_| no_number(first, "list of this length"))
     }
 }
 
-impl FromLedger for Vec<f64> {
-    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+impl FromCatalogue for Vec<f64> {
+    fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError> {
         values(keys)
     }
 }
 
-impl FromLedger for f64 {
-    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
-        <[Self; 1]>::from_ledger(keys).map(|[value]| value)
+impl FromCatalogue for f64 {
+    fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError> {
+        <[Self; 1]>::from_catalogue(keys).map(|[value]| value)
     }
 }
 
-impl FromLedger for String {
-    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
-        Ok(ledger::text(keys.first().map_or("", |(key, _)| *key))?.to_owned())
+impl FromCatalogue for String {
+    fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError> {
+        Ok(catalogue::text(keys.first().map_or("", |(key, _)| *key))?.to_owned())
     }
 }
 
-impl FromLedger for Measured {
-    fn from_ledger(keys: &Keys) -> Result<Self, LedgerError> {
+impl FromCatalogue for Uncertain {
+    fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError> {
         let (key, power) = keys.first().copied().unwrap_or_default();
-        let number = ledger::number(key, power)?;
+        let number = catalogue::number(key, power)?;
         let uncertainty = number.uncertainty.ok_or_else(|| no_number(key, "value with an uncertainty"))?;
         Ok(Self { value: number.value, uncertainty })
     }
@@ -80,7 +80,7 @@ impl FromLedger for Measured {
 ///
 /// When there is no such number.
 pub fn value(key: &str) -> Result<f64, ExperimentError> {
-    Ok(ledger::number(key, 0)?.value)
+    Ok(catalogue::number(key, 0)?.value)
 }
 
 macro_rules! power {
@@ -110,7 +110,7 @@ macro_rules! structs {
         /// When an entry is missing or of another kind.
         pub fn $load() -> Result<$name, ExperimentError> {
             Ok($name {
-                $($field: <$kind>::from_ledger(&[$(($key, power!($($power)?))),+])?,)*
+                $($field: <$kind>::from_catalogue(&[$(($key, power!($($power)?))),+])?,)*
             })
         }
     )*};
@@ -122,17 +122,17 @@ structs! {
         /// θ.
         phase_lag_rad: f64 = "table1.phase_lag";
         /// φ_L.
-        amplitude_angle_rad: Measured = "table1.amplitude_angle";
+        amplitude_angle_rad: Uncertain = "table1.amplitude_angle";
         /// c.
-        stroke_m: Measured = "table1.stroke";
+        stroke_m: Uncertain = "table1.stroke";
         /// ω.
-        angular_frequency_rad_per_s: Measured = "table1.angular_frequency";
+        angular_frequency_rad_per_s: Uncertain = "table1.angular_frequency";
         /// a_e.
-        contact_radius_m: Measured = "table1.contact_radius";
+        contact_radius_m: Uncertain = "table1.contact_radius";
         /// a_g.
-        gyration_radius_m: Measured = "table1.gyration_radius";
+        gyration_radius_m: Uncertain = "table1.gyration_radius";
         /// μ.
-        friction: Measured = "table1.friction";
+        friction: Uncertain = "table1.friction";
         /// g.
         preload_acceleration_m_per_s2: f64 = "table1.preload_acceleration";
     }
@@ -176,9 +176,9 @@ structs! {
     /// Numbers of Sec. III and of the captions of Figs. 4 and 5; texts are as printed.
     SectionThree, section_three {
         /// The dough's measured vertical speed at separation.
-        launch_speed_m_per_s: Measured = "section3.launch_speed";
+        launch_speed_m_per_s: Uncertain = "section3.launch_speed";
         /// The dough's measured rotary speed at separation.
-        launch_angular_speed_rad_per_s: Measured = "section3.launch_angular_speed";
+        launch_angular_speed_rad_per_s: Uncertain = "section3.launch_angular_speed";
         /// What the paper's model predicts for it.
         predicted_airborne_speed_rad_per_s: String = "section3.predicted_airborne_speed";
         /// φ_L of the observed tosses.
@@ -277,7 +277,7 @@ structs! {
         /// The height from which it is dropped.
         drop_height_m: f64 = "section5.drop_height" e -2;
         /// The height to which it rebounds.
-        rebound_height_m: Measured = "section5.rebound_height" e -2;
+        rebound_height_m: Uncertain = "section5.rebound_height" e -2;
     }
 
     /// The fit of the dough's diameter (Appendix).
@@ -309,7 +309,7 @@ impl SectionFive {
 
 /// The number of inputs that Table III prints.
 pub fn printed_inputs() -> usize {
-    ledger::entries().unwrap_or_default().iter().filter(|entry| entry.place == "Table III").count()
+    catalogue::entries().unwrap_or_default().iter().filter(|entry| entry.place == "Table III").count()
 }
 
 #[cfg(test)]
@@ -343,10 +343,10 @@ mod tests {
     #[test]
     fn a_wrong_kind_is_refused_and_the_entry_named() {
         for error in [
-            f64::from_ledger(&[("section4.three_branches", 0)]).map(drop),
-            Measured::from_ledger(&[("section4.doubling_1", 0)]).map(drop),
-            <[f64; 2]>::from_ledger(&[("section4.doubling_1", 0)]).map(drop),
-            f64::from_ledger(&[("section4.doubling_9", 0)]).map(drop),
+            f64::from_catalogue(&[("section4.three_branches", 0)]).map(drop),
+            Uncertain::from_catalogue(&[("section4.doubling_1", 0)]).map(drop),
+            <[f64; 2]>::from_catalogue(&[("section4.doubling_1", 0)]).map(drop),
+            f64::from_catalogue(&[("section4.doubling_9", 0)]).map(drop),
         ] {
             let text = error.expect_err("wrong kind").to_string();
             assert!(text.contains("section4."), "{text}");

@@ -54,8 +54,8 @@ pub enum ResultsError {
         /// The figure.
         id: String,
     },
-    /// A reading names an entry of the ledger that no claim of the figure compares by a number.
-    #[error("the reading of {id} names {key}, which no claim of it compares by a number")]
+    /// A discussion names an entry of the catalogue that no claim of the figure compares by a number.
+    #[error("the discussion of {id} names {key}, which no claim of it compares by a number")]
     Reading {
         /// The figure.
         id: String,
@@ -288,9 +288,9 @@ fn head(claims: &[(&str, Vec<Claim>)]) -> String {
 /// The section of one figure.
 fn section(entry: &dyn RegisteredExperiment, outcome: &dyn ErasedData) -> Result<String, ResultsError> {
     let (id, title, claims) = (entry.id(), entry.title(), outcome.claims());
-    let reading = reading(id, outcome.reading(), &claims)?;
+    let discussion = discussion(id, outcome.discussion(), &claims)?;
     let mut text = format!(
-        "\n<a id=\"{id}\"></a>\n\n## {}. {title}\n\n![{title}]({PICTURES_FOLDER}/{})\n\n{reading}\n\n*Caption.* {}\n",
+        "\n<a id=\"{id}\"></a>\n\n## {}. {title}\n\n![{title}]({PICTURES_FOLDER}/{})\n\n{discussion}\n\n*Caption.* {}\n",
         name(id),
         picture_name(id),
         outcome.caption()
@@ -328,7 +328,7 @@ fn cell(text: &str) -> String {
 }
 
 /// The paragraph with the computed numbers put in, to four digits.
-fn reading(id: &str, template: &str, claims: &[Claim]) -> Result<String, ResultsError> {
+fn discussion(id: &str, template: &str, claims: &[Claim]) -> Result<String, ResultsError> {
     let mut text = String::new();
     let mut rest = template.trim();
     while let Some((before, after)) = rest.split_once('{') {
@@ -392,7 +392,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_holds_picture_reading_parameters_and_verdicts() {
+    fn the_page_holds_picture_discussion_parameters_and_verdicts() {
         let (folders, entries) = folders("page");
         let page = folders.docs.read(RESULTS_FILE).expect("readable").expect("written");
         let page = String::from_utf8(page).expect("text");
@@ -465,11 +465,11 @@ mod tests {
     }
 
     #[test]
-    fn a_reading_takes_its_numbers_from_the_claims() {
+    fn a_discussion_takes_its_numbers_from_the_claims() {
         let claims = [Claim::printed("section4.merging", 0.560_750_7)];
-        let text = reading("fig06", "Lost at {section4.merging}, for good.", &claims).expect("answered");
+        let text = discussion("fig06", "Lost at {section4.merging}, for good.", &claims).expect("answered");
         assert_eq!(text, "Lost at 0.5608, for good.");
-        let error = reading("fig06", "{section4.doubling_1}", &claims).expect_err("not answered");
+        let error = discussion("fig06", "{section4.doubling_1}", &claims).expect_err("not answered");
         assert!(explained(&error).contains("section4.doubling_1"), "{error}");
     }
 }

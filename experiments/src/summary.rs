@@ -90,7 +90,8 @@ impl Summary {
         let counts = Counts::of(&claims);
         // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
         let claims = serde_json::to_value(&claims).unwrap_or_default();
-        Ok(Self { claims: json::to_text(&claims), page: page::html(&sections), counts, left_out, warnings })
+        let claims = json::to_text(&claims).unwrap_or_default();
+        Ok(Self { claims, page: page::html(&sections), counts, left_out, warnings })
     }
 
     /// Collects all figures whose results lie in the folder and writes the common files. No other run writes

@@ -1,5 +1,7 @@
 //! A table written as comma-separated values (RFC 4180).
 
+use std::borrow::Cow;
+
 /// One cell.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -68,6 +70,12 @@ pub enum TableError {
         /// The number.
         number: f64,
     },
+    /// The text could not be put together.
+    #[error("{message}")]
+    Unwritten {
+        /// What was reported.
+        message: String,
+    },
 }
 
 /// A header with units in the names, and rows.
@@ -111,8 +119,8 @@ impl Table {
     ///
     /// When a row does not fit the header or a number is not finite.
     pub fn to_csv(&self) -> Result<String, TableError> {
-        let mut csv = String::new();
-        push_record(&mut csv, self.columns.iter().map(|name| quoted(name)));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&self.columns).map_err(unwritten)?;
         for (index, cells) in self.rows.iter().enumerate() {
             if cells.len() != self.columns.len() {
                 let (cells, columns) = (cells.len(), self.columns.len());
@@ -123,29 +131,21 @@ impl Table {
                     Err(TableError::NotFinite { row: index + 1, column: column.clone(), number: *number })
                 }
                 // The debug form keeps the exponent of small numbers and reads back to the same double.
-                Cell::Number(number) => Ok(format!("{number:?}")),
-                Cell::Integer(number) => Ok(number.to_string()),
-                Cell::Text(text) => Ok(quoted(text)),
-                Cell::Empty => Ok(String::new()),
+                Cell::Number(number) => Ok(format!("{number:?}").into()),
+                Cell::Integer(number) => Ok(number.to_string().into()),
+                Cell::Text(text) => Ok(Cow::Borrowed(text.as_str())),
+                Cell::Empty => Ok(Cow::Borrowed("")),
             });
-            push_record(&mut csv, written.collect::<Result<Vec<_>, _>>()?);
+            let written: Vec<Cow<'_, str>> = written.collect::<Result<_, _>>()?;
+            writer.write_record(written.iter().map(|cell| cell.as_bytes())).map_err(unwritten)?;
         }
-        Ok(csv)
+        let bytes = writer.into_inner().map_err(unwritten)?;
+        String::from_utf8(bytes).map_err(unwritten)
     }
 }
 
-fn push_record(csv: &mut String, fields: impl IntoIterator<Item = String>) {
-    let fields: Vec<_> = fields.into_iter().collect();
-    csv.push_str(&fields.join(","));
-    csv.push('\n');
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) || text.starts_with(' ') || text.ends_with(' ') {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+fn unwritten(error: impl std::error::Error) -> TableError {
+    TableError::Unwritten { message: error.to_string() }
 }
 
 #[cfg(test)]

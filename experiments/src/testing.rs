@@ -1,5 +1,6 @@
 //! Experiments for the tests of this crate.
 
+use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 use serde::{Deserialize, Serialize};
 
 use crate::claim::Claim;
@@ -7,7 +8,6 @@ use crate::experiment::{Experiment, ExperimentError, Quality, RegisteredExperime
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
-use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 
 /// A small experiment that works.
 pub(crate) struct Demo;
@@ -25,7 +25,7 @@ impl Experiment for Demo {
     type Data = DemoData;
     const ID: &'static str = "demo";
     const TITLE: &'static str = "A demonstration";
-    const READING: &'static str = "It shows that | is escaped.";
+    const DISCUSSION: &'static str = "It shows that | is escaped.";
     const MEASUREMENTS: &'static [Layout] = &[Layout {
         file: "demo.csv",
         columns: &[Column::value("phase_rad", Range::NotNegative)],
@@ -40,7 +40,7 @@ impl Experiment for Demo {
         format!("{} phases of impact τ_imp & Γ < 1.{measured}", data.impact_phase_rad.len())
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<DemoData, ExperimentError> {
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<DemoData, ExperimentError> {
         let count = quality.choose(5_u32, 50);
         progress.start(u64::from(count), "points");
         let axial_forcing: Vec<_> =
@@ -55,7 +55,7 @@ impl Experiment for Demo {
         let phases: Vec<f64> = series.rows().map(|[phase]| phase).collect();
         if phases.iter().any(|phase| *phase > 7.0) {
             let no_number = "x".parse::<f64>().expect_err("no number");
-            return Err(series.unusable(None, no_number));
+            return Err(series.unusable(None, no_number).into());
         }
         data.measured_phase_rad = phases;
         Ok(())
@@ -101,13 +101,13 @@ impl Experiment for Broken {
     type Data = BrokenData;
     const ID: &'static str = "broken";
     const TITLE: &'static str = "An experiment that fails";
-    const READING: &'static str = "";
+    const DISCUSSION: &'static str = "";
 
     fn caption(_: &BrokenData) -> String {
         String::new()
     }
 
-    fn run(_: Quality, _: &dyn Progress) -> Result<BrokenData, ExperimentError> {
+    fn compute(_: Quality, _: &dyn Progress) -> Result<BrokenData, ExperimentError> {
         Ok(BrokenData { speed_m_per_s: vec![1.0, f64::NAN] })
     }
 

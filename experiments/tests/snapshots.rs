@@ -13,7 +13,7 @@
 use std::collections::BTreeMap;
 
 use bouncing_disk_experiments::experiment::{Quality, RegisteredExperiment, chain};
-use bouncing_disk_experiments::{Silent, ledger, registry};
+use bouncing_disk_experiments::{Silent, answers, registry};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
 use serde_json::{Map, Value, json};
@@ -55,7 +55,7 @@ fn entries() -> Vec<Box<dyn RegisteredExperiment>> {
 /// All that an experiment makes, except for pictures.
 fn product(entry: &dyn RegisteredExperiment) -> Map<String, Value> {
     let made = || {
-        let outcome = entry.run(Quality::Draft, &Silent)?;
+        let outcome = entry.compute(Quality::Draft, &Silent)?;
         let table = outcome.table().map(|table| table.to_csv()).transpose()?;
         // A figure that cannot be drawn is a failure, too.
         outcome.draw()?.to_svg()?;
@@ -64,7 +64,7 @@ fn product(entry: &dyn RegisteredExperiment) -> Map<String, Value> {
         product.insert("caption".to_owned(), outcome.caption().into());
         product.insert("parameters".to_owned(), json!(outcome.parameters()));
         let claims = outcome.claims();
-        let faults = ledger::faults(entry.id(), &claims);
+        let faults = answers::faults(entry.id(), &claims);
         assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id(), faults.join("; "));
         product.insert("claims".to_owned(), json!(claims));
         product.insert("table".to_owned(), json!(table));

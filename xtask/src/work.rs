@@ -109,7 +109,11 @@ mod tests {
             "fails"
         }
 
-        fn run(&self, _: Quality, progress: &dyn Progress) -> Result<Box<dyn ErasedData>, ExperimentError> {
+        fn compute(
+            &self,
+            _: Quality,
+            progress: &dyn Progress,
+        ) -> Result<Box<dyn ErasedData>, ExperimentError> {
             progress.start(2, "steps");
             progress.advance(1);
             assert!(!self.panics, "index {} out of range", 7);

@@ -1,11 +1,11 @@
 //! A user's decelerations and coefficients of friction for Fig. 9.
 
+use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
 use crate::figures::regression::StraightLine;
 use crate::measured::{Column, Layout, Range, Series};
-use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 
 /// Speeds of the rotor after the motor is switched off.
 pub const DECELERATIONS: Layout = Layout {
@@ -49,10 +49,10 @@ pub struct Deceleration {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BrakingError {
-    /// Too few readings of a moving rotor.
-    #[error("{found} readings above 0; legal is 3 or more")]
+    /// Too few speeds of a moving rotor.
+    #[error("{found} speeds above 0; legal is 3 or more")]
     TooFew {
-        /// The readings above 0.
+        /// The speeds above 0.
         found: usize,
     },
     /// The rotor does not slow down.
@@ -77,7 +77,7 @@ pub fn decelerations(
         let preload_n = rows.first().map_or(f64::NAN, |row| row[1]);
         let moving: Vec<(f64, f64)> =
             rows.iter().filter(|row| row[3] > 0.0).map(|row| (row[2], row[3])).collect();
-        let refused = |error| series.unusable(Some(trial), error);
+        let refused = |error| ExperimentError::from(series.unusable(Some(trial), error));
         let line = StraightLine::through(&moving)
             .ok_or_else(|| refused(BrakingError::TooFew { found: moving.len() }))?;
         let stop_s = -line.intercept / line.slope;
@@ -98,7 +98,7 @@ pub fn decelerations(
 }
 
 impl Deceleration {
-    /// The readings and the line.
+    /// The speeds and the line.
     pub fn layers(&self) -> Vec<Layer> {
         let points = self.time_s.iter().copied().zip(self.angular_speed_rad_per_s.iter().copied());
         let start = self.time_s.first().copied().unwrap_or_default();
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn the_slope_gives_the_friction() {
-        // Synthetic: 20 − 100 t; the reading at rest is not fitted.
+        // Synthetic: 20 − 100 t; the speed at rest is not fitted.
         let trials = read("4,0.2,0,20\n4,0.2,0.1,10\n4,0.2,0.15,5\n4,0.2,0.3,0\n").expect("brakes");
         let [trial] = &trials[..] else { panic!("one trial") };
         assert!((trial.brake_rad_per_s2 + 100.0).abs() < 1e-9 && (trial.stop_s - 0.2).abs() < 1e-12);
@@ -166,8 +166,8 @@ mod tests {
     fn a_rotor_that_does_not_brake_is_refused() {
         let error = chain(&read("1,0.2,0,1\n1,0.2,1,2\n1,0.2,2,3\n").expect_err("speeds up"));
         assert!(error.contains("trial 1 cannot be evaluated: the slope of the line is 1e0"), "{error}");
-        let error = chain(&read("1,0.2,0,1\n1,0.2,1,0\n1,0.2,2,0\n").expect_err("one reading"));
-        assert!(error.contains("1 readings above 0; legal is 3 or more"), "{error}");
+        let error = chain(&read("1,0.2,0,1\n1,0.2,1,0\n1,0.2,2,0\n").expect_err("one speed"));
+        assert!(error.contains("1 speeds above 0; legal is 3 or more"), "{error}");
     }
 
     #[test]

@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::elementary::{acos, atan2, sin_cos};
-use glam::DVec3;
-
 use bouncing_disk_plot::{Camera, Colour, Dash, Drawing, Path, Stroke};
+use glam::DVec3;
 
 const CIRCLE_POINTS: u32 = 120;
 

@@ -1,11 +1,11 @@
 //! A user's diameters of the dough for Fig. 14.
 
+use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
 use crate::figures::regression::StraightLine;
 use crate::measured::{Column, Layout, Range, SMALLEST, Series};
-use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 
 /// Diameters against time.
 pub const DIAMETERS: Layout = Layout {
@@ -56,7 +56,7 @@ impl Growth {
                     slope_error_per_s,
                 })
             }
-            _ => Err(series.unusable(None, GrowthError { diameter })),
+            _ => Err(series.unusable(None, GrowthError { diameter }).into()),
         }
     }
 

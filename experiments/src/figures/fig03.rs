@@ -1,35 +1,26 @@
 //! Fig. 3: flow chart of the simulation, from the modes and events that really occur.
 
 mod census;
-mod chart;
+mod claims;
+mod compute;
 mod cycle;
+mod data;
+mod draw;
 mod laws;
 mod sprung;
-mod statements;
 
 use bouncing_disk::Transition;
-use serde::{Deserialize, Serialize};
+use bouncing_disk_plot::Figure;
 
-use self::census::Census;
-use self::cycle::Cycle;
-use self::sprung::Sprung;
+pub use self::data::Fig03Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
-use bouncing_disk_plot::Figure;
 
 /// Fig. 3.
 #[derive(Debug)]
 pub struct Fig03;
-
-/// The data of Fig. 3.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig03Data {
-    census: Census,
-    cycle: Cycle,
-    sprung: Sprung,
-}
 
 impl Experiment for Fig03 {
     type Data = Fig03Data;
@@ -37,7 +28,7 @@ impl Experiment for Fig03 {
     const ID: &'static str = "fig03";
 
     const TITLE: &'static str = "Flow chart of the simulation";
-    const READING: &str = include_str!("fig03/reading.md");
+    const DISCUSSION: &str = include_str!("fig03/discussion.md");
 
     fn caption(data: &Fig03Data) -> String {
         let (census, cycle) = (&data.census, &data.cycle);
@@ -57,19 +48,16 @@ impl Experiment for Fig03 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
-        let census = census::census(quality, progress)?;
-        let cycle = cycle::cycle(quality)?;
-        let sprung = sprung::sprung(quality)?;
-        Ok(Fig03Data { census, cycle, sprung })
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig03Data) -> Result<Figure, ExperimentError> {
-        Ok(chart::figure(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig03Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
@@ -111,15 +99,12 @@ mod tests {
 
     #[test]
     fn the_arrows_drawn_are_the_transitions_seen() {
-        let data = Fig03::run(Quality::Draft, &Silent).expect("runs");
+        let data = Fig03::compute(Quality::Draft, &Silent).expect("runs");
         let seen: Vec<_> = data.census.transitions.iter().map(|counted| counted.transition).collect();
         let mut legal = Transition::LEGAL.to_vec();
         legal.sort_unstable();
         assert_eq!(seen, legal);
-        assert_eq!(
-            chart::arrows(&data.census).iter().map(|arrow| arrow.transition).collect::<Vec<_>>(),
-            seen
-        );
-        assert!(chart::arrows(&data.census).iter().all(|arrow| arrow.planned));
+        assert_eq!(draw::arrows(&data.census).iter().map(|arrow| arrow.transition).collect::<Vec<_>>(), seen);
+        assert!(draw::arrows(&data.census).iter().all(|arrow| arrow.planned));
     }
 }

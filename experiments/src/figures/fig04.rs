@@ -1,124 +1,93 @@
 //! Fig. 4: the performance of single tosses.
 
 mod alike;
+mod claims;
+mod compute;
 mod consistency;
 mod data;
-mod picture;
-mod statements;
+mod draw;
 mod sweep;
 
-use bouncing_disk::InitialSpin;
+use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig04Data;
-use super::toss_case::{TossCase, maximum};
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
-use crate::printed::PrintedNumber;
 use crate::progress::Progress;
-use bouncing_disk_plot::Figure;
 
 /// Fig. 4.
 #[derive(Debug)]
 pub struct Fig04;
 
-/// The first index of the largest value.
-fn maximum_index(values: impl Iterator<Item = f64>) -> usize {
-    let mut best = (0, f64::NEG_INFINITY);
-    for (index, value) in values.enumerate() {
-        if value > best.1 {
-            best = (index, value);
-        }
-    }
-    best.0
-}
-
 impl Experiment for Fig04 {
     type Data = Fig04Data;
     const ID: &'static str = "fig04";
     const TITLE: &'static str = "The performance of single tosses";
-    const READING: &str = include_str!("fig04/reading.md");
+    const DISCUSSION: &str = include_str!("fig04/discussion.md");
 
     fn caption(data: &Fig04Data) -> String {
-        statements::caption(data)
+        let grid = &data.consistency.coarse_grid;
+        format!(
+            "The performance of pizza tosses with the parameters of Table I: (a) airborne rotation speed, (b) energy \
+             efficiency and (c) ratio of airborne speed to the hand's largest speed against the amplitude ratio φ_L = \
+             arctan L at phase lags θ = nπ/8, with n at the curves; circles mark the fastest, most efficient and \
+             highest-ratio toss at θ = 0 and π. The dough starts at rest in (a)–(c), and turning with the hand in (a′)–(c′), \
+             where its initial spin counts as put in by the hand; the two agree at θ = 0 and π. (d) Airborne speed \
+             against the phase of separation τ_sep, which runs from arcsin(g/cω²) = {} to π/2. (e) Airborne speed at \
+             θ = 0 for three coefficients of friction; circles mark the maxima. (f) The maximum at θ = 0: Table I as \
+             printed, the nearest set of parameters that gives the printed φ_L, speed, efficiency and ratio (distance \
+             {:.2} in units of the uncertainties), and ω = {:.2} rad/s of Eq. (14) with a_g = {:.4} m, sampled at {} \
+             equal intervals of φ_L, whose best point has all printed numbers; the square is the printed maximum with \
+             the rounding of its digits. (g) |ν| against the phase lag at the printed φ_L of max|ν|, dough at rest at the start; circle: the maximum; square: \
+             max|ν| and its place as printed. (h) The largest |ν| of all phase lags against φ_L, for both starts, and |ν| at θ = 0: up to φ_L = {} the largest is 1, \
+             reached at θ = −τ_sep, where the hand is fastest as the dough leaves; square: printed.",
+            claims::pi(data.separation.lowest_rad),
+            data.consistency.nearest.distance,
+            grid.angular_frequency_rad_per_s,
+            grid.reading.parameters.gyration_radius_m,
+            grid.intervals,
+            claims::pi(data.held_to_separation_angle_rad),
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
-        let count = quality.choose(61, 481);
-        progress.start(8, "parts");
-        let ratio_angles = quality.choose(30, 90);
-        let done = || progress.advance(1);
-        let table_i = paper::table_one()?;
-        let printed = paper::section_three()?;
-        let table = TossCase::from(&table_i);
-        let angles = sweep::angles(&table, count);
-        let rest = InitialSpin::AbsoluteRest;
-        let families = sweep::INITIAL_STATES
-            .into_iter()
-            .map(|initial| sweep::family(&table, initial, &angles))
-            .collect::<Result<Vec<_>, _>>()?;
-        done();
-        let separation = sweep::separation(&table, count)?;
-        done();
-        let friction_curves = printed
-            .frictions_of_fig4e
-            .iter()
-            .map(|friction| sweep::friction_curve(&table, *friction, &angles))
-            .collect::<Result<Vec<_>, _>>()?;
-        let low_friction = sweep::low_friction(&table)?;
-        done();
-        let best = sweep::INITIAL_STATES
-            .into_iter()
-            .map(|initial| sweep::best(&table, initial))
-            .collect::<Result<Vec<_>, _>>()?;
-        done();
-        let largest_ratio = sweep::INITIAL_STATES
-            .into_iter()
-            .map(|initial| sweep::ratio_search(&table, initial, ratio_angles))
-            .collect::<Result<Vec<_>, _>>()?;
-        let shown = PrintedNumber::read(&printed.amplitude_angle_of_largest_speed_ratio_rad);
-        let profile = shown.map(|angle| sweep::profile(&table.at_angle(angle.value), count)).transpose()?;
-        done();
-        let symmetry = sweep::symmetry(&table, &angles)?;
-        done();
-        let fastest = sweep::best_angle(&table, rest, sweep::speed)?;
-        let toss = table.at_angle(fastest.amplitude_angle_rad).toss(rest)?;
-        let kept = toss.energy.platform_work() - toss.energy.friction_loss;
-        done();
-        let consistency = consistency::consistency(&table_i, &printed, count)?;
-        done();
-        Ok(Fig04Data {
-            largest_amplitude_angle_rad: table.largest_angle(),
-            table_i_toss: data::TossPoint::new(&table, &table.toss(rest)?),
-            lossless_efficiency_of_fastest: toss.rotary_energy_gain / kept,
-            amplitude_angle_rad: angles,
-            families,
-            separation,
-            friction_curves,
-            low_friction,
-            best,
-            largest_ratio,
-            held_to_separation_angle_rad: sweep::held_to_separation(&table),
-            profile,
-            compromise: sweep::compromise(&table)?,
-            no_launch: sweep::no_launch(&table)?,
-            symmetry,
-            consistency,
-            alike: alike::alike(quality)?,
-            table_i,
-            printed,
-        })
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig04Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::figure(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig04Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig04Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let table = &data.table_i;
+        [
+            ("phase lag θ", "nπ/8, n = 0 … 8".to_owned()),
+            (
+                "amplitude angle φ_L",
+                format!("0 to arccos(g/cω²) = {}", claims::pi(data.largest_amplitude_angle_rad)),
+            ),
+            ("stroke c", format!("{} m", table.stroke_m)),
+            ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s)),
+            ("contact radius a_e", format!("{} m", table.contact_radius_m)),
+            ("radius of gyration a_g", format!("{} m", table.gyration_radius_m)),
+            ("friction μ", format!("{}; (e) {}", table.friction, frictions(data))),
+            ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+            (
+                "start",
+                "lowest point of the hand, τ = 3π/2; dough at rest, or turning with the hand".to_owned(),
+            ),
+            ("points of a curve", data.amplitude_angle_rad.len().to_string()),
+        ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .to_vec()
     }
+}
+
+fn frictions(data: &Fig04Data) -> String {
+    let texts: Vec<_> = data.friction_curves.iter().map(|curve| curve.friction.to_string()).collect();
+    texts.join(", ")
 }

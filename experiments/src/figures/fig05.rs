@@ -1,21 +1,17 @@
 //! Fig. 5: hand motions and the dough's motion in single tosses.
 
+mod claims;
+mod compute;
 mod data;
-mod picture;
-mod statements;
+mod draw;
 
-use bouncing_disk::InitialSpin;
+use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig05Data;
-use self::data::{Column, Dependence, Toss};
-use super::toss_case::TossCase;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
-use crate::printed::PrintedNumber;
 use crate::progress::Progress;
-use crate::table::Table;
-use bouncing_disk_plot::Figure;
+use crate::table::{Cell, Table};
 
 /// Fig. 5.
 #[derive(Debug)]
@@ -27,71 +23,82 @@ impl Experiment for Fig05 {
     const ID: &'static str = "fig05";
 
     const TITLE: &'static str = "Hand motions and the resulting dough trajectories";
-    const READING: &str = include_str!("fig05/reading.md");
+    const DISCUSSION: &str = include_str!("fig05/discussion.md");
 
     fn caption(data: &Fig05Data) -> String {
-        statements::caption(data)
+        format!(
+            "Details of various hand motions (dashed curves) and the resulting dough trajectories (solid curves): height, \
+             angle and angular speed in single tosses with Table I's parameters, for the amplitude ratios φ_L = {}. Two phase \
+             lags, θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs from the hand's lowest point, \
+             where the dough is at rest; shaded: dough and hand in contact, up to the separation at t_sep, at the phase τ_sep = ωt_sep − π/2. Heights are \
+             shown up to the landing, angles and speeds in and after the contact. The effects of a suboptimal φ_L are seen \
+             in the speeds at θ_1: slip at the separation at high φ_L, a low hand speed ωΦ at low φ_L.",
+            data.columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ")
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
-        let points = quality.choose(60, 240);
-        let table_i = paper::table_one()?;
-        let printed = paper::section_three()?;
-        let table = TossCase::from(&table_i);
-        let angles = [
-            &printed.amplitude_angle_of_largest_speed_ratio_rad,
-            &printed.optimal_amplitude_angle_rad,
-            &printed.amplitude_angle_of_fig5c_rad,
-        ];
-        let phase_lags = [data::FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
-        progress.start(angles.len() as u64 + 1, "columns");
-        let mut columns = Vec::new();
-        let mut optimum = table;
-        for (index, text) in angles.into_iter().enumerate() {
-            let Some(angle) = PrintedNumber::read(text) else { continue };
-            let case = table.at_angle(angle.value);
-            if index == 1 {
-                optimum = case;
-            }
-            columns.push(Column::new(text, &case, phase_lags, points)?);
-            progress.advance(1);
-        }
-        let lags = data::PHASE_LAGS_NEAR_ZERO
-            .into_iter()
-            .map(|lag| Toss::new(&optimum.at_lag(lag), points).map(|toss| Dependence::new(&toss)))
-            .collect::<Result<Vec<_>, _>>()?;
-        let firm_grip = data::FRICTION_FACTORS
-            .into_iter()
-            .map(|factor| data::Grip::new(&table, factor, &columns))
-            .collect::<Result<Vec<_>, _>>()?;
-        let grid_point = data::GridPoint::new(&table_i, &printed)?;
-        let effects = data::Effects::new(&table, &optimum)?;
-        progress.advance(1);
-        Ok(Fig05Data {
-            table_i,
-            printed,
-            initial_state: InitialSpin::AbsoluteRest,
-            columns,
-            lags,
-            firm_grip,
-            grid_point,
-            effects,
-        })
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig05Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::figure(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig05Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig05Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let table = &data.table_i;
+        let angles: Vec<_> = data.columns.iter().map(|column| column.printed.as_str()).collect();
+        let lags = data.columns.first().map_or(String::new(), |column| {
+            column.tosses.iter().map(|toss| claims::pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
+        });
+        [
+            ("amplitude angle φ_L", angles.join(", ")),
+            ("phase lag θ", lags),
+            ("stroke c", format!("{} m", table.stroke_m.value)),
+            ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s.value)),
+            ("contact radius a_e", format!("{} m", table.contact_radius_m.value)),
+            ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
+            ("friction μ", table.friction.value.to_string()),
+            ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+            ("start", "lowest point of the hand, τ = 3π/2; dough at rest".to_owned()),
+        ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .to_vec()
     }
 
     fn table(data: &Fig05Data) -> Option<Table> {
-        Some(statements::table(data))
+        let mut table = Table::new([
+            "phi_L (rad)",
+            "theta (rad)",
+            "separation phase (rad)",
+            "largest hand speed (rad/s)",
+            "hand speed at separation (rad/s)",
+            "airborne speed (rad/s)",
+            "slip at separation (rad/s)",
+            "sliding share of contact time",
+            "apex above mean height of hand (m)",
+            "landing time (s)",
+        ]);
+        for column in &data.columns {
+            for toss in &column.tosses {
+                table.push([
+                    Cell::from(column.amplitude_angle_rad),
+                    toss.phase_lag_rad.into(),
+                    toss.separation_phase_rad.into(),
+                    toss.largest_hand_speed_rad_per_s.into(),
+                    toss.hand_speed_at_separation_rad_per_s.into(),
+                    toss.airborne_speed_rad_per_s.into(),
+                    toss.slip_at_separation_rad_per_s.into(),
+                    toss.sliding_share_of_contact.into(),
+                    toss.apex_height_m.into(),
+                    toss.landing_time_s.into(),
+                ]);
+            }
+        }
+        Some(table)
     }
 }

@@ -1,24 +1,31 @@
 //! Fig. 6: bifurcation diagrams of the bouncing disk.
 
 mod chattering;
+mod claims;
+mod compute;
 mod contact;
+mod crossings;
 mod data;
 mod dimension;
+mod draw;
 mod explored;
+mod inputs;
 mod merging;
 mod period_one;
-mod picture;
 mod regimes;
 mod rotation;
-mod scan;
-mod statements;
+mod slices;
 
+use std::f64::consts::PI;
+
+use bouncing_disk::PAPER_CUT;
+use bouncing_disk_plot::Figure;
+
+pub(super) use self::compute::FORCING_RANGE;
 pub use self::data::Fig06Data;
-pub(super) use self::scan::FORCING_RANGE;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use bouncing_disk_plot::Figure;
 
 /// Fig. 6.
 #[derive(Debug)]
@@ -28,27 +35,73 @@ impl Experiment for Fig06 {
     type Data = Fig06Data;
     const ID: &'static str = "fig06";
     const TITLE: &'static str = "Bifurcation diagrams";
-    const READING: &str = include_str!("fig06/reading.md");
+    const DISCUSSION: &str = include_str!("fig06/discussion.md");
 
     fn caption(data: &Fig06Data) -> String {
-        statements::caption(data)
+        format!(
+            "Bifurcation diagrams (ε = {}): the attractor followed in Γ from its period-1 orbit at Γ = {} (dark gray) and \
+             the chattering orbit of a disk from rest (light gray). (a) Phase of impact; (b) relative axial impact speed; \
+             (c), (d) angular speed of the disk just before impact for (θ, Γ_T) = ({}, {}) and ({}, {}). Dotted lines \
+             mark the panels of Fig. 7. {} values of Γ, {} impacts each after a transient of {}; chattering ends by the \
+             paper's cut. The followed attractor is lost in a crisis at Γ = {:.5} (dashed). (a\u{2032}) The followed attractor of (a) about \
+             the third and the following doublings (dashed), at {} values of Γ. At {} values of Γ a disk from rest does not \
+             come to rest again but ends on another attractor; nothing is drawn in light gray there.",
+            data.restitution,
+            data.followed_from,
+            data.linear.phase_lag_rad,
+            data.linear.angular_forcing,
+            lag(data),
+            data.semielliptical.angular_forcing,
+            data.axial_forcing_values,
+            data.examined_impacts,
+            data.transient_impacts,
+            data.merging.axial_forcing(),
+            data.zoom.len(),
+            data.not_chattering.len(),
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data, ExperimentError> {
-        scan::run(quality, progress)
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig06Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::draw(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig06Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig06Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let pair = |name: &str, value: String| (name.to_owned(), value);
+        vec![
+            pair("restitution ε", data.restitution.to_string()),
+            pair(
+                "axial forcing Γ",
+                format!("{} to {}", data.axial_forcing_range.0, data.axial_forcing_range.1),
+            ),
+            pair("values of Γ", data.axial_forcing_values.to_string()),
+            pair("transient", format!("{} impacts", data.transient_impacts)),
+            pair("examined", format!("{} impacts", data.examined_impacts)),
+            pair("(c) θ, Γ_T", format!("{}, {}", data.linear.phase_lag_rad, data.linear.angular_forcing)),
+            pair("(d) θ, Γ_T", format!("{}, {}", lag(data), data.semielliptical.angular_forcing)),
+            pair(
+                "chattering",
+                format!(
+                    "cut at |w_A Γ/(ωA)| < {:e} or after {} flights shorter than {:e} of a period",
+                    PAPER_CUT.smallest_speed(),
+                    PAPER_CUT.short_flights(),
+                    PAPER_CUT.short_flight()
+                ),
+            ),
+        ]
     }
+}
+
+/// θ of (d).
+fn lag(data: &Fig06Data) -> String {
+    format!("{:.2}π", data.semielliptical.phase_lag_rad / PI).replace('-', "−")
 }
 
 #[cfg(test)]
@@ -60,7 +113,7 @@ mod tests {
     /// What is judged over a list of data is not judged where the list is empty.
     #[test]
     fn no_statement_of_the_paper_holds_without_data() {
-        let mut data = Fig06::run(Quality::Draft, &Silent).expect("runs");
+        let mut data = Fig06::compute(Quality::Draft, &Silent).expect("runs");
         assert!(Fig06::claims(&data).iter().all(|claim| !claim.lacks_data()));
         data.followed.clear();
         data.chattering.clear();

@@ -1,25 +1,20 @@
 //! Fig. 7: basins of attraction.
 
+mod claims;
+mod compute;
 mod data;
+mod draw;
 mod labels;
 mod panels;
-mod picture;
 mod scan;
-mod statements;
 mod windows;
 
-use rayon::prelude::*;
+use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig07Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
-use bouncing_disk_plot::Figure;
-
-/// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
-/// both fractions that it prints come out (see [`windows`]).
-const WINDOW_TOP: f64 = 5.0;
 
 /// Fig. 7.
 #[derive(Debug)]
@@ -29,66 +24,56 @@ impl Experiment for Fig07 {
     type Data = Fig07Data;
     const ID: &'static str = "fig07";
     const TITLE: &'static str = "Basins of attraction";
-    const READING: &str = include_str!("fig07/reading.md");
+    const DISCUSSION: &str = include_str!("fig07/discussion.md");
 
     fn caption(data: &Fig07Data) -> String {
-        statements::caption(data)
+        let others = data.panels.iter().flat_map(|panel| &panel.others).count();
+        format!(
+            "Basins of attraction in the plane of impact phase and relative axial impact speed, {} × {} cells a panel, \
+             ε = {}: white, the chattering orbit (its impacts: black crosses in (a)–(c), red dots in (d), black dots in (e)); \
+             black, the attractor of the period-doubling route (white crosses in (a)–(c), yellow dots in (d)); gray, {} not in \
+             the paper (red circles). The paper's window is not in its text; here it ends at {}, where both printed fractions come out. (f) Share of the window \
+             [0, top] that belongs to the attractors in (a) and (b) against its top; dashed lines: the printed {:.1} % and {:.1} %.",
+            data.cells,
+            data.cells,
+            data.restitution,
+            match others {
+                0 => "nothing".to_owned(),
+                1 => "a further attractor".to_owned(),
+                more => format!("{more} further attractors"),
+            },
+            data.window_top,
+            100.0 * data.windows.printed[0],
+            100.0 * data.windows.printed[1],
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
-        let printed = paper::section_four()?;
-        let forcings = printed.axial_forcings_of_fig7;
-        let cells = quality.choose(150, 1_000);
-        let (rows, columns) = quality.choose((320, 100), (1_600, 400));
-        progress.start(5 * cells as u64 + 2 * rows as u64, "rows");
-        // Side by side, for each has parts in which one thing follows from another.
-        let panels = || {
-            forcings
-                .into_par_iter()
-                .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
-                .collect::<Vec<_>>()
-        };
-        let decay = || {
-            let chaotic = panels::map(forcings[3], printed.restitution)?;
-            panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
-        };
-        let windows = || windows::windows(&printed, (rows, columns), progress);
-        let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
-        // The first error in the order of the panels, whichever comes first in time.
-        let panels = panels.into_iter().collect::<Result<_, _>>()?;
-        let (windows, decay) = (windows?, decay?);
-        let panels: Vec<data::Panel> = panels;
-        let [_, b, ..] = &panels[..] else {
-            return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
-        };
-        let traced = match b.others.first() {
-            Some(other) => scan::traced(b.axial_forcing, other, printed.restitution)?,
-            None => None,
-        };
-        Ok(Fig07Data {
-            restitution: printed.restitution,
-            window_top: WINDOW_TOP,
-            cells,
-            panels,
-            windows,
-            decay,
-            along_window: scan::along_window(&printed, quality)?,
-            beyond: scan::beyond(&printed, WINDOW_TOP, quality)?,
-            rest: scan::rest(&forcings, printed.restitution)?,
-            traced,
-        })
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig07Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::draw(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig07Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig07Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let pair = |name: &str, value: String| (name.to_owned(), value);
+        let forcings: Vec<String> =
+            data.panels.iter().map(|panel| draw::forcing_text(panel.axial_forcing)).collect();
+        let longest: Vec<String> = data.panels.iter().map(|panel| panel.max_impacts.to_string()).collect();
+        vec![
+            pair("restitution ε", data.restitution.to_string()),
+            pair("axial forcing Γ", forcings.join(", ")),
+            pair("τ_imp/2π", "0 to 1".to_owned()),
+            pair("|w_A Γ/(ωA)|", format!("0 to {}", data.window_top)),
+            pair("cells a panel", format!("{} × {}", data.cells, data.cells)),
+            pair("impacts followed", longest.join(", ")),
+            pair("chattering", "summed in closed form (complete)".to_owned()),
+        ]
     }
 }
 
@@ -100,7 +85,7 @@ mod tests {
 
     #[test]
     fn no_statement_of_the_paper_holds_without_data() {
-        let mut data = Fig07::run(Quality::Draft, &Silent).expect("runs");
+        let mut data = Fig07::compute(Quality::Draft, &Silent).expect("runs");
         assert!(Fig07::claims(&data).iter().all(|claim| !claim.lacks_data()));
         data.windows.curve.clear();
         data.along_window.clear();

@@ -1,19 +1,22 @@
 //! Fig. 11: steady-state speed and stall torque of the motor against preload.
 
 mod bouncing;
+mod claims;
+mod compute;
 mod data;
+mod draw;
 mod measured;
-mod picture;
-mod statements;
 mod trends;
+
+use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::motor_case::Form;
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
-use crate::table::Table;
-use bouncing_disk_plot::Figure;
+use crate::table::{Cell, Table};
 
 /// Fig. 11.
 #[derive(Debug)]
@@ -23,15 +26,39 @@ impl Experiment for Fig11 {
     type Data = Fig11Data;
     const ID: &'static str = "fig11";
     const TITLE: &'static str = "Effect of preload on steady-state speed and stall torque";
-    const READING: &str = include_str!("fig11/reading.md");
+    const DISCUSSION: &str = include_str!("fig11/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
 
     fn caption(data: &Fig11Data) -> String {
-        statements::caption(data)
+        let [first, last] = data.printed.preload_accelerations_m_per_s2;
+        let [from, to] = data.trend_mn();
+        let count = data.curves.first().map_or(0, |curve| curve.points.len());
+        format!(
+            "Effect of preload on steady-state speed and stall torque: (a), (b) ω/2π = {} kHz; (c), (d) {} kHz, which \
+             turns the paper's motor the other way. A = 10⁻⁹ (solid), 10⁻⁸ (dashed) and 10⁻⁷ m (dotted), each over all g = \
+             {first} to {last} m/s², since which g goes with which A is not printed; preload is m g with the weight of the \
+             20 mm steel ball. Dots, joined to guide the eye: means of {}, {} and {} members at the three amplitudes over {} rise times, which differ \
+             in the starting phase and in the seed of a relaunch perturbation below {} g/ω. The preloads are drawn at random, one in each of {count} \
+             equal parts of the range for each curve (seed {}). Bars, at a few dots of each curve: standard deviation of the members. \
+             Open circles: {} motors on a low-period chattering cycle, {} of them of a single flight (see the claims). Squares in (b) and (d): the load torque that \
+             really stalls the motor at A = 10⁻⁸ m and the lowest, the middle and the highest preload of the trends, where the dots are the paper's estimate of it. Grey: {from} \
+             to {to} mN. The paper's measurements (crosses) are not in its text.{}",
+            data.motor.frequency_hz / 1e3,
+            data.printed.frequencies_hz[1] / 1e3,
+            data.members[0],
+            data.members[1],
+            data.members[2],
+            data.rises,
+            data.relaunch_perturbation,
+            data.preload_seed,
+            data.holes.low_period,
+            data.holes.one_flight,
+            data.measured.caption(data),
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
-        data::run(quality, progress)
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn overlay(data: &mut Fig11Data, series: &Series) -> Result<(), ExperimentError> {
@@ -40,18 +67,73 @@ impl Experiment for Fig11 {
     }
 
     fn draw(data: &Fig11Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::draw(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig11Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig11Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let motor = &data.motor;
+        let pair = |name: &str, value: String| (name.to_owned(), value);
+        vec![
+            pair("μ", motor.friction.to_string()),
+            pair("ε", motor.restitution.to_string()),
+            pair("θ", format!("{} rad", motor.phase_lag_rad)),
+            pair("ωΦ", format!("{} rad/s", motor.peak_angular_speed_rad_per_s)),
+            pair("a_e", format!("{} m", motor.contact_radius_m)),
+            pair("a_g", format!("{} m", motor.gyration_radius_m)),
+            pair("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
+            pair("preloads", data.curves.first().map_or(0, |curve| curve.points.len()).to_string()),
+            pair("seed of the preloads", data.preload_seed.to_string()),
+            pair("members by amplitude", data.members.map(|count| count.to_string()).join(", ")),
+            pair("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
+            pair("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
+        ]
     }
 
     fn table(data: &Fig11Data) -> Option<Table> {
-        Some(statements::table(data))
+        let mut table = Table::new([
+            "frequency (Hz)",
+            "A (m)",
+            "g (m/s^2)",
+            "preload (mN)",
+            "Gamma",
+            "steady speed (rad/s)",
+            "its standard deviation (rad/s)",
+            "stall acceleration (rad/s^2)",
+            "its standard deviation (rad/s^2)",
+            "read from",
+            "members without fit",
+            "S(0)",
+            "low-period cycle",
+        ]);
+        for curve in &data.curves {
+            for point in &curve.points {
+                let statistics = &point.statistics;
+                let stall = statistics.stall_acceleration_rad_per_s2;
+                table.push([
+                    curve.frequency_hz.into(),
+                    curve.amplitude_m.into(),
+                    point.preload_acceleration_m_per_s2.into(),
+                    point.preload_mn.into(),
+                    point.axial_forcing.into(),
+                    statistics.steady_speed_rad_per_s.mean.into(),
+                    statistics.steady_speed_rad_per_s.deviation.into(),
+                    stall.map(|spread| spread.mean).into(),
+                    stall.map(|spread| spread.deviation).into(),
+                    match statistics.form {
+                        Form::Exponential => "exponential",
+                        Form::Ramp => "ramp",
+                    }
+                    .into(),
+                    Cell::Integer(statistics.unfitted as i64),
+                    point.net_share_at_rest.into(),
+                    if statistics.is_low_period() { statistics.cycle.words().into() } else { Cell::Empty },
+                ]);
+            }
+        }
+        Some(table)
     }
 }

@@ -1,15 +1,16 @@
 //! Fig. 12: transient speed curves of long-period and low-period chattering.
 
+mod claims;
+mod compute;
 mod data;
-mod picture;
-mod run;
-mod statements;
+mod draw;
+
+use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig12Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use bouncing_disk_plot::Figure;
 
 /// Fig. 12.
 #[derive(Debug)]
@@ -19,25 +20,54 @@ impl Experiment for Fig12 {
     type Data = Fig12Data;
     const ID: &'static str = "fig12";
     const TITLE: &'static str = "Speed transients of long-period and low-period chattering";
-    const READING: &str = include_str!("fig12/reading.md");
+    const DISCUSSION: &str = include_str!("fig12/discussion.md");
 
     fn caption(data: &Fig12Data) -> String {
-        statements::caption(data)
+        let (long, low) = (&data.long_period, &data.low_period);
+        format!(
+            "Speed transients of the motor of Table III that nothing perturbs. (a)–(c) A = {:e} m, g = {} m/s²: long-period \
+             chattering ({}); (d)–(f) g = {} m/s² and A = {:.12e} m, {:.1e} of the printed amplitude away, the nearest with a \
+             low-period cycle of more than one flight ({}). (a), (d) Speed during each flight; dashed: exponential fit, and \
+             what the impulses of one cycle predict. (b) Speed and (c), (f) height of the rotor in the blue windows, (f) over three cycles; \
+             (e) speed during each flight of ten cycles, dots of one colour for the same flight of every cycle, which form lines. At the printed amplitude itself the low-period case has a cycle of {}.",
+            data.cases.amplitudes_m[0],
+            long.motor.preload_acceleration_m_per_s2,
+            long.cycle.words(),
+            low.motor.preload_acceleration_m_per_s2,
+            low.motor.amplitude_m,
+            low.amplitude_offset.abs(),
+            low.cycle.words(),
+            claims::printed_low(data).map_or_else(String::new, |reading| reading.cycle.words()),
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
-        run::run(quality, progress)
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig12Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::draw(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig12Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let motor = &data.long_period.motor;
+        let pair = |name: &str, value: String| (name.to_owned(), value);
+        vec![
+            pair("μ", motor.friction.to_string()),
+            pair("ε", motor.restitution.to_string()),
+            pair("θ", format!("{} rad", motor.phase_lag_rad)),
+            pair("ωΦ", format!("{} rad/s", motor.peak_angular_speed_rad_per_s)),
+            pair("ω/2π", format!("{} Hz", motor.frequency_hz)),
+            pair("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
+            pair("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
+            pair("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
+            pair("relaunch perturbation", "none".to_owned()),
+            pair("motors that print like (a)–(c)", data.alike[0].inputs.clone()),
+            pair("motors that print like (d)–(f)", data.alike[1].inputs.clone()),
+        ]
     }
 }

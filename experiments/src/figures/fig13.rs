@@ -1,19 +1,20 @@
 //! Fig. 13: sensitivity of the motor to the five estimated parameters.
 
+mod claims;
+mod compute;
 mod data;
+mod draw;
 mod orbits;
-mod picture;
-mod reading;
-mod run;
 mod sensitivity;
-mod statements;
+mod sweeps;
+
+use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig13Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use crate::table::Table;
-use bouncing_disk_plot::Figure;
+use crate::table::{Cell, Table};
 
 /// Fig. 13.
 #[derive(Debug)]
@@ -23,29 +24,100 @@ impl Experiment for Fig13 {
     type Data = Fig13Data;
     const ID: &'static str = "fig13";
     const TITLE: &'static str = "Effect of the estimated parameters on steady-state speed and stall torque";
-    const READING: &str = include_str!("fig13/reading.md");
+    const DISCUSSION: &str = include_str!("fig13/discussion.md");
 
     fn caption(data: &Fig13Data) -> String {
-        statements::caption(data)
+        let left_out: usize = sweeps::sweep_points(data).filter(|point| point.stall().is_none()).count();
+        let low: usize = sweeps::sweep_points(data).filter(|point| point.statistics.is_low_period()).count();
+        format!(
+            "Effect of varying (a) μ, (b) ε, (c) θ, (d) A and (e) ωΦ about the default values (μ = {}, ε = {}, θ = {}, A = {:e} m, \
+             ωΦ = {} rad/s, g = {} m/s², {} kHz). Crosses, left scales: steady-state speed over ωΦ; dots, right scales: stall torque \
+             as an acceleration. Mean and standard deviation of {} members over {} rise times, relaunch perturbation below {} \
+             g/ω. Pale: {low} motors on a low-period cycle. {left_out} motors have no meaningful fit and no dot. Dotted: \
+             what the phases of the normal impulse predict; dash-dotted: the limit μ a_e g/a_g² of the stall torque; grey vertical lines: the default values. (f) Distribution of the normal impulse over the cycle of the stator. \
+             The paper's ranges are not in its text; these are ours.",
+            data.motor.friction,
+            data.motor.restitution,
+            data.motor.phase_lag_rad,
+            data.motor.amplitude_m,
+            data.motor.peak_angular_speed_rad_per_s,
+            data.motor.preload_acceleration_m_per_s2,
+            data.motor.frequency_hz / 1e3,
+            data.members,
+            data.rises,
+            data.relaunch_perturbation,
+        )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
-        run::run(quality, progress)
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn draw(data: &Fig13Data) -> Result<Figure, ExperimentError> {
-        Ok(picture::draw(data))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig13Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig13Data) -> Vec<(String, String)> {
-        statements::parameters(data)
+        let mut rows = Vec::new();
+        for sweep in &data.sweeps {
+            if let (Some(first), Some(last)) = (sweep.points.first(), sweep.points.last()) {
+                let value = format!(
+                    "{:.3e} to {:.3e} {}, {} values",
+                    first.value,
+                    last.value,
+                    sweep.parameter.unit(),
+                    sweep.points.len()
+                );
+                rows.push((sweep.parameter.symbol().to_owned(), value));
+            }
+        }
+        rows.push(("members".to_owned(), data.members.to_string()));
+        rows.push(("duration".to_owned(), format!("{} ωΦ a_g²/(μ a_e g)", data.rises)));
+        rows.push((
+            "relaunch perturbation".to_owned(),
+            format!("{} and {} g/ω", data.relaunch_perturbation, data.breaking_perturbation),
+        ));
+        rows.push(("inputs that print alike, but for ε".to_owned(), data.alike.inputs.clone()));
+        rows
     }
 
     fn table(data: &Fig13Data) -> Option<Table> {
-        Some(statements::table(data))
+        let mut table = Table::new([
+            "parameter",
+            "value (SI)",
+            "steady speed / (omega Phi)",
+            "its standard deviation",
+            "stall acceleration (rad/s^2)",
+            "its standard deviation (rad/s^2)",
+            "members without fit",
+            "low-period cycle",
+            "speed ratio, cycles broken",
+            "predicted speed ratio",
+            "predicted stall acceleration (rad/s^2)",
+        ]);
+        for sweep in &data.sweeps {
+            for point in &sweep.points {
+                let (statistics, top) = (&point.statistics, point.peak_angular_speed_rad_per_s);
+                let stall = statistics.stall_acceleration_rad_per_s2;
+                table.push([
+                    sweep.parameter.symbol().into(),
+                    point.value.into(),
+                    point.speed_ratio().into(),
+                    (statistics.steady_speed_rad_per_s.deviation / top).into(),
+                    stall.map(|spread| spread.mean).into(),
+                    stall.map(|spread| spread.deviation).into(),
+                    Cell::Integer(statistics.unfitted as i64),
+                    if statistics.is_low_period() { statistics.cycle.words().into() } else { Cell::Empty },
+                    (point.broken.steady_speed_rad_per_s.mean / top).into(),
+                    point.predicted_speed_ratio.into(),
+                    point.predicted_stall_acceleration_rad_per_s2.into(),
+                ]);
+            }
+        }
+        Some(table)
     }
 }

@@ -1,112 +1,29 @@
 //! Fig. 14: growth of the dough over multiple tosses.
 
-use serde::{Deserialize, Serialize};
+mod claims;
+mod compute;
+mod data;
+mod draw;
 
+use bouncing_disk_plot::Figure;
+
+use self::compute::{FRAMES_PER_S, SCATTER, SEED};
+pub use self::data::Fig14Data;
 use super::dough_record::{DIAMETERS, Growth};
-use super::regression::StraightLine;
-use super::synthetic::Noise;
-use super::toss_case::TossCase;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
-use crate::paper;
 use crate::progress::Progress;
-use bouncing_disk_plot::{
-    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Panel, SINGLE_COLUMN,
-    Scatter, Text, Ticks,
-};
-
-/// Frames per second of the synthetic record, and the standard deviation of its relative diameters: made up.
-const FRAMES_PER_S: f64 = 25.0;
-const SCATTER: f64 = 0.012;
-const SEED: u64 = 14;
 
 /// Fig. 14.
 #[derive(Debug)]
 pub struct Fig14;
 
-/// The printed line, what follows from it, and the estimator on synthetic diameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fig14Data {
-    /// Time of the start of the line (s), the end of the second toss.
-    pub start_s: f64,
-    /// Slope of d/d_0 (1/s).
-    pub slope_per_s: f64,
-    /// Growth between the first and the last toss, as a share.
-    pub growth: f64,
-    /// Duration of that growth on the printed line (s).
-    pub duration_s: f64,
-    /// The growth taken from the start of the first toss to the start of the last: number of tosses.
-    pub tosses_between: u32,
-    /// The growth taken from the start of the first toss to the end of the last: number of tosses.
-    pub tosses_inclusive: u32,
-    /// Growth per toss by the first of both readings, in per cent.
-    pub growth_per_toss_percent: f64,
-    /// By the second.
-    pub growth_per_toss_inclusive_percent: f64,
-    /// Number and start (s) of each toss, evenly spaced, by the first of both readings.
-    pub toss_start_s: Vec<(u32, f64)>,
-    /// Synthetic diameters, not measured: times (s) and d/d_0.
-    pub synthetic: Vec<(f64, f64)>,
-    /// Slope (1/s) of the least-squares line through them over its value at the start, and its standard
-    /// error.
-    pub synthetic_slope_per_s: f64,
-    /// Standard error of that slope (1/s).
-    pub synthetic_slope_error_per_s: f64,
-    /// Other seeds, and the share of them whose slope lies within two standard errors of the printed one.
-    pub records: u32,
-    /// See `records`.
-    pub recovered_share: f64,
-    /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth
-    /// of one toss (rad/s).
-    pub airborne_speed_change_rad_per_s: f64,
-    /// The printed uncertainty of the measured launch speed (rad/s).
-    pub measured_uncertainty_rad_per_s: f64,
-    /// Share of its rotation, in per cent, that a dough loses which grows so much while it flies: its angular
-    /// momentum does not change.
-    pub flight_spin_loss_percent: f64,
-    /// A user's own diameters.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measured: Option<Growth>,
-}
-
-/// Share of a normal distribution within two standard deviations.
-const WITHIN_TWO_ERRORS: f64 = 0.9545;
-
-impl Fig14Data {
-    /// Standard error of the share of the records that hold the slope; `None` without records.
-    fn spread(&self) -> Option<f64> {
-        let variance = WITHIN_TWO_ERRORS * (1.0 - WITHIN_TWO_ERRORS);
-        (self.records > 0).then(|| (variance / f64::from(self.records)).sqrt())
-    }
-
-    fn on_line(&self, time: f64) -> f64 {
-        1.0 + self.slope_per_s * (time - self.start_s)
-    }
-}
-
-/// A synthetic record, and the slope of the line through it over its value at the start, with its standard
-/// error.
-type Record = (Vec<(f64, f64)>, f64, f64);
-
-/// A record on the line `1 + slope (t − start)` for `duration`.
-fn record((start, slope, duration): (f64, f64, f64), seed: u64) -> Option<Record> {
-    let mut noise = Noise::new(seed);
-    let frames = (duration * FRAMES_PER_S) as u32;
-    let points: Vec<_> = (0..=frames)
-        .map(|frame| f64::from(frame) / FRAMES_PER_S)
-        .map(|after| (start + after, (1.0 + slope * after) * (1.0 + SCATTER * noise.bell())))
-        .collect();
-    let line = StraightLine::through(&points)?;
-    let (slope, error) = line.slope_over_value_at(start);
-    Some((points, slope, error))
-}
-
 impl Experiment for Fig14 {
     type Data = Fig14Data;
     const ID: &'static str = "fig14";
     const TITLE: &'static str = "Growth of the dough over multiple tosses";
-    const READING: &str = include_str!("fig14/reading.md");
+    const DISCUSSION: &str = include_str!("fig14/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[DIAMETERS];
 
     fn caption(data: &Fig14Data) -> String {
@@ -130,55 +47,8 @@ impl Experiment for Fig14 {
         )
     }
 
-    fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-        let seeds = quality.choose(200_u32, 2_000);
-        progress.start(u64::from(seeds), "records");
-        let printed = paper::dough_growth()?;
-        let duration_s = printed.growth / printed.fit_slope_per_s;
-        let [first, last] = printed.tosses.map(|toss| toss as u32);
-        let tosses_between = last - first;
-        let line = (printed.fit_start_s, printed.fit_slope_per_s, duration_s);
-        let within = |seed: u32| {
-            record(line, SEED + 1 + u64::from(seed))
-                .is_some_and(|(_, slope, error)| (slope - printed.fit_slope_per_s).abs() <= 2.0 * error)
-        };
-        let recovered = (0..seeds).filter(|seed| within(*seed)).count();
-        progress.advance(u64::from(seeds));
-        let (synthetic, slope, error) = record(line, SEED).unwrap_or_default();
-        let toss = TossCase::from(&paper::table_one()?);
-        let larger = 1.0 + printed.growth / f64::from(tosses_between);
-        Ok(Fig14Data {
-            start_s: printed.fit_start_s,
-            slope_per_s: printed.fit_slope_per_s,
-            growth: printed.growth,
-            duration_s,
-            tosses_between,
-            tosses_inclusive: tosses_between + 1,
-            growth_per_toss_percent: 100.0 * printed.growth / f64::from(tosses_between),
-            growth_per_toss_inclusive_percent: 100.0 * printed.growth / f64::from(tosses_between + 1),
-            toss_start_s: (0..=tosses_between)
-                .map(|k| {
-                    let share = f64::from(k) / f64::from(tosses_between);
-                    (first + k, printed.fit_start_s + share * duration_s)
-                })
-                .collect(),
-            synthetic,
-            synthetic_slope_per_s: slope,
-            synthetic_slope_error_per_s: error,
-            records: seeds,
-            recovered_share: recovered as f64 / f64::from(seeds),
-            airborne_speed_change_rad_per_s: TossCase {
-                gyration_radius_m: larger * toss.gyration_radius_m,
-                ..toss
-            }
-            .airborne_speed()?
-                - toss.airborne_speed()?,
-            measured_uncertainty_rad_per_s: paper::section_three()?
-                .launch_angular_speed_rad_per_s
-                .uncertainty,
-            flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
-            measured: None,
-        })
+    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
+        compute::compute(quality, progress)
     }
 
     fn overlay(data: &mut Fig14Data, series: &Series) -> Result<(), ExperimentError> {
@@ -187,78 +57,11 @@ impl Experiment for Fig14 {
     }
 
     fn draw(data: &Fig14Data) -> Result<Figure, ExperimentError> {
-        const HEIGHT: f64 = 190.0;
-        let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
-        let grid = Grid::new(SINGLE_COLUMN, HEIGHT, 1, 1).margins(margins);
-        let end = data.start_s + data.duration_s;
-        let ends = (data.start_s - 0.4, end + 0.4);
-        let straight = [(data.start_s, 1.0), (end, data.on_line(end))];
-        let scale = data.synthetic_slope_per_s;
-        let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
-        let mut panel = Panel::new(grid.cell(0, 0))
-            .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
-            .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
-            .layer(
-                Scatter::new(data.synthetic.iter().copied()).size(1.6).colour(Colour::GREY).name("synthetic"),
-            )
-            .layer(Line::new(straight).name("printed line"))
-            .layer(
-                Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"),
-            );
-        for (toss, start) in &data.toss_start_s {
-            let at = data.on_line(*start);
-            panel = panel
-                .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
-                .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
-        }
-        if let Some(growth) = &data.measured {
-            panel = panel.layers(growth.layers());
-        }
-        Ok(Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft))))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Fig14Data) -> Vec<Claim> {
-        vec![
-            Claim::printed("appendix.growth_per_toss", data.growth_per_toss_percent).note(format!(
-                "the printed growth over the {} tosses from the start of the first to the start of the last; on the printed \
-                 line it takes {:.2} s, {:.3} s a toss",
-                data.tosses_between,
-                data.duration_s,
-                data.duration_s / f64::from(data.tosses_between)
-            )),
-            Claim::reading(
-                Self::ID,
-                "appendix.growth_per_toss",
-                "growth per toss, the last toss counted",
-                data.growth_per_toss_inclusive_percent,
-            ),
-            Claim::statement(
-                Self::ID,
-                "this work",
-                "a dough that has grown by one toss's share leaves the hand of Table I's toss as fast, within the measured uncertainty",
-                data.airborne_speed_change_rad_per_s.abs() < data.measured_uncertainty_rad_per_s,
-                format!(
-                    "all radii of the dough larger, the hand the same: {:+.4} rad/s, where the measured speed is known to ± {} rad/s. A dough that grows so much \
-                     while it flies keeps its angular momentum and loses {:.1} % of its speed",
-                    data.airborne_speed_change_rad_per_s,
-                    data.measured_uncertainty_rad_per_s,
-                    data.flight_spin_loss_percent
-                ),
-            ),
-            Claim::statement(
-                Self::ID,
-                "this work",
-                "the line-fit estimator recovers the slope of synthetic records within its standard error",
-                data.spread().map(|spread| (data.recovered_share - WITHIN_TWO_ERRORS).abs() <= 3.0 * spread),
-                format!(
-                    "two standard errors hold the slope in {:.1} % of {} records; {:.1} % expected, with a standard error of {:.1} %",
-                    100.0 * data.recovered_share,
-                    data.records,
-                    100.0 * WITHIN_TWO_ERRORS,
-                    100.0 * data.spread().unwrap_or(f64::NAN)
-                ),
-            ),
-        ]
+        claims::claims(data)
     }
 
     fn parameters(data: &Fig14Data) -> Vec<(String, String)> {

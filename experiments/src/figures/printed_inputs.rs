@@ -7,9 +7,9 @@
 use super::motor_case::MotorCase;
 use super::synthetic::Noise;
 use super::toss_case::TossCase;
+use crate::catalogue::{self, CatalogueError};
 use crate::claim::Agreement;
 use crate::experiment::ExperimentError;
-use crate::ledger::{self, LedgerError};
 
 /// How many are drawn for a verdict.
 pub(crate) const DRAWN: usize = 200;
@@ -24,8 +24,8 @@ pub(crate) struct Range {
 impl Range {
     /// All that rounds to the entry `key`, times a power of ten. A printed zero is a choice, θ = 0 for a linear motion, and taken as exact: there is no
     /// last digit to round.
-    pub(crate) fn printed(key: &str, power: i32) -> Result<Self, LedgerError> {
-        let number = ledger::number(key, power)?;
+    pub(crate) fn printed(key: &str, power: i32) -> Result<Self, CatalogueError> {
+        let number = catalogue::number(key, power)?;
         let half = if number.value == 0.0 { 0.0 } else { number.half_unit };
         Ok(Self { low: number.value - half, high: number.value + half })
     }
@@ -106,7 +106,7 @@ impl PrintedInputs {
     /// or lies between it and the 10 m/s² up to which Sec. V B varies g.
     pub(crate) fn table_three() -> Result<Self, ExperimentError> {
         let gravity = Range::printed("table1.preload_acceleration", 0)?;
-        let highest = ledger::number("section5.highest_preload_acceleration", 0)?.value;
+        let highest = catalogue::number("section5.highest_preload_acceleration", 0)?.value;
         Ok(Self {
             friction: Range::printed("table3.friction", 0)?,
             restitution: Range::printed("table3.restitution", 0)?,

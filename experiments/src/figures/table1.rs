@@ -1,16 +1,17 @@
 //! Table I: the single toss, what its entries were computed from, and what follows from them.
 
+mod claims;
+mod compute;
 mod data;
-mod derived;
-mod statements;
+mod draw;
 
-pub use data::Table1Data;
+use bouncing_disk_plot::Figure;
 
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
-use bouncing_disk_plot::{Figure, Label, ruled_table};
+pub use data::Table1Data;
 
 /// Table I.
 #[derive(Debug)]
@@ -20,7 +21,7 @@ impl Experiment for Table1 {
     type Data = Table1Data;
     const ID: &'static str = "table1";
     const TITLE: &'static str = "Full specification of a single toss";
-    const READING: &str = include_str!("table1/reading.md");
+    const DISCUSSION: &str = include_str!("table1/discussion.md");
 
     fn caption(data: &Table1Data) -> String {
         format!(
@@ -32,39 +33,16 @@ impl Experiment for Table1 {
         )
     }
 
-    fn run(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
-        derived::compute()
+    fn compute(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
+        compute::compute()
     }
 
     fn draw(data: &Table1Data) -> Result<Figure, ExperimentError> {
-        let header = ["", "printed", "computed", "from"].map(Label::new);
-        let rows: Vec<Vec<Label>> = data
-            .rows
-            .iter()
-            .map(|row| {
-                let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-                let digits = row.decimals;
-                let uncertainty = row
-                    .uncertainty
-                    .as_ref()
-                    .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
-                let computed = row
-                    .computed
-                    .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
-                let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
-                vec![
-                    Label::new(&row.label),
-                    Label::plain(&printed),
-                    Label::plain(&computed),
-                    Label::new(&row.origin),
-                ]
-            })
-            .collect();
-        Ok(ruled_table(&header, &rows))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Table1Data) -> Vec<Claim> {
-        statements::claims(data)
+        claims::claims(data)
     }
 
     fn parameters(data: &Table1Data) -> Vec<(String, String)> {

@@ -1,249 +1,27 @@
 //! Table II: the effects of the uncertainties of the inputs on the airborne speed.
 
-use bouncing_disk::{LaunchSpeeds, Stroke};
-use serde::{Deserialize, Serialize};
+mod claims;
+mod compute;
+mod data;
+mod draw;
 
-use super::printed_inputs::{DRAWN, agreement, tosses};
-use super::toss_case::TossCase;
-use super::uncertainty::Propagated;
-use crate::claim::{self, Agreement, Claim, Verdict};
+use bouncing_disk_plot::Figure;
+
+pub use self::data::Table2Data;
+use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper::{self, Measured, SectionThree, TableOne, TableTwo};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
-use bouncing_disk_plot::{Figure, Label, ruled_table};
 
 /// Table II.
 #[derive(Debug)]
 pub struct Table2;
 
-/// The data of Table II.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Table2Data {
-    table_i: TableOne,
-    section: SectionThree,
-    airborne_speed_rad_per_s: f64,
-    effects: Vec<Effect>,
-    combined: Combined,
-    /// Effect of c, a_e, a_g, μ and both launch speeds, from which Eq. (14) computes ω and φ_L: the root sum of
-    /// squares.
-    uncertainty_from_launch_speeds_rad_per_s: f64,
-}
-
-/// The effect of one input's uncertainty on the airborne speed, in rad/s.
-#[derive(Debug, Serialize, Deserialize)]
-struct Effect {
-    input: String,
-    /// The entry of the ledger.
-    key: String,
-    unit: String,
-    value: f64,
-    uncertainty: f64,
-    /// Change of the speed if the input is larger by its uncertainty.
-    upper_rad_per_s: f64,
-    /// Change of the speed if it is smaller.
-    lower_rad_per_s: f64,
-    /// Half the difference of the two.
-    central_rad_per_s: f64,
-    /// Slope times uncertainty.
-    linear_rad_per_s: f64,
-    printed_rad_per_s: f64,
-    /// The symbol as it is set in print.
-    label: String,
-    /// Of tosses whose inputs all round to those of Table I, those whose half difference rounds to the printed effect.
-    agreement: Agreement,
-}
-
-/// The effects of all inputs together, in rad/s, from central effects.
-#[derive(Debug, Serialize, Deserialize)]
-struct Combined {
-    root_sum_of_squares_rad_per_s: f64,
-    sum_rad_per_s: f64,
-    largest_rad_per_s: f64,
-    /// Root sum of squares without the largest.
-    without_largest_rad_per_s: f64,
-}
-
-/// Share of an uncertainty over which a slope is taken.
-const SLOPE_STEP: f64 = 1e-4;
-
-/// An input of the toss: how the paper names it and how it is changed.
-struct Input {
-    symbol: &'static str,
-    name: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    measured: Measured,
-    printed: f64,
-    set: fn(&mut TossCase, f64),
-    get: fn(&TossCase) -> f64,
-}
-
-fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
-    [
-        Input {
-            symbol: "c",
-            name: "stroke",
-            label: "$c$",
-            unit: "m",
-            measured: table.stroke_m,
-            printed: printed.stroke_effect_rad_per_s,
-            set: |case, value| case.stroke_m = value,
-            get: |case| case.stroke_m,
-        },
-        Input {
-            symbol: "ω",
-            name: "angular_frequency",
-            label: r"$\omega$",
-            unit: "rad/s",
-            measured: table.angular_frequency_rad_per_s,
-            printed: printed.angular_frequency_effect_rad_per_s,
-            set: |case, value| case.angular_frequency_rad_per_s = value,
-            get: |case| case.angular_frequency_rad_per_s,
-        },
-        Input {
-            symbol: "a_e",
-            name: "contact_radius",
-            label: "$a_e$",
-            unit: "m",
-            measured: table.contact_radius_m,
-            printed: printed.contact_radius_effect_rad_per_s,
-            set: |case, value| case.contact_radius_m = value,
-            get: |case| case.contact_radius_m,
-        },
-        Input {
-            symbol: "a_g",
-            name: "gyration_radius",
-            label: "$a_g$",
-            unit: "m",
-            measured: table.gyration_radius_m,
-            printed: printed.gyration_radius_effect_rad_per_s,
-            set: |case, value| case.gyration_radius_m = value,
-            get: |case| case.gyration_radius_m,
-        },
-        Input {
-            symbol: "μ",
-            name: "friction",
-            label: r"$\mu$",
-            unit: "",
-            measured: table.friction,
-            printed: printed.friction_effect_rad_per_s,
-            set: |case, value| case.friction = value,
-            get: |case| case.friction,
-        },
-        Input {
-            symbol: "φ_L",
-            name: "amplitude_angle",
-            label: r"$\phi_L$",
-            unit: "rad",
-            measured: table.amplitude_angle_rad,
-            printed: printed.amplitude_angle_effect_rad_per_s,
-            set: |case, value| case.amplitude_angle_rad = value,
-            get: |case| case.amplitude_angle_rad,
-        },
-    ]
-}
-
-/// Seed of the tosses that print alike.
-const SEED: u64 = 2;
-
-fn effect(table: &TossCase, input: &Input, alike: &[TossCase]) -> Result<Effect, ExperimentError> {
-    let Measured { value, uncertainty } = input.measured;
-    let speed = |share: f64| {
-        let mut case = *table;
-        (input.set)(&mut case, value + share * uncertainty);
-        case.airborne_speed()
-    };
-    let half_difference = |toss: &TossCase| -> Result<f64, ExperimentError> {
-        let end = |sign: f64| {
-            let mut case = *toss;
-            (input.set)(&mut case, (input.get)(toss) + sign * uncertainty);
-            case.airborne_speed()
-        };
-        Ok(0.5 * (end(1.0)? - end(-1.0)?).abs())
-    };
-    let key = format!("table2.{}_effect", input.name);
-    let of_alike = alike.iter().map(half_difference).collect::<Result<Vec<_>, _>>()?;
-    let agreement = agreement(&key, of_alike)?;
-    let middle = speed(0.0)?;
-    let (upper, lower) = (speed(1.0)? - middle, speed(-1.0)? - middle);
-    Ok(Effect {
-        input: input.symbol.to_owned(),
-        key,
-        agreement,
-        unit: input.unit.to_owned(),
-        value,
-        uncertainty,
-        upper_rad_per_s: upper,
-        lower_rad_per_s: lower,
-        central_rad_per_s: 0.5 * (upper - lower),
-        linear_rad_per_s: (speed(SLOPE_STEP)? - speed(-SLOPE_STEP)?) / (2.0 * SLOPE_STEP),
-        printed_rad_per_s: input.printed,
-        label: input.label.to_owned(),
-    })
-}
-
-fn root_sum_of_squares(values: impl Iterator<Item = f64>) -> f64 {
-    values.map(|value| value * value).sum::<f64>().sqrt()
-}
-
-fn combined(effects: &[Effect]) -> Combined {
-    let sizes: Vec<_> = effects.iter().map(|effect| effect.central_rad_per_s.abs()).collect();
-    let largest = sizes.iter().copied().fold(0.0, f64::max);
-    let total = root_sum_of_squares(sizes.iter().copied());
-    Combined {
-        root_sum_of_squares_rad_per_s: total,
-        sum_rad_per_s: sizes.iter().sum(),
-        largest_rad_per_s: largest,
-        without_largest_rad_per_s: root_sum_of_squares(sizes.into_iter().filter(|size| *size < largest)),
-    }
-}
-
-/// The uncertainty of the airborne speed if the launch speeds are inputs, and ω and φ_L come from Eq. (14).
-fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<f64, ExperimentError> {
-    let inputs = [
-        section.launch_speed_m_per_s,
-        section.launch_angular_speed_rad_per_s,
-        table.stroke_m,
-        table.contact_radius_m,
-        table.gyration_radius_m,
-        table.friction,
-    ];
-    let airborne_speed =
-        |[axial_speed, angular_speed, stroke, contact_radius, gyration_radius, friction]: [f64; 6]| {
-            let launch = LaunchSpeeds { axial_speed, angular_speed, stroke, contact_radius };
-            let stroke = Stroke::from_launch_speeds(launch).map_err(ExperimentError::model)?;
-            TossCase {
-                stroke_m: stroke.stroke,
-                contact_radius_m: contact_radius,
-                angular_frequency_rad_per_s: stroke.angular_frequency,
-                amplitude_angle_rad: stroke.amplitude_angle,
-                gyration_radius_m: gyration_radius,
-                friction,
-                ..TossCase::from(table)
-            }
-            .airborne_speed()
-        };
-    Ok(Propagated::of(inputs, airborne_speed)?.root_sum_of_squares)
-}
-
-/// The change of the airborne speed that a reading of the table takes for an entry.
-type Read = fn(&Effect) -> f64;
-
-/// The ways to read "uncertainty due to an input".
-const READINGS: [(&str, Read); 5] = [
-    ("half the difference of both ends", |effect| effect.central_rad_per_s),
-    ("slope times uncertainty", |effect| effect.linear_rad_per_s),
-    ("lower end only", |effect| effect.lower_rad_per_s),
-    ("upper end only", |effect| effect.upper_rad_per_s),
-    ("larger of both ends", |effect| effect.upper_rad_per_s.abs().max(effect.lower_rad_per_s.abs())),
-];
-
 impl Experiment for Table2 {
     type Data = Table2Data;
     const ID: &'static str = "table2";
     const TITLE: &'static str = "Effects of input parameter uncertainties";
-    const READING: &str = include_str!("table2/reading.md");
+    const DISCUSSION: &str = include_str!("table2/discussion.md");
 
     fn caption(data: &Table2Data) -> String {
         format!(
@@ -254,85 +32,16 @@ impl Experiment for Table2 {
         )
     }
 
-    fn run(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
-        let table_i = paper::table_one()?;
-        let printed = paper::table_two()?;
-        let section = paper::section_three()?;
-        let table = TossCase::from(&table_i);
-        let inputs = inputs(&table_i, &printed);
-        progress.start(inputs.len() as u64, "inputs");
-        let alike = tosses(DRAWN, SEED)?;
-        let mut effects = Vec::new();
-        for input in &inputs {
-            effects.push(effect(&table, input, &alike)?);
-            progress.advance(1);
-        }
-        Ok(Table2Data {
-            airborne_speed_rad_per_s: table.airborne_speed()?,
-            combined: combined(&effects),
-            uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
-            effects,
-            table_i,
-            section,
-        })
+    fn compute(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
+        compute::compute(progress)
     }
 
     fn draw(data: &Table2Data) -> Result<Figure, ExperimentError> {
-        let header = [
-            "input",
-            "value",
-            r"effect on $\dot{\alpha}_f$ (rad/s)",
-            "at the upper end",
-            "at the lower end",
-            "printed",
-        ]
-        .map(Label::new);
-        let mut rows: Vec<Vec<Label>> = Vec::new();
-        for effect in &data.effects {
-            // As many decimals as the printed entry, and one or two more.
-            let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
-            let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
-            rows.push(vec![
-                Label::new(&effect.label),
-                Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
-                Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
-                Label::plain(&signed(effect.upper_rad_per_s, decimals)),
-                Label::plain(&signed(effect.lower_rad_per_s, decimals)),
-                Label::plain(&format!("± {}", effect.printed_rad_per_s)),
-            ]);
-        }
-        rows.push(vec![
-            Label::new(r"$\dot{\alpha}_f$"),
-            Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
-            Label::plain(&format!(
-                "± {:.2} (root sum of squares)",
-                data.combined.root_sum_of_squares_rad_per_s
-            )),
-            Label::plain(""),
-            Label::plain(""),
-            Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
-        ]);
-        Ok(ruled_table(&header, &rows))
+        Ok(draw::draw(data))
     }
 
     fn claims(data: &Table2Data) -> Vec<Claim> {
-        let mut claims = Vec::new();
-        for effect in &data.effects {
-            let claim =
-                Claim::printed(&effect.key, effect.central_rad_per_s.abs()).judged_over(effect.agreement);
-            claims.push(claim.note(format!(
-                "half the difference of the speeds at both ends, at the printed inputs; of {} tosses whose inputs all round to those of Table I {} give the printed \
-                 number; changes at the upper end {:+.4}, at the lower end {:+.4}, slope times uncertainty {:+.4}",
-                effect.agreement.tried,
-                effect.agreement.holding,
-                effect.upper_rad_per_s,
-                effect.lower_rad_per_s,
-                effect.linear_rad_per_s
-            )));
-        }
-        claims.push(readings(data));
-        claims.extend(together(data));
-        claims
+        claims::claims(data)
     }
 
     fn parameters(data: &Table2Data) -> Vec<(String, String)> {
@@ -372,58 +81,4 @@ impl Experiment for Table2 {
         }
         Some(table)
     }
-}
-
-fn signed(value: f64, decimals: usize) -> String {
-    format!("{value:+.decimals$}").replace('-', "−")
-}
-
-/// Which readings of the table give all its entries.
-fn readings(data: &Table2Data) -> Claim {
-    let agrees = |effect: &Effect, name: &str, read: Read| {
-        Claim::reading(Table2::ID, &effect.key, name, read(effect).abs()).verdict() == Verdict::Reproduced
-    };
-    let parts = READINGS.map(|(name, read)| {
-        let missed: Vec<_> = data
-            .effects
-            .iter()
-            .filter(|effect| !agrees(effect, name, read))
-            .map(|effect| format!("{} ({:.3})", effect.input, read(effect).abs()))
-            .collect();
-        match missed.is_empty() {
-            true => format!("{name}: all"),
-            false => format!("{name}: not {}", missed.join(", ")),
-        }
-    });
-    let complete =
-        READINGS.map(|(name, read)| claim::all(&data.effects, |effect| agrees(effect, name, read)));
-    Claim::statement(
-        Table2::ID,
-        "Table II",
-        "all six entries come out of Table I to the printed digits in one reading",
-        (!data.effects.is_empty()).then_some(complete.contains(&Some(true))),
-        parts.join("; "),
-    )
-}
-
-/// The uncertainty of all inputs together, by the usual rule and by the one that Table I follows.
-fn together(data: &Table2Data) -> [Claim; 2] {
-    const KEY: &str = "section3.predicted_airborne_speed_uncertainty";
-    let combined = &data.combined;
-    [
-        Claim::printed(KEY, combined.root_sum_of_squares_rad_per_s).note(format!(
-            "root of the sum of squares; the largest single effect is {:.1} and the root sum of squares of the others {:.1}, both of which print as the \
-             paper's number; ω and φ_L are not independent of c and a_e: with both launch speeds, c, a_e, a_g and μ as independent inputs it is {:.1}",
-            combined.largest_rad_per_s,
-            combined.without_largest_rad_per_s,
-            data.uncertainty_from_launch_speeds_rad_per_s
-        )),
-        Claim::reading(
-            Table2::ID,
-            KEY,
-            "the same as the plain sum of the effects, by which Table I's own uncertainties come out",
-            combined.sum_rad_per_s,
-        )
-        .note("no rule of both gives the printed number"),
-    ]
 }

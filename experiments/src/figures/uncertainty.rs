@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::paper::Measured;
+use crate::paper::Uncertain;
 
 /// A result and its uncertainty. The effect of an input is half the difference of the results at both ends of its
 /// range.
@@ -18,7 +18,7 @@ pub(crate) struct Propagated {
 impl Propagated {
     /// The result of `formula` for `inputs`, which it gets in the same order.
     pub(crate) fn of<const N: usize, E>(
-        inputs: [Measured; N],
+        inputs: [Uncertain; N],
         formula: impl Fn([f64; N]) -> Result<f64, E>,
     ) -> Result<Self, E> {
         let middle = inputs.map(|input| input.value);
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn a_linear_formula_adds_its_coefficients() {
-        let inputs = [Measured { value: 2.0, uncertainty: 0.3 }, Measured { value: 1.0, uncertainty: 0.2 }];
+        let inputs = [Uncertain { value: 2.0, uncertainty: 0.3 }, Uncertain { value: 1.0, uncertainty: 0.2 }];
         let result = Propagated::of(inputs, |[x, y]| Ok::<_, ()>(5.0 + x - 2.0 * y)).expect("no failure");
         assert!((result.value - 5.0).abs() < 1e-15);
         assert!((result.sum - 0.7).abs() < 1e-15 && (result.root_sum_of_squares - 0.5).abs() < 1e-15);

@@ -61,6 +61,16 @@ pub enum MeasuredError {
         /// The header.
         legal: String,
     },
+    /// A quotation mark begins a field and nothing ends it on the line.
+    #[error("{file}, line {line}, column {column}: a quotation mark is not closed on its line")]
+    OpenQuote {
+        /// The file.
+        file: &'static str,
+        /// The line.
+        line: usize,
+        /// The column of the field.
+        column: usize,
+    },
     /// The header has a name that is not known.
     #[error("{file}, line {line}, column {column}: the header has {value}; legal is {legal}")]
     UnknownColumn {

@@ -4,6 +4,10 @@
 //! blanks and one pair of double quotes around a field.
 
 use std::collections::BTreeMap;
+use std::io::{self, Read};
+use std::sync::Arc;
+
+use csv::{ReaderBuilder, StringRecord, Terminator};
 
 use super::error::MeasuredError;
 use super::layout::{Column, Layout, MOST_ROWS, Range, Role, whole};
@@ -22,24 +26,19 @@ pub(super) struct Rows {
 
 /// Reads all rows of a file.
 pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError> {
-    let text = text(layout, bytes)?;
-    let mut lines = text
-        .lines()
-        .enumerate()
-        .map(|(index, line)| (index + 1, line.trim()))
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let (mut line, names) =
-        lines.next().ok_or_else(|| MeasuredError::Empty { file: layout.file, legal: layout.header() })?;
-    let header = Header::read(layout, line, names)?;
+    let mut records = Records::new(layout.file, text(layout, bytes)?);
+    let empty = || MeasuredError::Empty { file: layout.file, legal: layout.header() };
+    let mut line = records.advance()?.ok_or_else(empty)?;
+    let header = Header::read(layout, line, &records.record)?;
     let mut order = Order::new(layout);
     let mut rows = Rows {
         values: Vec::new(),
         lines: Vec::new(),
         columns: header.places.iter().map(|place| place + 1).collect(),
     };
-    for (number, fields) in lines {
+    while let Some(number) = records.advance()? {
         line = number;
-        let row = header.row(line, fields)?;
+        let row = header.row(line, &records.record)?;
         order.check(&header, line, &row)?;
         if rows.values.len() == MOST_ROWS {
             return Err(MeasuredError::TooLong { file: layout.file, line, most: MOST_ROWS });
@@ -52,6 +51,48 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
         return Err(MeasuredError::TooShort { file: layout.file, line, rows, least });
     }
     Ok(rows)
+}
+
+/// The lines of a file that are neither blank nor a remark.
+struct Records<'a> {
+    file: &'static str,
+    reader: csv::Reader<io::Chain<&'a [u8], &'static [u8]>>,
+    record: StringRecord,
+}
+
+impl<'a> Records<'a> {
+    fn new(file: &'static str, text: &'a str) -> Self {
+        let reader = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .terminator(Terminator::Any(b'\n'))
+            // The last line may lack its end; of two ends in a row the second makes a blank line.
+            .from_reader(text.as_bytes().chain(b"\n".as_slice()));
+        Self { file, reader, record: StringRecord::new() }
+    }
+
+    /// Goes to the next record and says on which line it is; `None` at the end.
+    fn advance(&mut self) -> Result<Option<usize>, MeasuredError> {
+        let Self { file, reader, record } = self;
+        let unreadable = |error: csv::Error| {
+            let source = Arc::new(io::Error::from(error));
+            MeasuredError::Unreadable { file: (*file).to_owned(), source }
+        };
+        while reader.read_record(record).map_err(unreadable)? {
+            // The position of a record itself is that of the blank lines and remarks before it.
+            let line_ends = record.as_slice().matches('\n').count() + 1;
+            let line = (reader.position().line() as usize).saturating_sub(line_ends);
+            if let Some(place) = record.iter().position(|field| field.contains('\n')) {
+                return Err(MeasuredError::OpenQuote { file, line, column: place + 1 });
+            }
+            let first = record.get(0).unwrap_or_default().trim();
+            if !first.starts_with('#') && (record.len() > 1 || !first.is_empty()) {
+                return Ok(Some(line));
+            }
+        }
+        Ok(None)
+    }
 }
 
 fn text<'a>(layout: &Layout, bytes: &'a [u8]) -> Result<&'a str, MeasuredError> {
@@ -67,8 +108,9 @@ fn text<'a>(layout: &Layout, bytes: &'a [u8]) -> Result<&'a str, MeasuredError> 
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-fn fields(line: &str) -> impl Iterator<Item = &str> {
-    line.split(',').map(|field| {
+/// The fields without the blanks around them. The reader sees a quotation mark only where a field begins with it.
+fn fields(record: &StringRecord) -> impl Iterator<Item = &str> {
+    record.iter().map(|field| {
         let field = field.trim();
         let unquoted = field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
         unquoted.unwrap_or(field).trim()
@@ -83,11 +125,11 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    fn read(layout: &'a Layout, line: usize, names: &str) -> Result<Self, MeasuredError> {
+    fn read(layout: &'a Layout, line: usize, names: &StringRecord) -> Result<Self, MeasuredError> {
         let file = layout.file;
-        if layout.columns.len() > 1 && !names.contains(',') {
+        if layout.columns.len() > 1 && names.len() == 1 {
             let separators = [(';', "semicolons"), ('\t', "tabs")];
-            if let Some((_, found)) = separators.into_iter().find(|(sign, _)| names.contains(*sign)) {
+            if let Some((_, found)) = separators.into_iter().find(|(sign, _)| names[0].contains(*sign)) {
                 return Err(MeasuredError::Separator { file, line, found, legal: layout.header() });
             }
         }
@@ -118,15 +160,14 @@ impl<'a> Header<'a> {
         Ok(Self { layout, places: found.collect::<Result<_, _>>()? })
     }
 
-    fn row(&self, line: usize, text: &str) -> Result<Vec<f64>, MeasuredError> {
+    fn row(&self, line: usize, record: &StringRecord) -> Result<Vec<f64>, MeasuredError> {
         let file = self.layout.file;
-        // Counted before they are collected: a line may have any number of them.
-        let (count, columns) = (fields(text).count(), self.places.len());
+        let (count, columns) = (record.len(), self.places.len());
         if count != columns {
             let column = count.min(columns) + 1;
             return Err(MeasuredError::Fields { file, line, column, fields: count, columns });
         }
-        let values: Vec<&str> = fields(text).collect();
+        let values: Vec<&str> = fields(record).collect();
         let number = |(place, column): (&usize, &Column)| {
             let (text, name, legal) = (values[*place], column.name, column.range);
             let (column, value) = (place + 1, || Excerpt::of(text));
@@ -348,6 +389,16 @@ mod tests {
             fault(lines + "2,0.3,0,2\n"),
             "demo.csv, line 10002: the file has more than 10000 lines of numbers; legal are 10000 or fewer"
         );
+    }
+
+    #[test]
+    fn quotation_marks_hold_commas_and_end_on_their_line() {
+        assert!(
+            fault_of("1,\"0,3\",0.1,19").contains("line 3, column 2 (preload_n): \"0,3\" is not a number")
+        );
+        let open = "demo.csv, line 4, column 2: a quotation mark is not closed on its line";
+        assert_eq!(fault_of("# of May\n1,\"0.3,0.1,19\n1,0.3,0.2,18"), open);
+        assert_eq!(fault_of("\n1,\"0.3,0.1,19"), open);
     }
 
     #[test]

@@ -8,9 +8,8 @@ use bouncing_disk::{
     DimensionlessParameters, DimensionlessSystem, Engine, Error, EventKind, EventRecord, InitialCondition,
     Transition,
 };
-use serde::{Deserialize, Serialize};
 
-use super::laws::Laws;
+use super::data::{Attachments, Census, Counted, Laws};
 use crate::experiment::{ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -21,39 +20,6 @@ const PHASE_LAGS: [f64; 3] = [-0.26 * PI, 0.0, FRAC_PI_2];
 const FRICTIONS: [f64; 3] = [0.0, 0.1, 0.6];
 const RESTITUTIONS: [f64; 3] = [0.0, 0.5, 0.8];
 const LOADS: [f64; 2] = [0.0, 0.05];
-
-/// The transitions of many motions.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Census {
-    pub(super) peak_accelerations: Vec<f64>,
-    pub(super) twist_speeds: Vec<f64>,
-    pub(super) phase_lags_rad: Vec<f64>,
-    pub(super) frictions: Vec<f64>,
-    pub(super) restitutions: Vec<f64>,
-    pub(super) loads: Vec<f64>,
-    pub(super) longest_motion: usize,
-    pub(super) motions: u64,
-    pub(super) events: u64,
-    /// Motions that ended with an error of the engine.
-    pub(super) failures: u64,
-    /// In the order of the modes and events.
-    pub(super) transitions: Vec<Counted>,
-    pub(super) attachments: Attachments,
-    pub(super) laws: Laws,
-}
-
-/// What follows the impacts without rebound, ε = 0, by the contact force at the instant of the impact.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Attachments {
-    /// N > 0 and the disk attached at once.
-    pub(super) pressed_attached: u64,
-    /// N > 0 and it flew.
-    pub(super) pressed_launched: u64,
-    /// N <= 0 and it attached at once.
-    pub(super) unpressed_attached: u64,
-    /// N <= 0 and it flew.
-    pub(super) unpressed_launched: u64,
-}
 
 impl Attachments {
     fn count(&mut self, impact: &EventRecord, next: &EventRecord, system: &DimensionlessSystem) {
@@ -66,13 +32,6 @@ impl Attachments {
             (false, false) => &mut self.unpressed_launched,
         } += 1;
     }
-}
-
-/// A transition and how often it occurred.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Counted {
-    pub(super) transition: Transition,
-    pub(super) number: u64,
 }
 
 fn starts(system: &DimensionlessSystem) -> Result<[InitialCondition; 2], ExperimentError> {

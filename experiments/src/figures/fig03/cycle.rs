@@ -5,37 +5,18 @@ use bouncing_disk::{
     Engine, Error, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START,
     Trajectory,
 };
-use serde::{Deserialize, Serialize};
 
+use super::data::ChatteringCycle;
 use crate::experiment::{ExperimentError, Quality};
 
 /// A chattering orbit of the single-toss kind (Sec. IV A).
 const AXIAL_FORCING: f64 = 0.45;
 
-/// From one separation to the next; time in periods from the first collision between them, heights in
-/// amplitudes of the platform.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Cycle {
-    pub(super) axial_forcing: f64,
-    pub(super) restitution: f64,
-    pub(super) time_cycles: Vec<f64>,
-    pub(super) disk_height: Vec<f64>,
-    pub(super) platform_height: Vec<f64>,
-    /// The height of the first impact, which is at time 0.
-    pub(super) collision_height: f64,
-    pub(super) attachment_cycles: f64,
-    pub(super) attachment_height: f64,
-    pub(super) separation_cycles: f64,
-    pub(super) separation_height: f64,
-    /// Impacts before those that the attachment sums.
-    pub(super) impacts: usize,
-}
-
 fn model(error: bouncing_disk::core::Error) -> ExperimentError {
     ExperimentError::model(Error::from(error))
 }
 
-pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
+pub(super) fn cycle(quality: Quality) -> Result<ChatteringCycle, ExperimentError> {
     let restitution = crate::paper::value("section4.restitution")?;
     // The vertical motion does not depend on the rotary one.
     let system =
@@ -53,7 +34,7 @@ pub(super) fn cycle(quality: Quality) -> Result<Cycle, ExperimentError> {
     let first = trajectory.records().iter().find(|record| record.event.kind() == EventKind::Impact);
     let collision = first.map_or(0.0, |record| from_start(record.time));
     let since = |time: PhaseTime| from_start(time) - collision;
-    let mut cycle = Cycle {
+    let mut cycle = ChatteringCycle {
         axial_forcing: AXIAL_FORCING,
         restitution,
         time_cycles: Vec::new(),

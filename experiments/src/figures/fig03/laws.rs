@@ -3,56 +3,11 @@
 use bouncing_disk::{
     DimensionlessSystem, Event, EventKind, EventRecord, Mode, PlatformState, SlipDirection, Snapshot,
 };
-use serde::{Deserialize, Serialize};
+
+use super::data::Laws;
 
 /// Points of a segment at which the equations are checked, besides its ends.
 const CHECKS: u32 = 4;
-
-/// The largest faults found, each as a share of the sizes of the terms that should balance.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Laws {
-    /// Eq. (3): x = s and ẋ = ṡ in contact.
-    pub(super) contact_motion: f64,
-    /// Eq. (3): how far N falls below 0 in contact.
-    pub(super) negative_force: f64,
-    /// Eq. (3): |N| where the disk leaves.
-    pub(super) force_at_separation: f64,
-    /// Eq. (4): how far the torque that holds a sticking disk exceeds μ a_e N.
-    pub(super) holding_torque: f64,
-    /// Eqs. (4), (12): a sliding disk's change of speed against the integral of its torque.
-    pub(super) sliding_speed: f64,
-    /// Eq. (6).
-    pub(super) rebound: f64,
-    /// Eq. (7).
-    pub(super) axial_impulse: f64,
-    /// Eqs. (8)–(10): the impulse against the smaller of the two.
-    pub(super) frictional_impulse: f64,
-    /// Impacts that reverse the relative rotation.
-    pub(super) reversals: u64,
-    /// The parabola of Eq. (11) against the flight.
-    pub(super) flight: f64,
-    /// The parabola against the platform at the impact.
-    pub(super) impact: f64,
-    /// How far the disk is below the platform in flight.
-    pub(super) overlap: f64,
-    /// Torque of stick to slip against the limit.
-    pub(super) slip_onset: f64,
-    /// Sliding speed at slip to stick.
-    pub(super) slip_end: f64,
-    pub(super) checked: Checked,
-}
-
-/// How often each kind of motion or event was checked.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Checked {
-    pub(super) flights: u64,
-    pub(super) sticking: u64,
-    pub(super) sliding: u64,
-    pub(super) impacts: u64,
-    pub(super) separations: u64,
-    pub(super) slip_onsets: u64,
-    pub(super) slip_ends: u64,
-}
 
 /// A fault as a share of the sum of sizes; 0 where everything vanishes.
 fn share(fault: f64, sizes: &[f64]) -> f64 {

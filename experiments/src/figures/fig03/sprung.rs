@@ -9,8 +9,8 @@
 use bouncing_disk::core::elementary::{asin, hypot, sin, sin_cos};
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{Engine, EventKind, EventRecord, System, TOSS_START};
-use serde::{Deserialize, Serialize};
 
+use super::data::{Sprung, SprungFlight, SprungMotor};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::{MotorCase, core_error};
 use crate::paper;
@@ -21,48 +21,6 @@ const SHARE: f64 = 0.01;
 const DEFLECTIONS: [f64; 4] = [10.0, 100.0, 1_000.0, 10_000.0];
 /// Steps of a period in which the impact of a flight on a spring is looked for.
 const STEPS: f64 = 256.0;
-
-/// Springs under the motors of Fig. 10.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Sprung {
-    /// See `deflection_for_share_m`.
-    pub(super) preload_share: f64,
-    pub(super) motors: Vec<SprungMotor>,
-}
-
-/// A motor of Table III with an amplitude.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct SprungMotor {
-    pub(super) amplitude_m: f64,
-    pub(super) axial_forcing: f64,
-    /// Events of the motion from rest under constant preload in which the highest point was looked for.
-    pub(super) events: usize,
-    /// From the stator's lowest point to the rotor's highest.
-    pub(super) travel_m: f64,
-    /// The static deflection for which the preload changes by the share, from end to end of the travel.
-    pub(super) deflection_for_share_m: f64,
-    /// The first flight of a rotor at rest.
-    pub(super) flight_cycles: f64,
-    pub(super) springs: Vec<SprungFlight>,
-}
-
-/// The first flight of a rotor at rest with a spring, against that under constant preload.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct SprungFlight {
-    /// The static deflection over the travel.
-    pub(super) deflection_over_travel: f64,
-    /// Largest minus smallest preload during the flight, over g.
-    pub(super) preload_change: f64,
-    /// Duration with the spring over that without, minus 1.
-    pub(super) duration_change: f64,
-    /// The same for the speed of the fall at the impact.
-    pub(super) fall_speed_change: f64,
-    /// How much later in the stator's motion the impact comes, in periods.
-    pub(super) impact_shift_cycles: f64,
-    /// Bounds of `duration_change`: the earliest and the latest impact under any preload that the spring
-    /// gives.
-    pub(super) duration_bounds: (f64, f64),
-}
 
 /// A flight in the units of the engine: the height is that above the platform's mean, gravity is 1.
 #[derive(Clone, Copy, Debug)]

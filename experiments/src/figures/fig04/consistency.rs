@@ -8,13 +8,13 @@ use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::sin;
 
 use super::data::{CoarseGrid, Comparison, Conflict, Consistency, HandSpeed, Reading, TossPoint};
-use super::sweep::{best_angle, ratio, speed, speed_curve, speeds};
-use super::{TossCase, maximum_index};
+use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
 use crate::experiment::ExperimentError;
 use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
-use crate::paper::{Measured, SectionThree, TableOne};
+use crate::figures::toss_case::TossCase;
+use crate::paper::{SectionThree, TableOne, Uncertain};
 use crate::printed::PrintedNumber;
 
 /// Numbers that the paper prints about tosses with θ = 0.
@@ -116,7 +116,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn inputs(&self) -> [&Measured; PARAMETERS] {
+    fn inputs(&self) -> [&Uncertain; PARAMETERS] {
         let table = self.table;
         [
             &table.stroke_m,

@@ -3,8 +3,8 @@
 use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
-use super::TossCase;
 use crate::claim::Agreement;
+use crate::figures::toss_case::TossCase;
 use crate::paper::{SectionThree, TableOne};
 
 /// The data of Fig. 4.
@@ -49,7 +49,7 @@ pub struct Fig04Data {
 /// How many tosses whose inputs all round to those of Table I give a printed number.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct PrintedShare {
-    /// The entry of the ledger.
+    /// The entry of the catalogue.
     pub(super) key: String,
     pub(super) agreement: Agreement,
 }
@@ -255,7 +255,7 @@ pub(super) struct Reading {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Comparison {
     pub(super) quantity: String,
-    /// The entry of the ledger.
+    /// The entry of the catalogue.
     pub(super) key: String,
     pub(super) printed: String,
     /// In the unit of the printed number; angles in rad.

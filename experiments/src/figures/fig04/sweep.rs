@@ -10,9 +10,9 @@ use super::data::{
     Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, LagOptimum, LagProfile, NoLaunch,
     RatioSearch, Separation, SeparationCurve, SpeedCurve, Symmetry, TossPoint,
 };
-use super::{TossCase, maximum, maximum_index};
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::core_error;
+use crate::figures::toss_case::{TossCase, maximum};
 
 /// The paper's phase lags are n π/8 with n up to this.
 const LAGS: u32 = 8;
@@ -30,6 +30,17 @@ const RATIO_BRACKETS: u32 = 65;
 const TRIED_BEYOND: u32 = 100;
 /// The lags of the profile of the speed ratio run from minus this to plus this.
 const PROFILE_REACH: f64 = 0.25 * PI;
+
+/// The first index of the largest value.
+pub(super) fn maximum_index(values: impl Iterator<Item = f64>) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (index, value) in values.enumerate() {
+        if value > best.1 {
+            best = (index, value);
+        }
+    }
+    best.0
+}
 
 pub(super) fn phase_lag(n: u32) -> f64 {
     PI * f64::from(n) / f64::from(LAGS)

@@ -11,7 +11,8 @@ use bouncing_disk::{
 use rayon::prelude::*;
 
 use super::data::{Policies, SingleTosses, Slice};
-use super::scan::{Inputs, Systems, slice};
+use super::inputs::{Inputs, Systems};
+use super::slices::slice;
 use crate::experiment::ExperimentError;
 use crate::paper::SectionFour;
 

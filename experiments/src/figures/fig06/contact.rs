@@ -10,7 +10,7 @@ use bouncing_disk::{
 use rayon::prelude::*;
 
 use super::data::{Contact, Motion, Transfer};
-use super::scan::{Inputs, Systems, map};
+use super::inputs::{Inputs, Systems, map};
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
 use crate::paper;
@@ -125,7 +125,7 @@ fn motion(axial_forcing: f64, system: &DimensionlessSystem) -> Result<Motion, Ex
         last = Some(collision);
     }
     let (Some(first), Some(last)) = (first, last) else {
-        return Err(super::scan::no_orbit(axial_forcing));
+        return Err(super::inputs::no_orbit(axial_forcing));
     };
     let height = |phase: Phase| peak * phase.sin();
     let span = last.time.since(&first.time).radians();

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The identifier of the figure.
+pub(super) const ID: &str = "fig06";
+
 /// Data of Fig. 6.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fig06Data {

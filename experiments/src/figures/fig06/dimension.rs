@@ -6,7 +6,7 @@ use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, System};
 
 use super::data::{Dimension, TorqueRatio};
-use super::scan::no_orbit;
+use super::inputs::no_orbit;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
 use crate::figures::toss_case::TossCase;

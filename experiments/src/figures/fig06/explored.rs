@@ -12,8 +12,9 @@ use rayon::prelude::*;
 
 use super::chattering::from_rest;
 use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, Visited};
+use super::inputs::{Inputs, map, no_orbit};
 use super::merging::starts;
-use super::scan::{Inputs, map, no_orbit, rounded};
+use super::slices::rounded;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::circular::occupied_arc;
 

@@ -3,7 +3,7 @@
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow_attractor, survival_times};
 
 use super::data::Merging;
-use super::scan::{Inputs, map};
+use super::inputs::{Inputs, map};
 use crate::experiment::ExperimentError;
 
 /// Γ inside the chaotic range, where the starts of all trials lie on the attractor.

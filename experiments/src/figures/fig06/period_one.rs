@@ -6,7 +6,7 @@ use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState};
 use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, ForcingParameters};
 
 use super::data::{ClosedForms, LagScan, PeriodOne};
-use super::scan::{Inputs, map, no_orbit};
+use super::inputs::{Inputs, map, no_orbit};
 use crate::experiment::ExperimentError;
 
 /// Width at which the bisection on the threshold ends. The orbit is found next to its birth as far as Newton's iteration goes

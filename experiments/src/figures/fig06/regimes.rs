@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::data::{BestLag, Fig06Data, Shadow, Slice};
+use super::data::{BestLag, Fig06Data, ID, Shadow, Slice};
 use super::rotation::{extent, period_ones};
-use super::statements::ID;
+use crate::catalogue;
 use crate::claim::{self, Claim};
 use crate::figures::circular::occupied_arc;
-use crate::ledger;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = chattering(data);
@@ -296,7 +295,7 @@ fn chattering(data: &Fig06Data) -> Vec<Claim> {
     let single = &data.single_tosses;
     let policies = &data.policies;
     let printed_end =
-        ledger::number("section4.single_tosses_end", 0).map_or(f64::NAN, |printed| printed.value);
+        catalogue::number("section4.single_tosses_end", 0).map_or(f64::NAN, |printed| printed.value);
     let cycles = || data.chattering.iter().filter_map(|slice| slice.period);
     let (shortest, longest) = (cycles().min().unwrap_or_default(), cycles().max().unwrap_or_default());
     let settled = data.not_chattering.iter().filter(|of| of.period.is_some()).count();

@@ -198,7 +198,7 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         _ => "no period-1 orbit".to_owned(),
     };
     // What half a unit of the last digit of the printed lag does to the speed.
-    let printed = crate::ledger::number("section4.semielliptical_phase_lag", 0);
+    let printed = crate::catalogue::number("section4.semielliptical_phase_lag", 0);
     let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
     let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
     vec![
@@ -292,6 +292,63 @@ fn large_and_small(slice: &Slice) -> Option<[usize; 2]> {
     Some(if one > other { [0, 1] } else { [1, 0] })
 }
 
+/// The two impacts of period 2 against the platform: |w_T| in the larger of them, and the distances of the mean speed from the
+/// platform's speed in the impact of large and in that of small |w_A|, each in words, too.
+#[derive(Default)]
+struct TwoImpacts {
+    misses: Vec<f64>,
+    distances: Vec<(f64, f64)>,
+    words: Vec<String>,
+    weights: Vec<String>,
+}
+
+fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> TwoImpacts {
+    let motions = [
+        (
+            "(c)",
+            data.linear.phase_lag_rad,
+            (|slice| (&slice.linear, slice.linear_mean)) as fn(&Slice) -> (&Vec<f64>, f64),
+        ),
+        ("(d)", data.semielliptical.phase_lag_rad, |slice| {
+            (&slice.semielliptical, slice.semielliptical_mean)
+        }),
+    ];
+    let mut result = TwoImpacts::default();
+    for (name, lag, of) in motions {
+        // The least of the two impacts: Eq. (16) would have to hold in both.
+        let own: Vec<f64> = twos
+            .iter()
+            .map(|(slice, _)| {
+                let pairs = of(slice).0.iter().zip(&slice.impact_phase_cycles);
+                pairs.map(|(speed, phase)| (speed - cos(TAU * phase + lag)).abs()).fold(0.0, f64::max)
+            })
+            .collect();
+        let (least, most) = extent(own.iter().copied());
+        result
+            .words
+            .push(format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in {name}"));
+        result.misses.extend(own);
+        let platform = |slice: &Slice, impact: usize| cos(TAU * slice.impact_phase_cycles[impact] + lag);
+        let own: Vec<(f64, f64)> = twos
+            .iter()
+            .map(|(slice, [large, small])| {
+                let mean = of(slice).1;
+                ((mean - platform(slice, *large)).abs(), (mean - platform(slice, *small)).abs())
+            })
+            .collect();
+        let nearer = own.iter().filter(|(large, small)| large < small).count();
+        let at_end = own.last().map_or((f64::NAN, f64::NAN), |pair| *pair);
+        result.weights.push(format!(
+            "{name}: nearer to that of the large-|w_A| impact at {nearer} of {} values of Γ, at the last by {:.3} against {:.3} ωΦ",
+            own.len(),
+            at_end.0,
+            at_end.1
+        ));
+        result.distances.extend(own);
+    }
+    result
+}
+
 /// What is said about the region of period 2.
 fn period_two(data: &Fig06Data) -> Vec<Claim> {
     let twos: Vec<(&Slice, [usize; 2])> = between(data, 0, 1)
@@ -310,49 +367,7 @@ fn period_two(data: &Fig06Data) -> Vec<Claim> {
         (Some(first), Some(last)) => format!("{first:.4} to {last:.4}"),
         _ => "none".to_owned(),
     };
-    let motions = [
-        (
-            "(c)",
-            data.linear.phase_lag_rad,
-            (|slice| (&slice.linear, slice.linear_mean)) as fn(&Slice) -> (&Vec<f64>, f64),
-        ),
-        ("(d)", data.semielliptical.phase_lag_rad, |slice| {
-            (&slice.semielliptical, slice.semielliptical_mean)
-        }),
-    ];
-    let mut misses = Vec::new();
-    let mut distances = Vec::new();
-    let (mut words, mut weights) = (Vec::new(), Vec::new());
-    for (name, lag, of) in motions {
-        // The least of the two impacts: Eq. (16) would have to hold in both.
-        let own: Vec<f64> = twos
-            .iter()
-            .map(|(slice, _)| {
-                let pairs = of(slice).0.iter().zip(&slice.impact_phase_cycles);
-                pairs.map(|(speed, phase)| (speed - cos(TAU * phase + lag)).abs()).fold(0.0, f64::max)
-            })
-            .collect();
-        let (least, most) = extent(own.iter().copied());
-        words.push(format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in {name}"));
-        misses.extend(own);
-        let platform = |slice: &Slice, impact: usize| cos(TAU * slice.impact_phase_cycles[impact] + lag);
-        let own: Vec<(f64, f64)> = twos
-            .iter()
-            .map(|(slice, [large, small])| {
-                let mean = of(slice).1;
-                ((mean - platform(slice, *large)).abs(), (mean - platform(slice, *small)).abs())
-            })
-            .collect();
-        let nearer = own.iter().filter(|(large, small)| large < small).count();
-        let at_end = own.last().map_or((f64::NAN, f64::NAN), |pair| *pair);
-        weights.push(format!(
-            "{name}: nearer to that of the large-|w_A| impact at {nearer} of {} values of Γ, at the last by {:.3} against {:.3} ωΦ",
-            own.len(),
-            at_end.0,
-            at_end.1
-        ));
-        distances.extend(own);
-    }
+    let TwoImpacts { misses, distances, words, weights } = two_impacts(data, &twos);
     vec![
         Claim::printed_statement(
             "section4.period_two_branches",
@@ -481,39 +496,4 @@ fn three_branches(data: &Fig06Data, period_four: &[&Slice]) -> [Claim; 2] {
             ),
         ),
     ]
-}
-
-/// The Γ at which two branches of the period-4 orbit have the same speed in (d), between two slices each.
-pub(super) fn branch_crossings(followed: &[Slice], doublings: &[f64]) -> Vec<f64> {
-    let [_, low, high, ..] = doublings else { return Vec::new() };
-    let mut crossings = Vec::new();
-    let mut before: Option<(f64, Vec<[f64; 3]>)> = None;
-    let inside = followed.iter().filter(|slice| slice.axial_forcing > *low && slice.axial_forcing < *high);
-    for slice in inside.filter(|slice| slice.period == Some(4)) {
-        let mut impacts: Vec<[f64; 3]> = (0..slice.semielliptical.len())
-            .map(|i| {
-                [slice.impact_phase_cycles[i], slice.normalised_impact_speed[i], slice.semielliptical[i]]
-            })
-            .collect();
-        if let Some((forcing, last)) = &before {
-            // A round may begin with any of its impacts: the one that continues the branches.
-            let apart = |shift: usize| -> f64 {
-                let pairs = last.iter().zip(impacts.iter().cycle().skip(shift));
-                pairs.map(|(a, b)| circular::distance(a[0], b[0]) + (a[1] - b[1]).abs()).sum()
-            };
-            let shift = (0..impacts.len()).min_by(|a, b| apart(*a).total_cmp(&apart(*b))).unwrap_or_default();
-            impacts.rotate_left(shift);
-            for one in 0..impacts.len() {
-                for other in 0..one {
-                    let was = last[one][2] - last[other][2];
-                    let is = impacts[one][2] - impacts[other][2];
-                    if (was < 0.0) != (is < 0.0) {
-                        crossings.push(forcing + (slice.axial_forcing - forcing) * was / (was - is));
-                    }
-                }
-            }
-        }
-        before = Some((slice.axial_forcing, impacts));
-    }
-    crossings
 }

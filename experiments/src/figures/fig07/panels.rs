@@ -10,6 +10,9 @@ use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, ex
 use crate::experiment::ExperimentError;
 use crate::progress::Progress;
 
+/// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
+/// both fractions that it prints come out (see [`super::windows`]).
+pub(super) const WINDOW_TOP: f64 = 5.0;
 /// Impacts after which a start at chaotic forcing counts as caught by the attractor; see [`decay`].
 const CAUGHT_BY_CHAOS: u32 = 400;
 /// Impacts after which a start is undecided where all attractors are periodic.
@@ -70,7 +73,7 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
 
 /// Other periodic attractors: what undecided cells of a coarse grid settle on.
 pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrbit>, ExperimentError> {
-    let grid = grid(super::WINDOW_TOP, COARSE, COARSE)?;
+    let grid = grid(WINDOW_TOP, COARSE, COARSE)?;
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
     let mut known = vec![first.clone()];
     'search: while known.len() < 4 {

@@ -1,9 +1,8 @@
 //! A pretwisted beam in perspective.
 
 use bouncing_disk::core::elementary::sin_cos;
-use glam::DVec3;
-
 use bouncing_disk_plot::{Camera, Colour, Drawing, Path, Stroke};
+use glam::DVec3;
 
 /// A beam of rectangular cross-section whose section turns uniformly with height.
 #[derive(Clone, Copy, Debug)]

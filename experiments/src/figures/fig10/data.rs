@@ -3,7 +3,6 @@
 use bouncing_disk::{ExponentialFit, Spread};
 use serde::{Deserialize, Serialize};
 
-use super::measured;
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{Cycle, PerturbationEffect};
 use crate::paper::{SectionFive, TableThree};
@@ -29,7 +28,7 @@ pub struct Fig10Data {
     pub(super) tsujino_peak_acceleration: f64,
     /// A user's own trials.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) measured: Vec<measured::Trial>,
+    pub(super) measured: Vec<Trial>,
 }
 
 /// One reading of Table III.
@@ -111,4 +110,13 @@ impl Alike {
         let [small, middle, large] = &self.motors;
         small.iter().zip(middle).zip(large).map(|((small, middle), large)| [small, middle, large])
     }
+}
+
+/// One measured trial with its fit.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Trial {
+    pub(super) trial: u32,
+    pub(super) time_s: Vec<f64>,
+    pub(super) angular_speed_rad_per_s: Vec<f64>,
+    pub(super) fit: ExponentialFit,
 }

@@ -7,14 +7,14 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bouncing_disk::core::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
-use serde::{Deserialize, Serialize};
 
+use super::data::{Coexisting, EndOfBouncing};
+use crate::catalogue;
 use crate::claim::Agreement;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::{MotorCase, core_error};
 use crate::figures::printed_inputs::DRAWN;
 use crate::figures::synthetic::Noise;
-use crate::ledger;
 
 /// Seed of the rotors.
 const SEED: u64 = 318;
@@ -22,38 +22,10 @@ const SEED: u64 = 318;
 /// A rotor that has not come to rest after so many impacts goes on bouncing: those that come to rest need some tens.
 const MOST_IMPACTS: usize = 10_000;
 
-/// What bouncing rotors do at Γ < 1/π.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct EndOfBouncing {
-    pub(super) seed: u64,
-    /// What still prints as the ε of Table III.
-    pub(super) restitutions: [f64; 2],
-    /// The largest launch speed (g/ω): A ω²/g of the default motor.
-    pub(super) largest_launch_speed: f64,
-    /// How many come to rest for good.
-    pub(super) at_rest: Agreement,
-    /// The most impacts that one of these needed.
-    pub(super) most_impacts: usize,
-    /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.
-    pub(super) threshold_restitution: f64,
-    pub(super) coexisting: Coexisting,
-}
-
-/// A rotor that is launched on the period-1 orbit below Γ = 1/π.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Coexisting {
-    pub(super) restitution: f64,
-    pub(super) axial_forcing: f64,
-    /// After so many impacts ...
-    pub(super) impacts: usize,
-    /// ... it still bounces.
-    pub(super) bounces: bool,
-}
-
 impl EndOfBouncing {
     pub(super) fn of(motor: &MotorCase) -> Result<Self, ExperimentError> {
         let largest_launch_speed = motor.system()?.peak_acceleration();
-        let printed = ledger::number("table3.restitution", 0)?;
+        let printed = catalogue::number("table3.restitution", 0)?;
         let restitutions = [printed.value - printed.half_unit, printed.value + printed.half_unit];
         let mut noise = Noise::new(SEED);
         let mut most_impacts = 0;

@@ -1,36 +1,12 @@
 //! The numbers of Fig. 11.
 
-use bouncing_disk::{Spread, TransientSettings};
-use rayon::prelude::*;
+use bouncing_disk::Spread;
 use serde::{Deserialize, Serialize};
 
-use super::bouncing::EndOfBouncing;
-use super::measured::Measured;
-use super::trends::{Holes, Trend};
-use crate::experiment::{ExperimentError, Quality};
-use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect, perturbation_table};
-use crate::figures::stall::{Stall, net_share_at_rest};
-use crate::figures::synthetic::Noise;
-use crate::paper::{self, Preloads};
-use crate::progress::Progress;
-
-/// Duration of a transient in rise times ωΦ a_g²/(μ a_e g): seven time constants or more.
-const RISES: f64 = 6.0;
-
-/// Relaunch perturbations (g/ω) for which the results are compared: none, and all sizes that were tried.
-const PERTURBATIONS: [f64; 8] = [0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
-
-/// Seed of the preloads.
-const PRELOAD_SEED: u64 = 46_201;
-
-/// Impacts of the orbit that gives a motor's S(0).
-const BALANCED_IMPACTS: usize = 1_500;
-
-/// Motors above the preloads of the trends for each curve beside those drawn: together at least 200 of them at each frequency.
-const MORE_ABOVE: u32 = 52;
-
-/// The share to which the stator's twist is reduced where a smaller one is looked at.
-const REDUCED_TWIST: f64 = 0.5;
+use crate::claim::Agreement;
+use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
+use crate::figures::stall::Stall;
+use crate::paper::Preloads;
 
 /// The data of Fig. 11.
 #[derive(Debug, Serialize, Deserialize)]
@@ -64,8 +40,8 @@ pub struct Fig11Data {
     pub(super) mirrored: Mirrored,
     pub(super) end_of_bouncing: EndOfBouncing,
     /// A user's own measurements.
-    #[serde(default, skip_serializing_if = "Measured::is_empty")]
-    pub(super) measured: Measured,
+    #[serde(default, skip_serializing_if = "MeasuredMotors::is_empty")]
+    pub(super) measured: MeasuredMotors,
 }
 
 /// One amplitude at one frequency.
@@ -127,159 +103,131 @@ impl Fig11Data {
 }
 
 /// The range of preloads (mN) of the measured trends.
-fn trend_mn(printed: &Preloads) -> [f64; 2] {
+pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
     printed.measured_range_n.map(|preload| 1e3 * preload)
 }
 
-pub(super) fn run(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
-    let printed = paper::preloads()?;
-    let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
-    let rotor_mass_kg = section.rotor_mass_kg();
-    let members = quality.choose([2, 3, 6], [3, 6, 24]);
-    let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
-    let count = quality.choose(20, 112);
-    let frequencies = printed.frequencies_hz;
-    let amplitudes = section.amplitudes_of_fig10_m;
-    let [low, high] = printed.measured_range_n.map(|preload| preload / rotor_mass_kg);
-    let three_preloads = [low, 0.5 * (low + high), high];
-    let [_, middle, _] = three_preloads;
-    progress.start((frequencies.len() * (amplitudes.len() + three_preloads.len() + 1)) as u64, "curves");
-
-    let mut noise = Noise::new(PRELOAD_SEED);
-    let (mut curves, mut perturbations, mut stalls) = (Vec::new(), Vec::new(), Vec::new());
-    for frequency_hz in frequencies {
-        for (amplitude_m, members) in amplitudes.into_iter().zip(members) {
-            let case = MotorCase { frequency_hz, amplitude_m, ..motor };
-            let [first, last] = printed.preload_accelerations_m_per_s2;
-            let mut motors = |from: f64, count: u32| {
-                let points = preloads([from, last], count, &mut noise)
-                    .into_par_iter()
-                    .map(|preload| {
-                        let case = MotorCase { preload_acceleration_m_per_s2: preload, ..case };
-                        point(&case, rotor_mass_kg, members, relaunch_perturbation)
-                    })
-                    .collect::<Vec<Result<Point, ExperimentError>>>();
-                points.into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
-            };
-            let (points, further) = (motors(first, count)?, motors(high, quality.choose(4, MORE_ABOVE))?);
-            curves.push(Curve { frequency_hz, amplitude_m, points, further });
-            progress.advance(1);
-        }
-        for preload in three_preloads {
-            let case = MotorCase { frequency_hz, preload_acceleration_m_per_s2: preload, ..motor };
-            stalls.push(StallAt {
-                frequency_hz,
-                preload_mn: 1e3 * rotor_mass_kg * preload,
-                stall: Stall::of(&case, quality.choose(4, 16), relaunch_perturbation)?,
-            });
-            progress.advance(1);
-        }
-        let case = MotorCase { frequency_hz, preload_acceleration_m_per_s2: middle, ..motor };
-        perturbations.push(perturbation_table(&case, &PERTURBATIONS, 2.0 * RISES, quality.choose(4, 24))?);
-        progress.advance(1);
-    }
-    let trends: Vec<Trend> =
-        curves.iter().map(|curve| Trend::of(curve, trend_mn(&printed), 1e3 * printed.plateau_n)).collect();
-    let over_balance: Vec<f64> = curves
-        .iter()
-        .flat_map(|curve| &curve.points)
-        .filter(|point| point.preload_acceleration_m_per_s2 >= low)
-        .filter(|point| point.preload_acceleration_m_per_s2 <= high && !point.statistics.is_low_period())
-        .filter_map(|point| {
-            let estimate = point.statistics.stall_acceleration_rad_per_s2?.mean;
-            let limit =
-                MotorCase { preload_acceleration_m_per_s2: point.preload_acceleration_m_per_s2, ..motor }
-                    .largest_acceleration();
-            Some(estimate / (limit * point.net_share_at_rest))
-        })
-        .collect();
-    let second = MotorCase { frequency_hz: frequencies[1], preload_acceleration_m_per_s2: middle, ..motor };
-    Ok(Fig11Data {
-        holes: Holes::of(&curves),
-        estimate_over_balance: super::trends::extent(&over_balance).ok_or_else(|| no_data("stall torque"))?,
-        mean_estimate_over_balance: over_balance.iter().sum::<f64>() / over_balance.len() as f64,
-        reduced_twist: reduced_twist(&motor, quality.choose(4, 16), relaunch_perturbation)?,
-        mirrored: mirrored(&second, rotor_mass_kg, members[1], relaunch_perturbation)?,
-        end_of_bouncing: EndOfBouncing::of(&motor)?,
-        motor,
-        printed,
-        rotor_mass_kg,
-        members,
-        rises: RISES,
-        relaunch_perturbation,
-        preload_seed: PRELOAD_SEED,
-        curves,
-        trends,
-        stalls,
-        perturbations,
-        measured: Measured::default(),
-    })
+/// A power of the preload, fitted to logarithms.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Power {
+    pub(super) exponent: f64,
+    pub(super) standard_error: f64,
+    /// Share of the variance that it explains.
+    pub(super) explained: f64,
+    pub(super) motors: usize,
 }
 
-fn no_data(quantity: &str) -> ExperimentError {
-    ExperimentError::NoData { quantity: quantity.to_owned() }
+/// One curve: what its motors do inside the preloads of the measured trends, and beside them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Trend {
+    pub(super) frequency_hz: f64,
+    pub(super) amplitude_m: f64,
+    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration over preload.
+    pub(super) median_speed_rad_per_s: f64,
+    pub(super) median_stall_per_preload_rad_per_s2_mn: f64,
+    /// How many motors inside have a speed, a torque or both on the trend. A motor without a stall torque is off it.
+    pub(super) speed: Agreement,
+    pub(super) torque: Agreement,
+    pub(super) both: Agreement,
+    /// Speed and torque for [`OTHER_BOUNDS`] instead of [`SHARP`].
+    pub(super) speed_for_other_bounds: [Agreement; 2],
+    pub(super) torque_for_other_bounds: [Agreement; 2],
+    /// Motors inside on a low-period cycle, and those of them with speed and torque on the trend.
+    pub(super) low_period: usize,
+    pub(super) low_period_on_trend: usize,
+    /// Motors inside without a stall torque.
+    pub(super) without_torque: usize,
+    /// Exponents inside without the motors on a low-period cycle.
+    pub(super) torque_power: Option<Power>,
+    pub(super) speed_power: Option<Power>,
+    /// How many motors above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
+    pub(super) no_plateau: Agreement,
+    /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
+    pub(super) speed_exponent: Option<f64>,
+    pub(super) torque_exponent: Option<f64>,
+    /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
+    pub(super) high_torque_exponent: Option<f64>,
+    /// The exponent there without the motors on a low-period cycle.
+    pub(super) high_torque_power_without: Option<Power>,
+    /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
+    pub(super) no_fall: Agreement,
+    pub(super) no_rise_above: Agreement,
+    /// The same without the motors on a low-period cycle.
+    pub(super) no_fall_without: Agreement,
+    pub(super) no_rise_above_without: Agreement,
+    /// Slowest and fastest steady speed outside, of these.
+    pub(super) outside_without_rad_per_s: Option<[f64; 2]>,
 }
 
-fn point(
-    case: &MotorCase,
-    mass: f64,
-    members: usize,
-    relaunch_perturbation: f64,
-) -> Result<Point, ExperimentError> {
-    let preload = case.preload_acceleration_m_per_s2;
-    Ok(Point {
-        preload_acceleration_m_per_s2: preload,
-        preload_mn: 1e3 * mass * preload,
-        axial_forcing: case.system()?.axial_forcing(),
-        statistics: case.statistics(RISES, members, relaunch_perturbation)?,
-        net_share_at_rest: net_share_at_rest(case, BALANCED_IMPACTS, relaunch_perturbation)?,
-    })
+/// The motors on a low-period cycle, and what those of a single flight do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Holes {
+    pub(super) motors: usize,
+    pub(super) low_period: usize,
+    pub(super) one_flight: usize,
+    /// Smallest and largest fraction of Γ of the motors on a cycle of one flight, and the difference.
+    pub(super) one_flight_fractions: Option<[f64; 2]>,
+    pub(super) one_flight_window: Option<f64>,
+    /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
+    pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
+    pub(super) low_period_speeds_rad_per_s: Option<[f64; 2]>,
+    pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
 }
 
-/// Preload accelerations over a range: its equal parts, and in each of them one, drawn evenly. Which values the authors took is not printed, and a motor's
-/// orbit depends on it; a regular grid could meet or miss the preloads at which the motor is on a short cycle.
-fn preloads([first, last]: [f64; 2], count: u32, noise: &mut Noise) -> Vec<f64> {
-    (0..count)
-        .map(|index| first + (last - first) * (f64::from(index) + noise.even()) / f64::from(count))
-        .collect()
+/// What bouncing rotors do at Γ < 1/π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct EndOfBouncing {
+    pub(super) seed: u64,
+    /// What still prints as the ε of Table III.
+    pub(super) restitutions: [f64; 2],
+    /// The largest launch speed (g/ω): A ω²/g of the default motor.
+    pub(super) largest_launch_speed: f64,
+    /// How many come to rest for good.
+    pub(super) at_rest: Agreement,
+    /// The most impacts that one of these needed.
+    pub(super) most_impacts: usize,
+    /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.
+    pub(super) threshold_restitution: f64,
+    pub(super) coexisting: Coexisting,
 }
 
-fn reduced_twist(
-    motor: &MotorCase,
-    members: usize,
-    relaunch_perturbation: f64,
-) -> Result<ReducedTwist, ExperimentError> {
-    let twist = motor.peak_angular_speed_rad_per_s;
-    let speeds = [twist, REDUCED_TWIST * twist];
-    let statistics = |peak_angular_speed_rad_per_s: f64| {
-        MotorCase { peak_angular_speed_rad_per_s, ..*motor }.statistics(RISES, members, relaunch_perturbation)
-    };
-    let [printed, reduced] = [statistics(speeds[0])?, statistics(speeds[1])?];
-    Ok(ReducedTwist {
-        peak_angular_speeds_rad_per_s: speeds,
-        steady_speeds_rad_per_s: [printed.steady_speed_rad_per_s, reduced.steady_speed_rad_per_s],
-        stall_accelerations_rad_per_s2: printed
-            .stall_acceleration_rad_per_s2
-            .zip(reduced.stall_acceleration_rad_per_s2)
-            .map(|(printed, reduced)| [printed, reduced]),
-    })
+/// A rotor that is launched on the period-1 orbit below Γ = 1/π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Coexisting {
+    pub(super) restitution: f64,
+    pub(super) axial_forcing: f64,
+    /// After so many impacts ...
+    pub(super) impacts: usize,
+    /// ... it still bounces.
+    pub(super) bounces: bool,
 }
 
-fn mirrored(
-    motor: &MotorCase,
-    mass: f64,
-    members: usize,
-    relaunch_perturbation: f64,
-) -> Result<Mirrored, ExperimentError> {
-    let lags = [motor.phase_lag_rad, motor.phase_lag_rad + std::f64::consts::PI];
-    let speed = |phase_lag_rad: f64| -> Result<Spread, ExperimentError> {
-        let case = MotorCase { phase_lag_rad, ..*motor };
-        Ok(case.statistics(RISES, members, relaunch_perturbation)?.steady_speed_rad_per_s)
-    };
-    Ok(Mirrored {
-        preload_mn: 1e3 * mass * motor.preload_acceleration_m_per_s2,
-        phase_lags_rad: lags,
-        steady_speeds_rad_per_s: [speed(lags[0])?, speed(lags[1])?],
-    })
+/// A measured motor.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct MeasuredMotor {
+    /// The frequency of the panel.
+    pub(super) panel_frequency_hz: f64,
+    pub(super) frequency_hz: f64,
+    pub(super) preload_mn: f64,
+    pub(super) steady_speed_rad_per_s: f64,
+    pub(super) stall_torque_n_m: f64,
+    /// The torque over m a_g².
+    pub(super) stall_acceleration_rad_per_s2: f64,
+}
+
+/// The power of the preload to which the stall torque is proportional.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct MeasuredExponent {
+    pub(super) panel_frequency_hz: f64,
+    pub(super) value: f64,
+    pub(super) standard_error: f64,
+    pub(super) explained: f64,
+    pub(super) points: usize,
+}
+
+/// What was measured and fitted.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct MeasuredMotors {
+    pub(super) points: Vec<MeasuredMotor>,
+    pub(super) exponents: Vec<MeasuredExponent>,
 }

@@ -1,9 +1,8 @@
 //! A user's steady speeds and stall torques over the curves of Fig. 11.
 
 use bouncing_disk::core::elementary::ln;
-use serde::{Deserialize, Serialize};
 
-use super::data::Fig11Data;
+use super::data::{Fig11Data, MeasuredExponent, MeasuredMotor, MeasuredMotors};
 use crate::experiment::ExperimentError;
 use crate::figures::regression::StraightLine;
 use crate::measured::{Column, Layout, Range, Series};
@@ -24,39 +23,9 @@ pub(super) const LAYOUT: Layout = Layout {
 /// moves by a few percent.
 const SAME_FREQUENCY_WITHIN: f64 = 0.05;
 
-/// A measured motor.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct Point {
-    /// The frequency of the panel.
-    pub(super) panel_frequency_hz: f64,
-    frequency_hz: f64,
-    pub(super) preload_mn: f64,
-    pub(super) steady_speed_rad_per_s: f64,
-    stall_torque_n_m: f64,
-    /// The torque over m a_g².
-    pub(super) stall_acceleration_rad_per_s2: f64,
-}
-
-/// The power of the preload to which the stall torque is proportional.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct Exponent {
-    panel_frequency_hz: f64,
-    value: f64,
-    standard_error: f64,
-    explained: f64,
-    points: usize,
-}
-
-/// What was measured and fitted.
-#[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct Measured {
-    pub(super) points: Vec<Point>,
-    exponents: Vec<Exponent>,
-}
-
 /// Sorts the points into the panels and fits the stall torques of each within the preloads of the trends, as those of
 /// the model are.
-pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<Measured, ExperimentError> {
+pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<MeasuredMotors, ExperimentError> {
     let frequencies = data.printed.frequencies_hz;
     let mut points = Vec::new();
     for (row, [frequency_hz, preload_n, speed, torque]) in series.rows::<4>().enumerate() {
@@ -65,7 +34,7 @@ pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<Measured, Experi
             let legal = frequencies.map(|frequency| frequency.to_string()).join(" or ");
             series.illegal(row, 0, format!("within {} % of {legal}", 100.0 * SAME_FREQUENCY_WITHIN))
         })?;
-        points.push(Point {
+        points.push(MeasuredMotor {
             panel_frequency_hz,
             frequency_hz,
             preload_mn: 1e3 * preload_n,
@@ -82,7 +51,7 @@ pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<Measured, Experi
             .filter(|point| (from..=to).contains(&point.preload_mn))
             .map(|point| (ln(point.preload_mn), ln(point.stall_torque_n_m)))
             .collect();
-        StraightLine::through(&logarithms).map(|line| Exponent {
+        StraightLine::through(&logarithms).map(|line| MeasuredExponent {
             panel_frequency_hz,
             value: line.slope,
             standard_error: line.slope_error,
@@ -91,23 +60,23 @@ pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<Measured, Experi
         })
     });
     let exponents = exponents.collect();
-    Ok(Measured { points, exponents })
+    Ok(MeasuredMotors { points, exponents })
 }
 
-impl Measured {
+impl MeasuredMotors {
     pub(super) fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
     /// The points of a panel.
-    pub(super) fn at(&self, frequency_hz: f64) -> Vec<Point> {
-        let wanted = |point: &&Point| point.panel_frequency_hz.total_cmp(&frequency_hz).is_eq();
+    pub(super) fn at(&self, frequency_hz: f64) -> Vec<MeasuredMotor> {
+        let wanted = |point: &&MeasuredMotor| point.panel_frequency_hz.total_cmp(&frequency_hz).is_eq();
         self.points.iter().filter(wanted).copied().collect()
     }
 
     /// The words in the panel of the torques, if an exponent could be fitted.
     pub(super) fn label(&self, frequency_hz: f64) -> Option<String> {
-        let wanted = |fit: &&Exponent| fit.panel_frequency_hz.total_cmp(&frequency_hz).is_eq();
+        let wanted = |fit: &&MeasuredExponent| fit.panel_frequency_hz.total_cmp(&frequency_hz).is_eq();
         let fit = self.exponents.iter().find(wanted)?;
         Some(format!(r"measured: exponent ${:.2} \pm {:.2}$", fit.value, fit.standard_error))
     }

@@ -1,9 +1,8 @@
 //! The trends of Fig. 11 over the preloads.
 
 use bouncing_disk::core::elementary::ln;
-use serde::{Deserialize, Serialize};
 
-use super::data::{Curve, Point};
+use super::data::{Curve, Holes, Point, Power, Trend};
 use crate::claim::Agreement;
 use crate::figures::regression::StraightLine;
 use crate::figures::samples;
@@ -18,58 +17,6 @@ pub(super) const OTHER_BOUNDS: [f64; 2] = [0.1, 0.3];
 /// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload, and largest exponent of either
 /// sign (with two standard errors) at which the speed counts as independent of it: over the 3.5-fold range of preloads both make 13 %.
 pub(super) const EXPONENT_WITHIN: f64 = 0.1;
-
-/// A power of the preload, fitted to logarithms.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Power {
-    pub(super) exponent: f64,
-    pub(super) standard_error: f64,
-    /// Share of the variance that it explains.
-    pub(super) explained: f64,
-    pub(super) motors: usize,
-}
-
-/// One curve: what its motors do inside the preloads of the measured trends, and beside them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Trend {
-    pub(super) frequency_hz: f64,
-    pub(super) amplitude_m: f64,
-    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration over preload.
-    pub(super) median_speed_rad_per_s: f64,
-    pub(super) median_stall_per_preload_rad_per_s2_mn: f64,
-    /// How many motors inside have a speed, a torque or both on the trend. A motor without a stall torque is off it.
-    pub(super) speed: Agreement,
-    pub(super) torque: Agreement,
-    pub(super) both: Agreement,
-    /// Speed and torque for [`OTHER_BOUNDS`] instead of [`SHARP`].
-    pub(super) speed_for_other_bounds: [Agreement; 2],
-    pub(super) torque_for_other_bounds: [Agreement; 2],
-    /// Motors inside on a low-period cycle, and those of them with speed and torque on the trend.
-    pub(super) low_period: usize,
-    pub(super) low_period_on_trend: usize,
-    /// Motors inside without a stall torque.
-    pub(super) without_torque: usize,
-    /// Exponents inside without the motors on a low-period cycle.
-    pub(super) torque_power: Option<Power>,
-    pub(super) speed_power: Option<Power>,
-    /// How many motors above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
-    pub(super) no_plateau: Agreement,
-    /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
-    pub(super) speed_exponent: Option<f64>,
-    pub(super) torque_exponent: Option<f64>,
-    /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
-    pub(super) high_torque_exponent: Option<f64>,
-    /// The exponent there without the motors on a low-period cycle.
-    pub(super) high_torque_power_without: Option<Power>,
-    /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
-    pub(super) no_fall: Agreement,
-    pub(super) no_rise_above: Agreement,
-    /// The same without the motors on a low-period cycle.
-    pub(super) no_fall_without: Agreement,
-    pub(super) no_rise_above_without: Agreement,
-    /// Slowest and fastest steady speed outside, of these.
-    pub(super) outside_without_rad_per_s: Option<[f64; 2]>,
-}
 
 impl Trend {
     pub(super) fn of(curve: &Curve, [from, to]: [f64; 2], plateau_mn: f64) -> Self {
@@ -166,21 +113,6 @@ impl Power {
     pub(super) fn words(self) -> String {
         format!("{:+.3} ± {:.3}", self.exponent, self.standard_error)
     }
-}
-
-/// The motors on a low-period cycle, and what those of a single flight do.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Holes {
-    pub(super) motors: usize,
-    pub(super) low_period: usize,
-    pub(super) one_flight: usize,
-    /// Smallest and largest fraction of Γ of the motors on a cycle of one flight, and the difference.
-    pub(super) one_flight_fractions: Option<[f64; 2]>,
-    pub(super) one_flight_window: Option<f64>,
-    /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
-    pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
-    pub(super) low_period_speeds_rad_per_s: Option<[f64; 2]>,
-    pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
 }
 
 impl Holes {

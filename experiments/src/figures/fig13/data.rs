@@ -6,6 +6,9 @@ use crate::claim::Agreement;
 use crate::figures::circular::Concentration;
 use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
 
+/// The identifier of the figure.
+pub(super) const ID: &str = "fig13";
+
 /// The data of Fig. 13.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Fig13Data {

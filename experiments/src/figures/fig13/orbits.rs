@@ -4,9 +4,8 @@ use std::f64::consts::{FRAC_PI_8, PI};
 
 use bouncing_disk::core::elementary::ln;
 
-use super::data::{Fig13Data, Parameter, Prevalence, SweepPoint};
-use super::reading::{extent, sweep, sweep_points, words};
-use super::statements::ID;
+use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
+use super::sweeps::{extent, sweep, sweep_points, words};
 use crate::claim::{Agreement, Claim, Verdict, all};
 use crate::figures::circular::Concentration;
 use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;

@@ -3,8 +3,8 @@
 use bouncing_disk::core::elementary::cos;
 
 use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
-use super::reading::{
-    Reading, cosine_fit, elasticity, extent, low_period_words, read, speed, stall, sweep_points, words,
+use super::sweeps::{
+    Quantity, cosine_fit, elasticity, extent, low_period_words, read, speed, stall, sweep_points, words,
 };
 use crate::claim::{Agreement, Claim};
 use crate::figures::motor_case::relative_range;
@@ -65,8 +65,8 @@ pub(super) fn cosine(data: &Fig13Data) -> Claim {
 }
 
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
-    let lines = [speed as Reading, stall].map(|of| elasticity(data, Parameter::Amplitude, of));
-    let range = |of: Reading| {
+    let lines = [speed as Quantity, stall].map(|of| elasticity(data, Parameter::Amplitude, of));
+    let range = |of: Quantity| {
         let values: Vec<f64> = read(data, Parameter::Amplitude, of).iter().map(|point| point.1).collect();
         100.0 * relative_range(&values)
     };

@@ -4,14 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::claim::Agreement;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::{Measured, SectionThree, TableOne};
+use crate::paper::{SectionThree, TableOne, Uncertain};
 
 /// The data of Table I.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Table1Data {
     pub(super) table_i: TableOne,
     pub(super) section: SectionThree,
-    pub(super) slip_slope_deg: Measured,
+    pub(super) slip_slope_deg: Uncertain,
     pub(super) rows: Vec<Row>,
     pub(super) computed_entries: ComputedEntries,
     pub(super) separation: AtSeparation,

@@ -1,0 +1,146 @@
+//! The drawing of Fig. 6.
+
+use bouncing_disk_plot::{
+    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel,
+    Rect, Rule, Stroke, Text, Ticks,
+};
+
+use super::data::{Fig06Data, Slice};
+
+/// A column of the data.
+type Column = fn(&Slice) -> &[f64];
+
+pub(super) fn draw(data: &Fig06Data) -> Figure {
+    /// Of the four panels of the paper.
+    const UPPER: f64 = 400.0;
+    const HEIGHT: f64 = 570.0;
+    let margins = Margins { left: 46.0, right: 10.0, top: 22.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, UPPER, 2, 2).margins(margins).gaps(52.0, 12.0);
+    let (low, high) = data.axial_forcing_range;
+    let panel = |row: usize, column: usize, letter: &str, y: Axis, of: Column| {
+        let x = Axis::linear(low, high).ticks(Ticks::every(0.05).minor(5));
+        let x = if row == 0 { x.without_numbers() } else { x.label(r"$\Gamma$") };
+        let dots = |slices: &[Slice]| -> Vec<(f64, f64)> {
+            slices
+                .iter()
+                .flat_map(|slice| of(slice).iter().map(|value| (slice.axial_forcing, *value)))
+                .collect()
+        };
+        let panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
+        marked(panel, data, (row, column))
+            .layer(
+                DensePoints::new(dots(&data.chattering))
+                    .colour(Colour::LIGHT_GREY)
+                    .radius(0.3)
+                    .name("chattering"),
+            )
+            .layer(
+                DensePoints::new(dots(&data.followed))
+                    .colour(Colour::rgb(40, 40, 40))
+                    .radius(0.3)
+                    .name("followed from period 1"),
+            )
+    };
+    let speed = || Axis::linear(-1.1, 1.1).ticks(Ticks::every(0.5).minor(5));
+    let fastest = data
+        .followed
+        .iter()
+        .chain(&data.chattering)
+        .flat_map(|slice| slice.normalised_impact_speed.iter())
+        .fold(0.0_f64, |most, speed| most.max(*speed));
+    Figure::new(DOUBLE_COLUMN, HEIGHT).panels([
+        panel(
+            0,
+            0,
+            "a",
+            Axis::linear(0.0, 1.0).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(0.2).minor(4)),
+            |slice| &slice.impact_phase_cycles,
+        ),
+        panel(
+            0,
+            1,
+            "b",
+            Axis::linear(0.0, 1.08 * fastest)
+                .label(r"$|w_A\Gamma/(\omega A)|$")
+                .ticks(Ticks::every(0.5).minor(5)),
+            |slice| &slice.normalised_impact_speed,
+        ),
+        panel(1, 0, "c", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.linear)
+            .legend(Legend::at(Corner::BottomLeft)),
+        panel(1, 1, "d", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.semielliptical),
+        zoom(data, zoom_area(&grid, UPPER, HEIGHT)),
+    ])
+}
+
+/// Lines at the Γ of Fig. 7 and at the crisis, with their names where there is room.
+fn marked(mut panel: Panel, data: &Fig06Data, (row, column): (usize, usize)) -> Panel {
+    let (low, high) = data.axial_forcing_range;
+    for (forcing, name) in data.basin_axial_forcings.into_iter().zip(["a", "b", "c", "d", "e"]) {
+        let stroke = Stroke::new(Colour::VERMILION, 0.5).dashed(Dash::Dotted);
+        panel = panel.layer(Rule::vertical(forcing).stroke(stroke));
+        if row == 0 {
+            let place = (forcing - low) / (high - low);
+            // (b) and (c) are neighbours.
+            let (shift, anchor) = match name {
+                "b" => (0.006, Anchor::Right),
+                "c" => (-0.006, Anchor::Left),
+                _ => (0.0, Anchor::Middle),
+            };
+            let text = Text::at_axes(place + shift, 1.035, format!("({name})"));
+            panel = panel.layer(text.anchor(anchor).size(8.0).colour(Colour::VERMILION));
+        }
+    }
+    let crisis = data.merging.axial_forcing();
+    panel = panel.layer(Rule::vertical(crisis).stroke(Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed)));
+    if (row, column) == (0, 0) {
+        panel = panel.layer(Text::at_data(crisis + 0.004, 0.5, "crisis").size(8.0).colour(Colour::BLUE));
+    }
+    panel
+}
+
+/// The place of the enlarged part: below the others, over both columns.
+fn zoom_area(grid: &Grid, upper: f64, height: f64) -> Rect {
+    let (left, right) = (grid.cell(1, 0), grid.cell(1, 1));
+    Rect::new(left.left, upper + 18.0, right.right() - left.left, height - upper - 18.0 - 34.0)
+}
+
+/// The doublings that are marked in the enlarged part.
+const MARKED_DOUBLINGS: std::ops::RangeInclusive<usize> = 3..=5;
+/// Impact phases (periods) shown there: the upper half of the branches.
+const SHOWN_PHASES: (f64, f64) = (0.15, 0.35);
+
+/// The doublings that panel (a) is too coarse for.
+fn zoom(data: &Fig06Data, area: Rect) -> Panel {
+    let shown = |phase: &&f64| **phase > SHOWN_PHASES.0 && **phase < SHOWN_PHASES.1;
+    let dots: Vec<(f64, f64)> = data
+        .zoom
+        .iter()
+        .flat_map(|column| {
+            column.impact_phase_cycles.iter().filter(shown).map(|phase| (column.axial_forcing, *phase))
+        })
+        .collect();
+    let ends = |of: fn(&(f64, f64)) -> f64| {
+        dots.iter()
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let (low, high) = ends(|dot| dot.0);
+    let (lowest, highest) = ends(|dot| dot.1);
+    let room = 0.12 * (highest - lowest);
+    let mut panel = Panel::new(area)
+        .x(Axis::linear(low, high).label(r"$\Gamma$").ticks(Ticks::every(0.001).minor(5)))
+        .y(Axis::linear(lowest - room, highest + room)
+            .label(r"$\tau_{imp}/2\pi$")
+            .ticks(Ticks::every(0.01).minor(5)))
+        .letter("a'");
+    for n in MARKED_DOUBLINGS {
+        let Some(forcing) = data.doublings.get(n - 1) else { continue };
+        let stroke = Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed);
+        let place = (forcing - low) / (high - low);
+        let text = Text::at_axes(place, 1.035, format!(r"$\Gamma_{n}$"));
+        panel = panel
+            .layer(Rule::vertical(*forcing).stroke(stroke))
+            .layer(text.anchor(Anchor::Middle).size(8.0).colour(Colour::BLUE));
+    }
+    panel.layer(DensePoints::new(dots).colour(Colour::rgb(40, 40, 40)).radius(0.3))
+}

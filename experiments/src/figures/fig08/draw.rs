@@ -1,0 +1,228 @@
+//! The drawing of Fig. 8.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use bouncing_disk::core::elementary::sin_cos;
+use bouncing_disk_plot::{Anchor, Camera, Colour, Dash, Drawing, Figure, Path, Rect, SINGLE_COLUMN, Stroke};
+use glam::DVec3;
+
+use super::data::Fig08Data;
+use super::stator::Beam;
+use crate::figures::cylinder::{Cylinder, Look, arc, polar};
+
+const HEIGHT: f64 = 262.0;
+/// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up, in mm.
+const AZIMUTH: f64 = 0.5;
+const ELEVATION: f64 = 0.25;
+const DISTANCE: f64 = 260.0;
+const BEAM_LENGTH: f64 = 26.0;
+const TRANSDUCER: (f64, f64) = (9.0, 10.0);
+const MAGNET: (f64, f64) = (5.0, 7.0);
+const MAGNET_GAP: f64 = 5.0;
+/// Where the enlarged contact is drawn.
+const CONTACT: Rect = Rect::new(SINGLE_COLUMN - 92.0, 86.0, 88.0, 74.0);
+
+fn black() -> Stroke {
+    Stroke::new(Colour::BLACK, 0.7)
+}
+
+fn leader(drawing: Drawing, from: (f64, f64), to: (f64, f64), lines: &[&str]) -> Drawing {
+    let drawing = drawing.stroke(Path::through([from, to]), Stroke::new(Colour::GREY, 0.5));
+    lines.iter().enumerate().fold(drawing, |drawing, (index, line)| {
+        let at = (to.0 + 1.0, to.1 - 3.4 * index as f64);
+        drawing.text_styled(at, Anchor::LeftCentre, *line, Some(8.0), Colour::BLACK, 0.0)
+    })
+}
+
+fn look(colour: Colour) -> Look {
+    Look {
+        side: colour.mixed(Colour::WHITE, 0.45),
+        face: colour.mixed(Colour::WHITE, 0.75),
+        opacity: 1.0,
+        edge: black(),
+        through: false,
+    }
+}
+
+fn motor(data: &Fig08Data, area: Rect) -> Drawing {
+    let camera = Camera::around(DVec3::ZERO, AZIMUTH, ELEVATION, DISTANCE);
+    let radius = 0.5 * data.ball_diameter_mm;
+    // The ball's centre is the origin; the circle of contact lies below it.
+    let tip = data.contact_depth_mm - radius;
+    let foot = tip - BEAM_LENGTH;
+    let mut drawing = Drawing::with_equal_scales(area, (-16.5, 33.0), (-51.0, 27.0));
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
+    let transducer = Cylinder { radius: TRANSDUCER.0, bottom: foot - TRANSDUCER.1, top: foot };
+    drawing = transducer.drawn(drawing, &camera, &look(Colour::ORANGE));
+    let beam = Beam {
+        half_width: 4.2,
+        half_thickness: 1.6,
+        bottom: foot,
+        top: tip,
+        turned: AZIMUTH - 0.2,
+        twist: FRAC_PI_2,
+    };
+    drawing = beam.drawn(drawing, &camera, Colour::GREY, Stroke::new(Colour::DARK_GREY, 0.6));
+    let ball = Some((Colour::SKY.mixed(Colour::WHITE, 0.55), 1.0));
+    let (x, y) = at(0.0);
+    drawing = drawing.ellipse((x, y), (radius, radius), Some(black()), ball).ellipse(
+        (x - 0.35 * radius, y + 0.4 * radius),
+        (0.22 * radius, 0.16 * radius),
+        None,
+        Some((Colour::WHITE, 0.8)),
+    );
+    let magnet_foot = radius + MAGNET_GAP;
+    let magnet = Cylinder { radius: MAGNET.0, bottom: magnet_foot, top: magnet_foot + MAGNET.1 };
+    drawing = drawing.stroke(Path::through([at(magnet.top), at(magnet.top + 5.0)]), chain);
+    drawing = magnet.drawn(drawing, &camera, &look(Colour::VERMILION));
+    drawing = drawing.stroke(Path::through([at(radius), at(magnet.bottom - 1.2)]), chain);
+    // The rotation of the ball.
+    let turn = arc(&camera, 0.62 * radius, (AZIMUTH - 1.1, AZIMUTH + 1.1), 0.0);
+    drawing = drawing.arrow(turn, Stroke::new(Colour::BLACK, 0.9));
+    drawing = drawing.text((x, y - 0.47 * radius), Anchor::Centre, r"$\alpha$");
+    // The preload.
+    drawing =
+        drawing.arrow([(x, y + 0.75 * radius), (x, y + 0.04 * radius)], Stroke::new(Colour::VERMILION, 1.4));
+    drawing = sizes(drawing, data, &camera, tip);
+    // Poling and voltage.
+    let middle = 0.5 * (transducer.top + transducer.bottom);
+    let front = |height: f64| camera.project(polar(TRANSDUCER.0, AZIMUTH, height));
+    drawing = drawing
+        .arrow([front(middle - 3.0), front(middle + 2.2)], Stroke::new(Colour::BLACK, 1.1))
+        .text_styled(
+            (front(middle).0 + 1.2, front(middle).1),
+            Anchor::LeftCentre,
+            "poling",
+            Some(8.0),
+            Colour::BLACK,
+            0.0,
+        );
+    drawing = source(drawing, &camera, &transducer);
+    let edge = drawing.local((CONTACT.left + 2.0, CONTACT.top + 0.5 * CONTACT.height));
+    drawing = drawing
+        .ellipse((x, at(tip).1), (2.2, 1.6), Some(Stroke::new(Colour::GREY, 0.5)), None)
+        .stroke(Path::through([(x + 2.2, at(tip).1), edge]), Stroke::new(Colour::GREY, 0.5));
+    names(drawing, data, &camera, (foot, magnet.top))
+}
+
+/// The diameter of the ball, and how the tip of the beam moves.
+fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let (x, y) = at(0.0);
+    // Diameter.
+    let side = x - radius - 3.2;
+    for height in [y - radius, y + radius] {
+        drawing = drawing
+            .stroke(Path::through([(x, height), (side - 1.0, height)]), Stroke::new(Colour::GREY, 0.5));
+    }
+    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text_styled(
+        (side - 2.0, y),
+        Anchor::Middle,
+        format!("{} mm", data.ball_diameter_mm).as_str(),
+        Some(8.5),
+        Colour::BLACK,
+        90.0,
+    );
+    // The motion of the tip.
+    let swing = arc(camera, 6.6, (AZIMUTH - 0.75, AZIMUTH + 0.75), tip - 4.0);
+    let middle = swing.get(swing.len() / 2).copied().unwrap_or((x, y));
+    let mut back = swing.clone();
+    back.reverse();
+    drawing = drawing.arrow(swing, black()).arrow(back, black());
+    drawing = drawing.text((middle.0, middle.1 - 2.3), Anchor::Centre, r"$\beta$");
+    let lift = x - 9.0;
+    let level = at(tip).1;
+    drawing.double_arrow((lift, level - 9.0), (lift, level - 3.0), black()).text(
+        (lift - 1.0, level - 6.0),
+        Anchor::RightCentre,
+        "$s$",
+    )
+}
+
+/// What the parts are called.
+fn names(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, (foot, magnet_top): (f64, f64)) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let (x, y) = at(0.0);
+    let right = 16.0;
+    drawing = leader(
+        drawing,
+        (x + 4.0, at(magnet_top - 3.0).1),
+        (right, at(magnet_top - 1.0).1),
+        &["magnet", "(reduces the preload)"],
+    );
+    drawing = leader(drawing, (x + 0.7, y + 0.45 * radius), (right, y + 10.5), &["preload $mg$"]);
+    drawing =
+        leader(drawing, (x + 0.80 * radius, y + 0.35 * radius), (right, y + 6.0), &["steel ball (rotor)"]);
+    drawing = leader(
+        drawing,
+        (x + 3.0, at(foot + 8.0).1),
+        (right, at(foot + 6.0).1),
+        &["pretwisted beam", "(stator)"],
+    );
+    leader(
+        drawing,
+        (x + 7.5, at(foot - 5.0).1),
+        (right, at(foot - 5.0).1),
+        &["piezoelectric", "transducer,", "axially poled"],
+    )
+}
+
+/// A sinusoidal voltage between the faces of the transducer.
+fn source(drawing: Drawing, camera: &Camera, transducer: &Cylinder) -> Drawing {
+    let side = |height: f64| camera.project(polar(transducer.radius, AZIMUTH - FRAC_PI_2, height));
+    let (top, bottom) = (side(transducer.top - 0.6), side(transducer.bottom + 0.6));
+    let (x, middle) = (top.0 - 4.0, 0.5 * (top.1 + bottom.1));
+    let size = 2.1;
+    let wave = (0..=24).map(|step| {
+        let share = f64::from(step) / 24.0;
+        (x + size * 0.7 * (2.0 * share - 1.0), middle + 0.45 * size * sin_cos(TAU * share).0)
+    });
+    drawing
+        .stroke(Path::through([top, (x, top.1), (x, middle + size)]), black())
+        .stroke(Path::through([bottom, (x, bottom.1), (x, middle - size)]), black())
+        .ellipse((x, middle), (size, size), Some(black()), Some((Colour::WHITE, 1.0)))
+        .stroke(Path::through(wave), black())
+}
+
+/// The circle of contact, enlarged: a cut through the axis with the ball above the tip of the stator.
+fn contact(data: &Fig08Data, area: Rect) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let touch = data.table_iii.contact_radius_mm;
+    let depth = data.contact_depth_mm;
+    let mut drawing = Drawing::with_equal_scales(area, (-2.9, 2.9), (-2.6, 2.3));
+    let rim = (0.0, -0.05);
+    let frame = 2.75;
+    drawing =
+        drawing.ellipse(rim, (frame, 2.3), Some(Stroke::new(Colour::GREY, 0.5)), Some((Colour::WHITE, 1.0)));
+    // The ball's outline near the axis; heights from the circle of contact.
+    let below = |across: f64| radius - (radius * radius - across * across).sqrt() - depth;
+    let outline: Vec<(f64, f64)> =
+        (-40..=40).map(|step| 2.3 * f64::from(step) / 40.0).map(|across| (across, below(across))).collect();
+    let mut cap = outline.clone();
+    cap.extend([(2.3, 1.0), (-2.3, 1.0)]);
+    drawing = drawing
+        .fill(Path::through(cap).close(), Colour::SKY.mixed(Colour::WHITE, 0.55), 1.0)
+        .stroke(Path::through(outline), black());
+    // The rim of the stator's tip, cut on both sides of the axis.
+    for side in [-1.0, 1.0] {
+        let wall = [(touch, 0.0), (touch + 0.55, -0.25), (touch + 0.55, -0.9), (touch, -0.9)];
+        let wall = Path::through(wall.map(|(across, up)| (side * across, up))).close();
+        drawing = drawing.fill(wall.clone(), Colour::LIGHT_GREY, 1.0).stroke(wall, black());
+    }
+    let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
+    drawing = drawing.stroke(Path::through([(0.0, 1.15), (0.0, -1.3)]), chain);
+    let label = format!("$a_e = {}$ mm", data.table_iii.contact_radius_mm);
+    drawing
+        .stroke(Path::through([(touch, -0.95), (touch, -1.3)]), Stroke::new(Colour::GREY, 0.5))
+        .double_arrow((0.0, -1.17), (touch, -1.17), black())
+        .text_styled((0.0, -1.65), Anchor::Centre, label.as_str(), Some(8.0), Colour::BLACK, 0.0)
+        .text_styled((0.0, 1.55), Anchor::Centre, "contact", Some(8.0), Colour::BLACK, 0.0)
+}
+
+pub(super) fn draw(data: &Fig08Data) -> Figure {
+    let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
+    Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT))
+}

@@ -1,0 +1,235 @@
+//! The computation of Fig. 10.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::{
+    PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
+};
+
+use super::data::{Alike, Exception, Fig10Data, OtherPreload, Reading, Transient};
+use crate::experiment::{ExperimentError, Quality};
+use crate::figures::alike::alike;
+use crate::figures::motor_case::{MotorCase, perturbation_table};
+use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::paper::{self, STANDARD_GRAVITY};
+use crate::progress::Progress;
+
+/// Relaunch perturbations (units of g/omega) for which the steady speed is compared: from none at all.
+const PERTURBATIONS: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7, 1e-9, 0.0];
+/// Duration of the transients compared, in rise times.
+const COMPARED_RISES: [f64; 2] = [6.0, 12.0];
+/// Duration of the transients drawn with gravity and with the printed g (s).
+const DURATIONS_S: [f64; 2] = [6.0, 0.9];
+/// Duration of the transients that verdicts are taken over, in rise times.
+const JUDGED_RISES: f64 = 6.0;
+/// Seed of the inputs that print alike.
+const SEED: u64 = 10;
+/// Other values of g that print as 9.8, lie next to it, or are the highest of Sec. V B (m/s²).
+const OTHER_PRELOADS: [f64; 5] = [9.795, 9.805, STANDARD_GRAVITY, 9.81, 10.0];
+
+/// Curve points of the member that is drawn, and of the ensemble's band.
+pub(super) const MEMBER_INTERVALS: usize = 600;
+const BAND_POINTS: usize = 60;
+
+pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data, ExperimentError> {
+    let table = paper::table_three()?;
+    let section = paper::section_five()?;
+    let case = MotorCase::default_of(&table, &section);
+    let members = quality.choose(4, 32);
+    let defaults = TransientSettings::default();
+    let amplitudes = section.amplitudes_of_fig10_m;
+    progress.start((2 * amplitudes.len() + 3) as u64, "parts");
+
+    let mut readings = Vec::new();
+    for (preload, duration) in
+        [STANDARD_GRAVITY, table.preload_acceleration_m_per_s2].into_iter().zip(DURATIONS_S)
+    {
+        let mut panels = Vec::new();
+        for amplitude_m in amplitudes {
+            let motor = MotorCase { amplitude_m, preload_acceleration_m_per_s2: preload, ..case };
+            let settings = TransientSettings { duration, intervals: MEMBER_INTERVALS, ..defaults };
+            let runs = ensemble(&motor.system()?, &settings, members).map_err(ExperimentError::model)?;
+            panels.push(transient(&motor, &runs, section.rotor_mass_kg())?);
+            progress.advance(1);
+        }
+        readings.push(Reading {
+            preload_acceleration_m_per_s2: preload,
+            frequency_hz: section.default_frequency_hz,
+            duration_s: duration,
+            largest_acceleration_rad_per_s2: MotorCase { preload_acceleration_m_per_s2: preload, ..case }
+                .largest_acceleration(),
+            panels,
+        });
+    }
+    let exception = exception(&MotorCase { amplitude_m: amplitudes[0], ..case })?;
+    progress.advance(1);
+    let inputs = PrintedInputs::table_three()?;
+    let count = quality.choose(DRAWN / 10, DRAWN);
+    let alike = drawn_alike(inputs, |inputs| inputs, count)?;
+    let exact_settings =
+        drawn_alike(inputs, PrintedInputs::exact_settings, quality.choose(count / 2, count / 4))?;
+    progress.advance(1);
+    let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
+    let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
+    progress.advance(1);
+
+    let tsujino_axial_forcing = axial_forcing(
+        section.tsujino_amplitude_m,
+        section.tsujino_frequency_hz,
+        section.tsujino_preload_acceleration_m_per_s2,
+    )?;
+    Ok(Fig10Data {
+        members,
+        relaunch_perturbation: defaults.relaunch_perturbation,
+        readings,
+        exception,
+        alike,
+        exact_settings,
+        perturbations,
+        own_motor_axial_forcing: axial_forcing(
+            section.own_motor_amplitude_m,
+            section.default_frequency_hz,
+            section.gravity_m_per_s2,
+        )?,
+        tsujino_axial_forcing,
+        tsujino_peak_acceleration: PI * tsujino_axial_forcing,
+        table_iii: table,
+        section,
+        measured: Vec::new(),
+    })
+}
+
+/// Gamma of an amplitude (m), frequency (Hz) and preload acceleration (m/s^2).
+fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> Result<f64, ExperimentError> {
+    let angular_frequency = TAU * frequency_hz;
+    let stator = PlatformParameters { amplitude, twist_amplitude: 0.0, angular_frequency, phase_lag: 0.0 };
+    Ok(stator.build()?.axial_forcing(preload))
+}
+
+/// The motors of Table III at the three amplitudes, every input anywhere between what still rounds to the printed one.
+fn drawn_alike(
+    inputs: PrintedInputs,
+    settings: fn(PrintedInputs) -> PrintedInputs,
+    count: usize,
+) -> Result<Alike, ExperimentError> {
+    let motors = |key| -> Result<_, ExperimentError> {
+        alike(&settings(inputs.amplitude(key)?).drawn(count, SEED), JUDGED_RISES)
+    };
+    Ok(Alike {
+        inputs: settings(inputs).words(),
+        motors: [
+            motors("section5.smallest_amplitude_of_fig10")?,
+            motors("section5.middle_amplitude_of_fig10")?,
+            motors("section5.largest_amplitude_of_fig10")?,
+        ],
+    })
+}
+
+/// The cycle of this motor, the range of g in which it exists, and what the motor does elsewhere.
+fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
+    let printed = motor.preload_acceleration_m_per_s2;
+    let at = |preload: f64| MotorCase { preload_acceleration_m_per_s2: preload, ..*motor };
+    let cycle = motor.cycle(ChatterPolicy::Complete)?;
+    let repeats =
+        |preload: f64| Ok::<_, ExperimentError>(at(preload).cycle(ChatterPolicy::Complete)? == cycle);
+    // Doubled until the cycle is another one, then bisected to neighbouring doubles.
+    let end = |sign: f64| -> Result<f64, ExperimentError> {
+        let mut step = printed * f64::EPSILON;
+        while repeats(printed + sign * step)? && step < 0.5 * printed {
+            step *= 2.0;
+        }
+        let (mut inside, mut outside) = (printed + sign * 0.5 * step, printed + sign * step);
+        loop {
+            let middle = 0.5 * (inside + outside);
+            if (middle - inside).abs().min((middle - outside).abs()) <= printed * f64::EPSILON {
+                return Ok(inside);
+            }
+            if repeats(middle)? { inside = middle } else { outside = middle }
+        }
+    };
+    let settings = TransientSettings {
+        duration: DURATIONS_S[0],
+        intervals: MEMBER_INTERVALS,
+        ..TransientSettings::default()
+    };
+    let runs = ensemble(&motor.system()?, &settings, 1).map_err(ExperimentError::model)?;
+    let (curve, fit) = (&runs.curves[0], runs.fits[0]);
+    let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+    let (lowest, highest) = (end(-1.0)?, end(1.0)?);
+    Ok(Exception {
+        amplitude_m: motor.amplitude_m,
+        preload_acceleration_m_per_s2: printed,
+        peak_acceleration_over_two_pi_squared: motor.system()?.peak_acceleration() / (2.0 * PI * PI),
+        cycle,
+        lowest_preload_acceleration_m_per_s2: lowest,
+        highest_preload_acceleration_m_per_s2: highest,
+        relative_width: (highest - lowest) / printed,
+        others: OTHER_PRELOADS
+            .iter()
+            .map(|&preload| {
+                Ok(OtherPreload {
+                    preload_acceleration_m_per_s2: preload,
+                    cycle: at(preload).cycle(ChatterPolicy::Complete)?,
+                })
+            })
+            .collect::<Result<_, ExperimentError>>()?,
+        time_s: curve.times.clone(),
+        speed_rad_per_s: curve.speeds.clone(),
+        exponential_residual_rad_per_s: fit.residual,
+        ramp_residual_rad_per_s: ramp.residual,
+    })
+}
+
+/// Root mean square of member minus exponential fit over the steady speed, mean over the ensemble.
+fn relative_oscillation(runs: &TransientEnsemble) -> f64 {
+    runs.fits.iter().map(|fit| fit.residual / fit.steady_speed).sum::<f64>() / runs.fits.len() as f64
+}
+
+fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<Transient, ExperimentError> {
+    let system: System = motor.system()?;
+    let member = &runs.curves[0];
+    let per_point = member.times.len() / BAND_POINTS;
+    let (mut time, mut low, mut high) = (Vec::new(), Vec::new(), Vec::new());
+    for point in 0..BAND_POINTS {
+        let range = point * per_point..(point + 1) * per_point;
+        let means: Vec<f64> = runs
+            .curves
+            .iter()
+            .map(|curve| curve.speeds[range.clone()].iter().sum::<f64>() / per_point as f64)
+            .collect();
+        let spread = Spread::of(&means).map_err(ExperimentError::model)?;
+        time.push(0.5 * (member.times[range.start] + member.times[range.end - 1]));
+        low.push(spread.mean - spread.deviation);
+        high.push(spread.mean + spread.deviation);
+    }
+    let mut ramp_residual = 0.0;
+    for curve in &runs.curves {
+        let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+        ramp_residual += ramp.residual / ramp.steady_speed;
+    }
+    let inertia = mass * motor.gyration_radius_m * motor.gyration_radius_m;
+    let stall = runs.stall_acceleration;
+    Ok(Transient {
+        amplitude_m: motor.amplitude_m,
+        axial_forcing: system.axial_forcing(),
+        member_time_s: member.times.clone(),
+        member_speed_rad_per_s: member.speeds.clone(),
+        member_fit: runs.fits[0],
+        band_time_s: time,
+        band_low_rad_per_s: low,
+        band_high_rad_per_s: high,
+        steady_speed_rad_per_s: runs.steady_speed,
+        time_constant_s: runs.time_constant,
+        stall_acceleration_rad_per_s2: stall,
+        stall_torque_n_m: Spread {
+            mean: inertia * stall.mean,
+            deviation: inertia * stall.deviation,
+            standard_error: inertia * stall.standard_error,
+        },
+        relative_oscillation: relative_oscillation(runs),
+        relative_ramp_residual: ramp_residual / runs.curves.len() as f64,
+        cycle: motor.cycle(ChatterPolicy::Complete)?,
+        impacts_per_s: member.impacts as f64 / (member.times[0] + member.times[member.times.len() - 1]),
+    })
+}

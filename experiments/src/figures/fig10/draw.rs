@@ -1,0 +1,133 @@
+//! The drawing of Fig. 10.
+
+use bouncing_disk::ExponentialFit;
+use bouncing_disk_plot::{
+    Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Panel, Rect, Text,
+    Ticks,
+};
+
+use super::data::{Exception, Fig10Data, Reading, Transient, Trial};
+use crate::figures::power_of_ten::exponent;
+
+/// Height of a row.
+const ROW: f64 = 150.0;
+
+pub(super) fn draw(data: &Fig10Data) -> Figure {
+    let rows = if data.measured.is_empty() { 2 } else { 3 };
+    let height = ROW * rows as f64;
+    let grid = Grid::new(DOUBLE_COLUMN, height, rows, 3);
+    let mut figure = Figure::new(DOUBLE_COLUMN, height);
+    // The paper's (d)-(f) are measured curves, which stand in the third row.
+    let letters = [["a", "b", "c"], ["a′", "b′", "c′"]];
+    for (row, reading) in data.readings.iter().enumerate() {
+        let speeds = reading.panels.iter().flat_map(|panel| panel.member_speed_rad_per_s.iter().copied());
+        let highest = speeds.fold(0.0_f64, f64::max);
+        for (column, panel) in reading.panels.iter().enumerate() {
+            let exception = (row == 0 && column == 0).then_some(&data.exception);
+            let cell = grid.cell(row, column);
+            figure = figure.panel(drawn(cell, letters[row][column], reading, panel, highest, exception));
+        }
+    }
+    if let Some(panel) = data.readings.first().and_then(|reading| reading.panels.get(1)) {
+        let model = ExponentialFit {
+            steady_speed: panel.steady_speed_rad_per_s.mean,
+            time_constant: panel.time_constant_s.mean,
+            residual: 0.0,
+        };
+        for trial in &data.measured {
+            let cell = grid.cell(2, trial.trial as usize - 1);
+            figure = figure.panel(measured_panel(cell, &data.measured, trial, model));
+        }
+    }
+    figure
+}
+
+fn drawn(
+    area: Rect,
+    letter: &str,
+    reading: &Reading,
+    panel: &Transient,
+    highest: f64,
+    exception: Option<&Exception>,
+) -> Panel {
+    let fit = panel.member_fit;
+    let smooth = sampled(reading.duration_s, |time| fit.speed(time));
+    let band = panel
+        .band_time_s
+        .iter()
+        .zip(panel.band_low_rad_per_s.iter().zip(&panel.band_high_rad_per_s))
+        .map(|(&time, (&low, &high))| (time, low, high));
+    let member =
+        panel.member_time_s.iter().zip(&panel.member_speed_rad_per_s).map(|(&time, &speed)| (time, speed));
+    let note = |y: f64, text: String| Text::at_axes(0.96, y, text).anchor(Anchor::Right);
+    let named = |line: Line, panel: &str, name: &str| if letter == panel { line.name(name) } else { line };
+    let mut drawn = Panel::new(area)
+        .letter_in(letter, Corner::TopLeft)
+        .x(Axis::linear(0.0, reading.duration_s)
+            .ticks(Ticks::every(if reading.duration_s > 2.0 { 2.0 } else { 0.3 }))
+            .label(r"$t$ (s)"))
+        .y(Axis::linear(0.0, 1.4 * highest).ticks(Ticks::every(10.0)).label(r"$\dot{\alpha}$ (rad/s)"))
+        .layer(named(Line::new(member).colour(Colour::GREY).width(0.6), "a", "one member"))
+        .layer(named(
+            Line::new(smooth).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed),
+            "b",
+            "fit of the member",
+        ))
+        .layer(note(0.30, format!("$A = 10^{{{}}}$ m", exponent(panel.amplitude_m))))
+        .layer(note(0.22, format!("$g = {}$ m/s$^2$", reading.preload_acceleration_m_per_s2)))
+        .layer(note(0.14, format!(r"$\dot{{\alpha}}_{{ss}} = {:.1}$ rad/s", fit.steady_speed)))
+        .layer(note(0.06, format!("$t_c = {:.3}$ s", fit.time_constant)));
+    let band = Band::new(band).colour(Colour::BLUE).opacity(0.30);
+    drawn = drawn.layer(if letter == "b" { band.name("ensemble") } else { band });
+    if let Some(exception) = exception {
+        let curve =
+            exception.time_s.iter().zip(&exception.speed_rad_per_s).map(|(&time, &speed)| (time, speed));
+        let name = format!("$g = {}$ exactly", exception.preload_acceleration_m_per_s2);
+        let line = Line::new(curve).colour(Colour::VERMILION).width(1.0).dash(Dash::Dotted);
+        drawn = drawn.layer(line.name(name));
+    }
+    // Two entries of the legend in each of two panels, as there is little room above the curves.
+    if matches!(letter, "a" | "b") { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
+}
+
+/// A curve at 201 times from 0 to `duration`.
+fn sampled(duration: f64, curve: impl Fn(f64) -> f64) -> impl Iterator<Item = (f64, f64)> {
+    (0..=200).map(move |i| {
+        let time = duration * f64::from(i) / 200.0;
+        (time, curve(time))
+    })
+}
+
+/// The panel of a trial; `model` is the fit to the computed curves that it is compared with.
+fn measured_panel(area: Rect, trials: &[Trial], trial: &Trial, model: ExponentialFit) -> Panel {
+    let last = trials.iter().filter_map(|trial| trial.time_s.last().copied()).fold(0.0, f64::max);
+    let speeds = trials.iter().flat_map(|trial| trial.angular_speed_rad_per_s.iter().copied());
+    let (low, high) = speeds
+        .chain(trials.iter().map(|trial| trial.fit.steady_speed))
+        .chain([model.speed(last)])
+        .fold((0.0_f64, 0.0_f64), |(low, high), speed| (low.min(speed), high.max(speed)));
+    let room = 0.1 * (high - low);
+    let fit = trial.fit;
+    let points = trial.time_s.iter().copied().zip(trial.angular_speed_rad_per_s.iter().copied());
+    // The words stand where the curve does not go.
+    let bottom = if fit.steady_speed < 0.0 { 0.74 } else { 0.04 };
+    let note =
+        |line: f64, text: String| Text::at_axes(0.96, bottom + 0.08 * line, text).anchor(Anchor::Right);
+    let curve = |fit: ExponentialFit| sampled(last, move |time| fit.speed(time));
+    let drawn = Panel::new(area)
+        .letter_in(
+            ["g", "h", "i"].get(trial.trial as usize - 1).copied().unwrap_or_default(),
+            Corner::TopLeft,
+        )
+        .x(Axis::linear(0.0, last).label(r"$t$ (s)"))
+        .y(Axis::linear(if low < 0.0 { low - room } else { 0.0 }, high + 8.0 * room)
+            .label(r"$\dot{\alpha}$ (rad/s)"))
+        .layer(Line::new(points).colour(Colour::BLUE).width(0.6).name("measured"))
+        .layer(Line::new(curve(model)).colour(Colour::VERMILION).dash(Dash::Dotted).name("model, (b)"))
+        .layer(Line::new(curve(fit)).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed).name("fit"))
+        .layer(note(2.0, format!("measured, trial ${}$", trial.trial)))
+        .layer(note(1.0, format!(r"$\dot{{\alpha}}_{{ss}} = {:.1}$ rad/s", fit.steady_speed)))
+        .layer(note(0.0, format!("$t_c = {:.3}$ s", fit.time_constant)));
+    let first = trials.first().is_some_and(|first| first.trial == trial.trial);
+    if first { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
+}

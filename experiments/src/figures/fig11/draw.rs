@@ -1,0 +1,194 @@
+//! The drawing of Fig. 11.
+
+use bouncing_disk_plot::{
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins, Marker,
+    Panel, Scatter, Text, Ticks,
+};
+
+use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
+use crate::figures::power_of_ten::exponent;
+
+/// Colour and dashes of the three amplitudes, as the caption lists them.
+const STYLES: [(Colour, Dash); 3] =
+    [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
+
+/// Ends of the axes: speed, and stall acceleration.
+const SPEEDS: (f64, f64) = (-9.0, 57.0);
+const STALLS: (f64, f64) = (-4.0, 36.0);
+
+/// Shares of panel (a) that the legend takes with a line for the measurements, and a little more.
+const LEGEND_WIDTH: f64 = 0.78;
+/// See [`LEGEND_WIDTH`].
+const LEGEND_HEIGHT: f64 = 0.52;
+
+/// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would hide the curves.
+const BAR_EVERY: usize = 12;
+/// See [`BAR_EVERY`].
+const BAR_SHIFT: usize = 4;
+
+/// The ends of an axis, extended where measurements lie outside.
+fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values.fold(ends, |(low, high), value| (low.min(value), high.max(value)));
+    let room = 0.05 * (high - low);
+    (if low < ends.0 { low - room } else { low }, if high > ends.1 { high + room } else { high })
+}
+
+/// The ends of the speeds with room for the legend above the measurements that it would cover in panel (a).
+fn above_crosses(
+    speeds: (f64, f64),
+    preloads: (f64, f64),
+    crosses: impl Iterator<Item = (f64, f64)>,
+) -> (f64, f64) {
+    let left = preloads.1 - LEGEND_WIDTH * (preloads.1 - preloads.0);
+    let highest =
+        crosses.filter(|(preload, _)| *preload >= left).map(|(_, speed)| speed).fold(speeds.0, f64::max);
+    (speeds.0, speeds.1.max(speeds.0 + (highest - speeds.0) / (1.0 - LEGEND_HEIGHT)))
+}
+
+/// Ticks at every multiple of `step`, or automatic ones where the axis was extended.
+fn ticks(ends: (f64, f64), original: (f64, f64), step: f64, parts: u32) -> Ticks {
+    if ends == original { Ticks::every(step).minor(parts) } else { Ticks::automatic() }
+}
+
+/// The value and half-length of the error bar of a point.
+type Quantity = fn(&Point) -> Option<(f64, f64)>;
+
+fn steady_speed(point: &Point) -> Option<(f64, f64)> {
+    let spread = point.statistics.steady_speed_rad_per_s;
+    Some((spread.mean, spread.deviation))
+}
+
+fn stall(point: &Point) -> Option<(f64, f64)> {
+    point.statistics.stall_acceleration_rad_per_s2.map(|spread| (spread.mean, spread.deviation))
+}
+
+pub(super) fn draw(data: &Fig11Data) -> Figure {
+    const HEIGHT: f64 = 400.0;
+    let margins = Margins { left: 42.0, right: 48.0, top: 38.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 2).margins(margins).gaps(54.0, 14.0);
+    let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    let measured = &data.measured.points;
+    let to_mn = 1e3 * data.rotor_mass_kg;
+    let [_, last] = data.printed.preload_accelerations_m_per_s2;
+    let preloads = (0.0, 1.03 * last * to_mn);
+    let preload_ends = extended(preloads, measured.iter().map(|point| point.preload_mn));
+    let speed_ends = extended(SPEEDS, measured.iter().map(|point| point.steady_speed_rad_per_s));
+    let frequencies = data.printed.frequencies_hz;
+    let under_legend = data.measured.at(frequencies[0]);
+    let under_legend = under_legend.iter().map(|point| (point.preload_mn, point.steady_speed_rad_per_s));
+    let speed_ends = above_crosses(speed_ends, preload_ends, under_legend);
+    let stall_ends = extended(STALLS, measured.iter().map(|point| point.stall_acceleration_rad_per_s2));
+    for (row, frequency) in frequencies.into_iter().enumerate() {
+        let curves: Vec<&Curve> =
+            data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&frequency).is_eq()).collect();
+        let frame = |column: usize, letter: &str, y: Axis| {
+            let (low, high) = preload_ends;
+            let x = Axis::linear(low, high).ticks(ticks(preload_ends, preloads, 80.0, 4));
+            let top = Axis::linear(low / to_mn, high / to_mn).ticks(ticks(preload_ends, preloads, 2.0, 4));
+            let (x, top) = if row == 0 {
+                (x.without_numbers(), top.label(r"$g$ (m/s$^2$)"))
+            } else {
+                (x.label("preload (mN)"), top.without_numbers())
+            };
+            let [from, to] = data.trend_mn();
+            Panel::new(grid.cell(row, column)).x(x).top(top).y(y).letter(letter).layer(
+                Band::new([from, to].map(|preload| {
+                    (preload, speed_ends.0.min(stall_ends.0), speed_ends.1.max(stall_ends.1))
+                }))
+                .colour(Colour::PALE_GREY)
+                .opacity(0.6),
+            )
+        };
+        let speeds = Axis::linear(speed_ends.0, speed_ends.1)
+            .ticks(ticks(speed_ends, SPEEDS, 10.0, 2))
+            .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
+        let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, STALLS, 10.0, 2));
+        let stalls_really: Vec<(f64, f64)> = data
+            .stalls
+            .iter()
+            .filter(|at| at.frequency_hz.total_cmp(&frequency).is_eq())
+            .map(|at| (at.preload_mn, at.stall.load_rad_per_s2.mean))
+            .collect();
+        let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
+        let left = frame(0, ["a", "c"][row], speeds)
+            .layers(
+                curves
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(index, curve)| layers(curve, index, steady_speed, Names::Shown)),
+            )
+            .layer(squares(Vec::new()).name("stall load in (b), (d)"))
+            .layers(crosses(data, frequency, |point| point.steady_speed_rad_per_s))
+            .layer(label.clone());
+        let torque = 1e6 * data.moment_of_inertia();
+        let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
+            .right(
+                Axis::linear(torque * stall_ends.0, torque * stall_ends.1)
+                    .ticks(ticks(stall_ends, STALLS, 10.0, 2))
+                    .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
+            )
+            .layers(
+                curves
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(index, curve)| layers(curve, index, stall, Names::Hidden)),
+            )
+            .layer(squares(stalls_really))
+            .layers(crosses(data, frequency, |point| point.stall_acceleration_rad_per_s2))
+            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.85, words)))
+            .layer(label);
+        let left = if row == 0 { left.legend(Legend::at(Corner::TopRight)) } else { left };
+        figure = figure.panel(left).panel(right);
+    }
+    figure
+}
+
+/// The loads that really stall the motor.
+fn squares(points: Vec<(f64, f64)>) -> Scatter {
+    Scatter::new(points).marker(Marker::Square).colour(Colour::PURPLE).width(1.4).size(6.0)
+}
+
+/// The measured points of a panel, if there are any, with the crosses of the paper.
+fn crosses(data: &Fig11Data, frequency_hz: f64, quantity: fn(&MeasuredMotor) -> f64) -> Option<Scatter> {
+    let points = data.measured.at(frequency_hz);
+    let read = points.iter().map(|point| (point.preload_mn, quantity(point)));
+    let crosses = Scatter::new(read).marker(Marker::Cross).colour(Colour::GREEN).width(1.2).size(6.0);
+    (!points.is_empty()).then(|| crosses.name("measured"))
+}
+
+/// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a low-period cycle.
+fn layers(curve: &Curve, index: usize, quantity: Quantity, names: Names) -> Vec<Layer> {
+    let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
+    let read = |low_period: bool| -> Vec<(f64, f64, f64)> {
+        let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
+        wanted
+            .filter_map(|point| quantity(point).map(|(value, error)| (point.preload_mn, value, error)))
+            .collect()
+    };
+    let dots = read(false);
+    let barred: Vec<_> = dots.iter().skip(BAR_SHIFT * index).step_by(BAR_EVERY).copied().collect();
+    let scatter =
+        |points: &[(f64, f64, f64)]| Scatter::new(points.iter().map(|(x, y, _)| (*x, *y))).colour(colour);
+    let line = Line::new(dots.iter().map(|(x, y, _)| (*x, *y))).colour(colour).width(0.7).dash(dash);
+    let circles = scatter(&read(true)).marker(Marker::Circle).filled_white().size(3.4);
+    let (line, circles) = match names {
+        Names::Shown => (
+            line.name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m))),
+            if index + 1 == STYLES.len() { circles.name("low-period cycle") } else { circles },
+        ),
+        Names::Hidden => (line, circles),
+    };
+    vec![
+        line.into(),
+        scatter(&dots).size(1.8).into(),
+        scatter(&barred).errors_y(barred.iter().map(|point| point.2)).size(1.8).into(),
+        circles.into(),
+    ]
+}
+
+/// Whether layers have names for a legend.
+#[derive(Clone, Copy)]
+enum Names {
+    Shown,
+    Hidden,
+}

@@ -1,0 +1,402 @@
+//! The computation of Fig. 12.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::{
+    CollisionEvent, Collisions, Engine, InitialCondition, LONG_FLIGHT, NormalImpulses, PhasedImpulse,
+    RampFit, Trajectory, TransientSettings, transient,
+};
+use rayon::prelude::*;
+
+use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Reading, Rounding, Shown, Zoom};
+use crate::experiment::{ExperimentError, Quality};
+use crate::figures::alike::alike;
+use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error, perturbation_table};
+use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::regression::StraightLine;
+use crate::paper;
+use crate::progress::Progress;
+
+/// Relative distance of the amplitudes that are tried.
+const AMPLITUDE_STEP: f64 = 1e-13;
+/// Most amplitudes tried on each side.
+const MOST_STEPS: u32 = 5_000;
+/// Flights for which shares are counted.
+const FLIGHT_COUNTS: [usize; 7] = [1, 2, 3, 4, 10, 20, 50];
+/// Relaunch perturbations (g/ω) of the low-period case.
+const PERTURBATIONS: [f64; 8] = [0.0, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3, 1e-2, 1e-1];
+/// Duration drawn, in rise times ωΦ a_g²/(μ a_e g).
+const LONG_RISES: f64 = 6.0;
+/// Duration drawn of the low-period case, in predicted times to the steady speed.
+const LOW_RISES: f64 = 1.6;
+/// Impulses for the prediction of a long cycle.
+const IMPULSES: usize = 20_000;
+/// Samples of a zoom, and its flights.
+const ZOOM_SAMPLES: usize = 1_500;
+const ZOOM_FLIGHTS: usize = 12;
+/// Cycles of low period whose flights are drawn: enough to show their lines.
+const LINE_CYCLES: usize = 10;
+/// The first slope is that of this share of the rise.
+const FIRST_PART: f64 = 0.1;
+/// Seed of the inputs that print alike, and how many are drawn at most to find those of low period.
+const SEED: u64 = 12;
+const MOST_DRAWN: usize = 6_000;
+/// The zoom starts at this share of the time to the steady speed; of the long-period case, of the rise time.
+const ZOOM_AT: f64 = 0.5;
+/// The speed has reached its last value when it differs from it by this share.
+const REACHED_WITHIN: f64 = 0.02;
+
+pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
+    let cases = paper::chattering_cases()?;
+    let section = paper::section_five()?;
+    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let long = MotorCase {
+        amplitude_m: cases.amplitudes_m[0],
+        preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[0],
+        ..motor
+    };
+    let low = MotorCase {
+        amplitude_m: cases.amplitudes_m[1],
+        preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
+        ..motor
+    };
+    progress.start(7, "cases");
+    let mut printed = Vec::new();
+    for case in [long, low] {
+        // ω read as 2π times 70 kHz, and as 70 000 rad/s.
+        for frequency_hz in [case.frequency_hz, case.frequency_hz / TAU] {
+            for policy in [ChatterPolicy::Complete, bouncing_disk::PAPER_CHATTER] {
+                printed.push(Reading {
+                    amplitude_m: case.amplitude_m,
+                    preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
+                    angular_frequency_rad_per_s: TAU * frequency_hz,
+                    papers_cut: policy == bouncing_disk::PAPER_CHATTER,
+                    cycle: MotorCase { frequency_hz, ..case }.cycle(policy)?,
+                });
+            }
+        }
+    }
+    progress.advance(1);
+    let rounding = [long, low]
+        .iter()
+        .map(|case| rounding(case, quality.choose(100, 2_000)))
+        .collect::<Result<Vec<_>, _>>()?;
+    progress.advance(1);
+    let near = nearest_low_period(&low)?;
+    progress.advance(1);
+    let long_period = shown(long, long.amplitude_m)?;
+    progress.advance(1);
+    let low_period = shown(near, low.amplitude_m)?;
+    progress.advance(1);
+    let perturbations = perturbation_table(&near, &PERTURBATIONS, 6.0, quality.choose(4, 16))?;
+    progress.advance(1);
+    let count = quality.choose(DRAWN / 10, DRAWN);
+    let inputs = PrintedInputs::table_three()?;
+    let of_case = |amplitude, preload| inputs.amplitude(amplitude)?.preload_acceleration(preload);
+    let both = [
+        of_case("section5.amplitude_of_long_period", "section5.preload_acceleration_of_long_period")?,
+        of_case("section5.amplitude_of_low_period", "section5.preload_acceleration_of_low_period")?,
+    ];
+    let drawn = |inputs: PrintedInputs, count: usize| {
+        let motors = alike(&inputs.drawn(count, SEED), LONG_RISES)?;
+        Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
+    };
+    let [long_like, low_like] = both.map(|inputs| drawn(inputs, count));
+    let [long_exactly, low_exactly] =
+        both.map(|inputs| drawn(inputs.exact_settings(), quality.choose(count / 2, count / 4)));
+    let alike_of_low_period = first_of_low_period(&both[1], count)?;
+    progress.advance(1);
+    Ok(Fig12Data {
+        cases,
+        long_period,
+        low_period,
+        printed,
+        rounding,
+        low_period_flights: LOW_PERIOD_FLIGHTS,
+        perturbations,
+        alike: [long_like?, low_like?],
+        exact_settings: [long_exactly?, low_exactly?],
+        alike_of_low_period,
+    })
+}
+
+/// The first `count` motors of low period that are drawn.
+fn first_of_low_period(inputs: &PrintedInputs, count: usize) -> Result<LowPeriod, ExperimentError> {
+    let drawn = inputs.drawn(MOST_DRAWN.min(30 * count), SEED);
+    let cycles = drawn
+        .par_iter()
+        .map(|motor| motor.cycle(ChatterPolicy::Complete))
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let found: Vec<usize> =
+        (0..drawn.len()).filter(|&index| cycles[index].is_low_period()).take(count).collect();
+    let chosen: Vec<MotorCase> = found.iter().map(|&index| drawn[index]).collect();
+    Ok(LowPeriod {
+        drawn: found.last().map_or(drawn.len(), |last| last + 1),
+        lines: chosen
+            .par_iter()
+            .zip(&found)
+            .map(|(motor, &index)| lines(motor, cycles[index]))
+            .collect::<Result<_, _>>()?,
+        motors: alike(&chosen, LONG_RISES)?,
+    })
+}
+
+/// The lines of a low-period cycle, from two rounds of it right after the start.
+fn lines(motor: &MotorCase, cycle: Cycle) -> Result<Lines, ExperimentError> {
+    let flights = cycle.flights().unwrap_or_default();
+    let flown = flown(motor, 3 * flights, f64::INFINITY)?;
+    // The first round begins with a rest that is not of the cycle.
+    let points: Vec<(f64, f64)> =
+        flown.times_s.iter().copied().zip(flown.speeds_rad_per_s.iter().copied()).skip(flights).collect();
+    let (Some(&(began, first)), Some(&(again, second))) = (points.first(), points.get(flights)) else {
+        return Ok(Lines { flights, gap_over_gain: 0.0, gap_over_peak_angular_speed: 0.0 });
+    };
+    let gain = second - first;
+    let mut offsets: Vec<f64> = points[..flights]
+        .iter()
+        .map(|(time, speed)| speed - gain * (time - began) / (again - began))
+        .collect();
+    offsets.sort_by(f64::total_cmp);
+    let gap = offsets.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    // A cycle that drives the rotor neither way gains nothing, and its lines lie level.
+    let gap_over_gain = if gain == 0.0 { 0.0 } else { gap / gain.abs() };
+    Ok(Lines {
+        flights,
+        gap_over_gain,
+        gap_over_peak_angular_speed: gap / motor.peak_angular_speed_rad_per_s,
+    })
+}
+
+/// Flights longer than half a period: their starts and the speed during each.
+struct Flown {
+    times_s: Vec<f64>,
+    speeds_rad_per_s: Vec<f64>,
+}
+
+/// The flights of the motor from rest, at most so many and for so long.
+fn flown(motor: &MotorCase, flights: usize, duration_s: f64) -> Result<Flown, ExperimentError> {
+    let system = motor.system()?;
+    let scales = system.scales();
+    let mut collisions =
+        Collisions::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut flown = Flown { times_s: Vec::new(), speeds_rad_per_s: Vec::new() };
+    let mut last = None;
+    while flown.times_s.len() < flights
+        && let Some(event) = collisions.advance().map_err(ExperimentError::model)?
+    {
+        let time = match event {
+            CollisionEvent::Collision(collision) => {
+                let long = |from| collision.time.since(&from).radians() > LONG_FLIGHT;
+                if let Some(from) = last.filter(|from| long(*from)) {
+                    flown.times_s.push(scales.time_seconds(from));
+                    flown.speeds_rad_per_s.push(scales.angular_speed * collision.angular_speed);
+                }
+                collision.time
+            }
+            CollisionEvent::Attachment { time, .. } | CollisionEvent::Separation { time, .. } => time,
+            _ => continue,
+        };
+        last = Some(time);
+        if scales.time_seconds(time) > duration_s {
+            break;
+        }
+    }
+    Ok(flown)
+}
+
+/// The motor at the amplitude `step` relative steps from that of `case`.
+fn beside(case: &MotorCase, step: f64) -> MotorCase {
+    MotorCase { amplitude_m: case.amplitude_m * (1.0 + AMPLITUDE_STEP * step), ..*case }
+}
+
+/// The cycles of amplitudes next to that of `case`, on both sides.
+fn rounding(case: &MotorCase, amplitudes: u32) -> Result<Rounding, ExperimentError> {
+    let mut flights = Vec::new();
+    for index in 0..amplitudes {
+        let step = f64::from(index) - 0.5 * f64::from(amplitudes - 1);
+        flights.push(beside(case, step).cycle(ChatterPolicy::Complete)?.flights());
+    }
+    let share = |&count: &usize| {
+        let within = flights.iter().filter(|flights| flights.is_some_and(|flights| flights <= count)).count();
+        (count, within as f64 / flights.len() as f64)
+    };
+    Ok(Rounding {
+        amplitude_m: case.amplitude_m,
+        preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
+        step: AMPLITUDE_STEP,
+        amplitudes: flights.len(),
+        share_up_to: FLIGHT_COUNTS.iter().map(share).collect(),
+    })
+}
+
+/// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a low-period cycle of more than
+/// one flight; `case` itself if there is none within [`MOST_STEPS`].
+fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
+    for step in 0..MOST_STEPS {
+        for sign in [1.0, -1.0] {
+            let near = beside(case, sign * f64::from(step));
+            let cycle = near.cycle(ChatterPolicy::Complete)?;
+            if cycle.is_low_period() && !cycle.is_one_flight() {
+                return Ok(near);
+            }
+        }
+    }
+    Ok(*case)
+}
+
+/// A rotor at rest on the stator at its lowest point.
+fn start() -> Result<InitialCondition, ExperimentError> {
+    Ok(InitialCondition::Contact { phase: Phase::new(1.5 * PI).map_err(core_error)?, angular_speed: 0.0 })
+}
+
+fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {
+    let system = motor.system()?;
+    let cycle = motor.cycle(ChatterPolicy::Complete)?;
+    let low = cycle.is_low_period();
+    let prediction = predict(&motor, low)?;
+    let duration_s = if low { LOW_RISES * prediction.reached_s } else { LONG_RISES * motor.rise_time_s() };
+
+    let Flown { times_s: flight_time_s, speeds_rad_per_s: flight_speed_rad_per_s } =
+        flown(&motor, usize::MAX, duration_s)?;
+    Ok(Shown {
+        amplitude_offset: motor.amplitude_m / printed_amplitude - 1.0,
+        axial_forcing: system.axial_forcing(),
+        cycle,
+        cycle_duration_s: cycle.platform_periods().map(|periods| periods as f64 / motor.frequency_hz),
+        largest_acceleration_rad_per_s2: motor.largest_acceleration(),
+        duration_s,
+        fits: fits(&motor, duration_s)?,
+        zoom: zoom(
+            &motor,
+            cycle,
+            ZOOM_AT * if low { prediction.reached_s } else { motor.rise_time_s() },
+            (&flight_time_s, &flight_speed_rad_per_s),
+        )?,
+        flight_time_s,
+        flight_speed_rad_per_s,
+        prediction,
+        motor,
+    })
+}
+
+fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
+    let settings = TransientSettings {
+        duration,
+        intervals: 400,
+        relaunch_perturbation: 0.0,
+        ..TransientSettings::default()
+    };
+    let phase = Phase::new(1.5 * PI).map_err(core_error)?;
+    let curve = transient(&motor.system()?, phase, &settings).map_err(ExperimentError::model)?;
+    let exponential = curve.fit().map_err(ExperimentError::model)?;
+    let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+    let last = curve.mean_over_last(0.2).map_err(ExperimentError::model)?;
+    let points = || curve.times.iter().copied().zip(curve.speeds.iter().copied());
+    let reached_s = points().find(|(_, speed)| (speed - last).abs() <= REACHED_WITHIN * last.abs());
+    let reached_s = reached_s.map(|point| point.0);
+    let until = |share: f64| {
+        let end = share * reached_s.unwrap_or(duration);
+        points().take_while(|(time, _)| *time < end).collect::<Vec<(f64, f64)>>()
+    };
+    let rise = until(1.0);
+    let line = StraightLine::through(&rise);
+    let first = StraightLine::through(&until(FIRST_PART));
+    let farthest = |line: StraightLine| {
+        let off = rise.iter().map(|(time, speed)| (speed - line.intercept - line.slope * time).abs());
+        off.fold(0.0, f64::max)
+    };
+    Ok(Fits {
+        exponential_steady_speed_rad_per_s: exponential.steady_speed,
+        time_constant_s: exponential.time_constant,
+        exponential_residual_rad_per_s: exponential.residual,
+        ramp_steady_speed_rad_per_s: ramp.steady_speed,
+        rise_time_s: ramp.rise_time,
+        ramp_residual_rad_per_s: ramp.residual,
+        last_speed_rad_per_s: last,
+        slope_rad_per_s2: line.map_or(0.0, |line| line.slope),
+        slope_error_rad_per_s2: line.map_or(0.0, |line| line.slope_error),
+        farthest_from_line_rad_per_s: line.map_or(0.0, farthest),
+        first_slope_rad_per_s2: first.map_or(0.0, |line| line.slope),
+        reached_s,
+    })
+}
+
+fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, ExperimentError> {
+    let system = motor.system()?;
+    let impulses =
+        NormalImpulses::of(system.dimensionless().map(), if low_period { 1 } else { IMPULSES }, 0.0)?;
+    let levels = impulses.balance(motor.phase_lag_rad);
+    let total = impulses.total();
+    let (rise, top) = (motor.rise_time_s(), motor.peak_angular_speed_rad_per_s);
+    let steady = levels.steady_speed();
+    let (times, speeds) = levels.transient(LONG_RISES, 6_000);
+    let reached = times.iter().zip(&speeds).find(|(_, speed)| **speed >= (1.0 - REACHED_WITHIN) * steady);
+    let thin = |values: &[f64], unit: f64| values.iter().step_by(20).map(|value| unit * value).collect();
+    let impacts = impulses.impacts.iter().filter(|one| low_period && one.impulse >= 0.01 * total);
+    Ok(Prediction {
+        net_share_at_rest: levels.net_share(0.0),
+        slope_rad_per_s2: motor.largest_acceleration() * levels.net_share(0.0),
+        steady_speed_rad_per_s: top * steady,
+        reached_s: rise * reached.map_or(LONG_RISES, |(time, _)| *time),
+        time_s: thin(&times, rise),
+        speed_rad_per_s: thin(&speeds, top),
+        impacts: impacts
+            .map(|PhasedImpulse { phase, impulse }| {
+                let level = bouncing_disk::core::elementary::cos(phase + motor.phase_lag_rad);
+                (phase / TAU, impulse / total, level)
+            })
+            .collect(),
+        balance: total / impulses.duration - 1.0,
+    })
+}
+
+/// Speed and height from the first separation after `from_s` on.
+fn zoom(
+    motor: &MotorCase,
+    cycle: Cycle,
+    from_s: f64,
+    flown: (&[f64], &[f64]),
+) -> Result<Zoom, ExperimentError> {
+    let system = motor.system()?;
+    let scales = system.scales();
+    let mut engine =
+        Engine::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut started = false;
+    while let Some(record) = engine.advance().map_err(ExperimentError::model)? {
+        started = scales.time_seconds(record.time) >= from_s;
+        if started && record.event == bouncing_disk::Event::Separation {
+            break;
+        }
+    }
+    // Three cycles of low period, else a number of flights.
+    let low = cycle.flights().filter(|_| cycle.is_low_period());
+    let flights = low.map_or(ZOOM_FLIGHTS, |flights| 3 * flights);
+    let mut seen = 0;
+    let record = Trajectory::record(&mut engine, |record| {
+        let flight = matches!(record.event, bouncing_disk::Event::Impact { .. });
+        seen += usize::from(flight && record.span.radians() > PI);
+        seen >= flights && (low.is_none() || record.event == bouncing_disk::Event::Separation)
+    })
+    .map_err(ExperimentError::model)?;
+    let first = flown.0.partition_point(|time| *time < from_s);
+    let many = LINE_CYCLES * cycle.flights().filter(|_| cycle.is_low_period()).unwrap_or_default();
+    let of_lines = |values: &[f64]| values.iter().skip(first).take(many).copied().collect();
+    let mut zoom = Zoom {
+        time_s: Vec::new(),
+        speed_rad_per_s: Vec::new(),
+        height_m: Vec::new(),
+        flight_time_s: of_lines(flown.0),
+        flight_speed_rad_per_s: of_lines(flown.1),
+    };
+    if !started {
+        return Ok(zoom);
+    }
+    for snapshot in record.uniform(ZOOM_SAMPLES) {
+        let state = scales.state(&snapshot.disk);
+        zoom.time_s.push(scales.time_seconds(snapshot.time));
+        zoom.speed_rad_per_s.push(state.angular_speed);
+        zoom.height_m.push(state.height);
+    }
+    Ok(zoom)
+}

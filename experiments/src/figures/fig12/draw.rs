@@ -1,0 +1,153 @@
+//! The drawing of Fig. 12.
+
+use bouncing_disk_plot::{
+    Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker,
+    Panel, Rect, Scatter, Text, Ticks,
+};
+
+use super::data::{Fig12Data, Shown};
+use crate::figures::power_of_ten::exponent;
+
+pub(super) fn draw(data: &Fig12Data) -> Figure {
+    const HEIGHT: f64 = 430.0;
+    let margins = Margins { left: 44.0, right: 12.0, top: 20.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 2)
+        .margins(margins)
+        .gaps(52.0, 36.0)
+        .row_weights(&[1.5, 1.0, 1.0]);
+    let columns = [
+        (&data.long_period, "long-period chattering", data.cases.amplitudes_m[0]),
+        (&data.low_period, "low-period chattering", data.cases.amplitudes_m[1]),
+    ];
+    let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    for (column, (shown, title, printed)) in columns.into_iter().enumerate() {
+        let letters = [["a", "b", "c"], ["d", "e", "f"]][column];
+        let top = whole(grid.cell(0, column), shown, printed, column == 1);
+        let cell = grid.cell(1, column);
+        let speeds = if column == 0 { speeds(cell, shown) } else { lines(cell, shown) };
+        figure = figure
+            .panel(top.letter(letters[0]).title(title))
+            .panel(speeds.letter(letters[1]))
+            .panel(heights(grid.cell(2, column), shown).letter(letters[2]));
+    }
+    figure
+}
+
+/// The whole transient with what the impulses predict, or the exponential fit.
+fn whole(area: Rect, shown: &Shown, printed_amplitude: f64, low_period: bool) -> Panel {
+    let points = shown.flight_time_s.iter().copied().zip(shown.flight_speed_rad_per_s.iter().copied());
+    let highest = shown.flight_speed_rad_per_s.iter().copied().fold(0.0, f64::max);
+    let from = shown.zoom.time_s.first().copied().unwrap_or(0.0);
+    let until = shown.zoom.time_s.last().copied().unwrap_or(0.0);
+    let y = 1.12 * highest;
+    // What differs in the last places of the amplitude is said in the caption.
+    let amplitude = format!(
+        "$A = 10^{{{}}}$ m, $g = {}$ m/s$^2$",
+        exponent(printed_amplitude),
+        shown.motor.preload_acceleration_m_per_s2
+    );
+    let panel = Panel::new(area)
+        .x(Axis::linear(0.0, shown.duration_s).label(r"$t$ (s)"))
+        .y(Axis::linear(0.0, y).label(r"$\dot{\alpha}$ (rad/s)"))
+        .layer(Text::at_axes(0.97, 0.1, amplitude).anchor(Anchor::RightCentre));
+    let window = Band::new([(from, 0.0, y), (until, 0.0, y)]).colour(Colour::SKY).opacity(0.5);
+    let panel = panel.layer(window);
+    let panel = if low_period {
+        let predicted =
+            shown.prediction.time_s.iter().copied().zip(shown.prediction.speed_rad_per_s.iter().copied());
+        panel
+            .layer(
+                Scatter::new(points).marker(Marker::Dot).size(1.3).colour(Colour::GREY).name("each flight"),
+            )
+            .layer(
+                Line::new(predicted)
+                    .colour(Colour::VERMILION)
+                    .dash(Dash::Dashed)
+                    .width(1.2)
+                    .name("from impulses"),
+            )
+    } else {
+        let fit = bouncing_disk::ExponentialFit {
+            steady_speed: shown.fits.exponential_steady_speed_rad_per_s,
+            time_constant: shown.fits.time_constant_s,
+            residual: shown.fits.exponential_residual_rad_per_s,
+        };
+        let smooth = (0..=200).map(|index| {
+            let time = shown.duration_s * f64::from(index) / 200.0;
+            (time, fit.speed(time))
+        });
+        panel.layer(Line::new(points).colour(Colour::GREY).width(0.6).name("each flight")).layer(
+            Line::new(smooth).colour(Colour::BLACK).dash(Dash::Dashed).width(1.2).name("exponential fit"),
+        )
+    };
+    panel.legend(Legend::at(Corner::BottomRight).inset(32.0))
+}
+
+fn zoomed(area: Rect, shown: &Shown) -> Panel {
+    let (first, last) = (shown.zoom.time_s.first(), shown.zoom.time_s.last());
+    let (first, last) = (first.copied().unwrap_or(0.0), last.copied().unwrap_or(1.0));
+    Panel::new(area).x(Axis::linear(first, last).label(r"$t$ (s)"))
+}
+
+/// The speed in the zoom.
+fn speeds(area: Rect, shown: &Shown) -> Panel {
+    let zoom = &shown.zoom;
+    let points = zoom.time_s.iter().copied().zip(zoom.speed_rad_per_s.iter().copied());
+    let slowest = zoom.speed_rad_per_s.iter().copied().fold(f64::INFINITY, f64::min);
+    let fastest = zoom.speed_rad_per_s.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let y = Axis::around([slowest, fastest]).label(r"$\dot{\alpha}$ (rad/s)");
+    zoomed(area, shown)
+        .y(y.ticks(Ticks::every(tick_step(fastest - slowest))))
+        .layer(Line::new(points).width(0.8))
+}
+
+/// The flights of some cycles of low period, each of a cycle in a shade of its own: they form lines.
+fn lines(area: Rect, shown: &Shown) -> Panel {
+    let zoom = &shown.zoom;
+    let points: Vec<(f64, f64)> =
+        zoom.flight_time_s.iter().copied().zip(zoom.flight_speed_rad_per_s.iter().copied()).collect();
+    let flights = shown.cycle.flights().unwrap_or(1).max(1);
+    let extent = |of: fn(&(f64, f64)) -> f64| {
+        let values = points.iter().map(of);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let ((first, last), (slowest, fastest)) = (extent(|point| point.0), extent(|point| point.1));
+    let margin = 0.03 * (last - first);
+    let mut panel =
+        Panel::new(area).x(Axis::linear(first - margin, last + margin).label(r"$t$ (s)")).y(Axis::around([
+            slowest, fastest,
+        ])
+        .label(r"$\dot{\alpha}$ (rad/s)")
+        .ticks(Ticks::every(tick_step(fastest - slowest))));
+    for flight in 0..flights {
+        let of_flight: Vec<(f64, f64)> = points.iter().copied().skip(flight).step_by(flights).collect();
+        let colour = [Colour::BLUE, Colour::VERMILION, Colour::GREEN, Colour::BLACK][flight % 4];
+        panel = panel
+            .layer(Line::new(of_flight.clone()).colour(colour).width(0.5))
+            .layer(Scatter::new(of_flight).marker(Marker::Dot).size(3.0).colour(colour));
+    }
+    panel
+}
+
+/// A round step that divides `range` into at most four parts.
+fn tick_step(range: f64) -> f64 {
+    let mut step = 1e-6;
+    for factor in [2.0, 2.5, 2.0].into_iter().cycle().take(60) {
+        if 4.0 * step >= range {
+            break;
+        }
+        step *= factor;
+    }
+    step
+}
+
+/// The height of the rotor in the zoom; the stator's is too small to be seen.
+fn heights(area: Rect, shown: &Shown) -> Panel {
+    let zoom = &shown.zoom;
+    let micrometres: Vec<f64> = zoom.height_m.iter().map(|height| 1e6 * height).collect();
+    let highest = micrometres.iter().copied().fold(0.0, f64::max);
+    let points = zoom.time_s.iter().copied().zip(micrometres);
+    zoomed(area, shown)
+        .y(Axis::linear(-0.03 * highest, 1.2 * highest).label(r"$x$ (µm)"))
+        .layer(Line::new(points).width(0.8))
+}

@@ -1,0 +1,334 @@
+//! The computation of Fig. 13.
+
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
+
+use bouncing_disk::core::elementary::{ln, pow};
+use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
+
+use super::data::{
+    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sensitivity, Sweep,
+    SweepPoint,
+};
+use super::sweeps::cosine_fit;
+use crate::claim::Agreement;
+use crate::experiment::{ExperimentError, Quality};
+use crate::figures::alike::{AlikeMotor, alike};
+use crate::figures::motor_case::{MotorCase, perturbation_table};
+use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::regression::StraightLine;
+use crate::figures::samples;
+use crate::paper;
+use crate::progress::Progress;
+
+/// Duration of a transient in rise times ωΦ a_g²/(μ a_e g).
+const RISES: f64 = 6.0;
+/// The perturbation (g/ω) with which each sweep is repeated.
+const BREAKING_PERTURBATION: f64 = 0.1;
+/// Sizes (g/ω) that are compared.
+const PERTURBATIONS: [f64; 7] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-9, 0.0];
+/// Another ε for which the sizes are compared: one where low-period cycles govern.
+const LOW_PERIOD_RESTITUTION: f64 = 0.3;
+/// ε of the distributions of impulse.
+const RESTITUTIONS: [f64; 3] = [0.2, 0.5, 0.8];
+/// Parts of the cycle in these distributions.
+const PARTS: usize = 48;
+/// Largest ε of a sweep.
+const LARGEST_RESTITUTION: f64 = 0.9;
+/// Phase lags that each of the motors which print alike is given.
+const LAGS: u32 = 8;
+/// Seed of the inputs that print alike.
+const SEED: u64 = 13;
+/// Numbers of flights for which the share of cycles is counted.
+const FLIGHT_COUNTS: [usize; 5] = [2, 4, 8, 16, 32];
+/// A cycle is short if it takes this share of the rise time.
+const SHORT_CYCLE: f64 = 0.01;
+pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
+    let section = paper::section_five()?;
+    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let members = quality.choose(3, 12);
+    let impacts = quality.choose(4_000, 40_000);
+    let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
+    let grids = Parameter::ALL.map(|parameter| values(parameter, &section.amplitudes_of_fig10_m, quality));
+    progress.start(grids.iter().map(|grid| grid.len() as u64).sum::<u64>() + 3, "motors");
+
+    let mut sweeps = Vec::new();
+    for (parameter, grid) in Parameter::ALL.into_iter().zip(grids) {
+        let mut points = Vec::new();
+        for value in grid {
+            let case = parameter.set(&motor, value);
+            let system = case.system()?;
+            let impulses = NormalImpulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
+            let count = impulses.impacts.len() as f64;
+            let speeds = impulses.impacts.iter().map(|one| one.impulse / (1.0 + case.restitution));
+            let mean_impact_speed_m_per_s = system.scales().velocity * speeds.sum::<f64>() / count;
+            let (predicted_speed_ratio, predicted_stall_acceleration_rad_per_s2) = predict(&case, &impulses);
+            points.push(SweepPoint {
+                value,
+                peak_angular_speed_rad_per_s: case.peak_angular_speed_rad_per_s,
+                statistics: case.statistics(RISES, members, relaunch_perturbation)?,
+                broken: case.statistics(RISES, members, BREAKING_PERTURBATION)?,
+                predicted_speed_ratio,
+                predicted_stall_acceleration_rad_per_s2,
+                mean_impact_speed_m_per_s,
+                mean_impact_interval_s: system.scales().time * impulses.duration / count,
+                impulse_share_near_zero: impulses.share_near_zero(FRAC_PI_4),
+            });
+            progress.advance(1);
+        }
+        sweeps.push(Sweep { parameter, points });
+    }
+    let impulses = RESTITUTIONS
+        .iter()
+        .map(|&restitution| {
+            let case = MotorCase { restitution, ..motor };
+            let map = *case.system()?.dimensionless().map();
+            let impulses = NormalImpulses::of(&map, 5 * impacts, BREAKING_PERTURBATION)?;
+            let contact: f64 = impulses.contact.iter().map(|one| one.impulse).sum();
+            Ok(ImpulsePhases {
+                restitution,
+                shares: impulses.histogram(PARTS),
+                share_near_zero: impulses.share_near_zero(FRAC_PI_4),
+                impulse: impulses.concentration(),
+                collisions: impulses.concentration_of_collisions(),
+                contact_share: contact / impulses.total(),
+            })
+        })
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    progress.advance(1);
+    let alike = alike_motors(quality)?;
+    progress.advance(1);
+    let perturbations = [motor.restitution, LOW_PERIOD_RESTITUTION]
+        .into_iter()
+        .map(|restitution| {
+            let case = MotorCase { restitution, ..motor };
+            let effects = perturbation_table(&case, &PERTURBATIONS, 2.0 * RISES, 2 * members)?;
+            Ok(PerturbedMotor { restitution, effects })
+        })
+        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    progress.advance(1);
+    Ok(Fig13Data {
+        default: motor.statistics(RISES, 2 * members, relaunch_perturbation)?,
+        motor,
+        members,
+        rises: RISES,
+        relaunch_perturbation,
+        breaking_perturbation: BREAKING_PERTURBATION,
+        sweeps,
+        impulses,
+        alike,
+        perturbations,
+    })
+}
+
+/// The values of a sweep. The paper's ranges are not in its text; A runs over its three amplitudes.
+fn values(parameter: Parameter, amplitudes: &[f64; 3], quality: Quality) -> Vec<f64> {
+    let even = |first: f64, last: f64, count: u32| -> Vec<f64> {
+        (0..count).map(|index| first + (last - first) * f64::from(index) / f64::from(count - 1)).collect()
+    };
+    match parameter {
+        Parameter::Friction => even(0.02, 0.4, quality.choose(5, 20)),
+        Parameter::Restitution => even(0.0, LARGEST_RESTITUTION, quality.choose(7, 19)),
+        Parameter::PhaseLag => even(-PI, PI, quality.choose(9, 25)),
+        Parameter::Amplitude => {
+            let ratio = amplitudes[2] / amplitudes[0];
+            even(0.0, 1.0, quality.choose(5, 25))
+                .iter()
+                .map(|share| amplitudes[0] * pow(ratio, *share))
+                .collect()
+        }
+        Parameter::PeakAngularSpeed => even(5.0, 60.0, quality.choose(4, 12)),
+    }
+}
+
+/// Steady speed over ωΦ and stall acceleration of the transient that the impulses give, fitted as the ensembles are.
+fn predict(case: &MotorCase, impulses: &NormalImpulses) -> (f64, Option<f64>) {
+    let levels = impulses.balance(case.phase_lag_rad);
+    let (times, speeds) = levels.transient(RISES, 240);
+    let fit = ExponentialFit::new(&times, &speeds).ok();
+    let stall = fit
+        .filter(|fit| fit.time_constant < 0.5 * RISES && fit.residual < 0.25 * fit.steady_speed.abs())
+        .map(|fit| case.largest_acceleration() * fit.stall_acceleration());
+    (levels.steady_speed(), stall)
+}
+
+/// The motors of Table III, every input but ε anywhere between what still rounds to the printed one; and each of them with other values of one of the others.
+fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
+    let inputs = PrintedInputs::table_three()?;
+    let count = quality.choose(DRAWN / 10, DRAWN);
+    let steps = quality.choose(4, 10);
+    let restitutions: Vec<f64> =
+        (0..steps).map(|step| LARGEST_RESTITUTION * f64::from(step) / f64::from(steps - 1)).collect();
+    let amplitudes = [
+        "section5.smallest_amplitude_of_fig10",
+        "section5.middle_amplitude_of_fig10",
+        "section5.largest_amplitude_of_fig10",
+    ];
+    let of_amplitude = |key: &&str| Ok::<_, ExperimentError>(inputs.amplitude(key)?.drawn(count, SEED));
+    let by_amplitude = amplitudes.iter().map(of_amplitude).collect::<Result<Vec<_>, ExperimentError>>()?;
+    let default = inputs.drawn(count, SEED);
+    let with = |parameter: Parameter, values: &[f64]| -> Vec<Vec<MotorCase>> {
+        values
+            .iter()
+            .map(|&value| default.iter().map(|motor| parameter.set(motor, value)).collect())
+            .collect()
+    };
+    let frictions = [0.05, 0.1, 0.2, 0.4];
+    let phase_lags: Vec<f64> = (0..LAGS).map(|lag| TAU * f64::from(lag) / f64::from(LAGS) - PI).collect();
+    let peak_angular_speeds = [5.0, 23.0, 41.0, 60.0];
+    let varied = |parameter: Parameter, cases: Vec<Vec<MotorCase>>| -> Result<Varied, ExperimentError> {
+        let motors = cases.iter().map(|cases| alike(cases, RISES)).collect::<Result<_, _>>()?;
+        Ok(Varied { parameter, cases, motors })
+    };
+    let by_restitution = varied(
+        Parameter::Restitution,
+        restitutions.iter().map(|&restitution| inputs.restitution(restitution).drawn(count, SEED)).collect(),
+    )?;
+    let sweeps = [
+        varied(Parameter::Friction, with(Parameter::Friction, &frictions))?,
+        by_restitution,
+        varied(Parameter::PhaseLag, with(Parameter::PhaseLag, &phase_lags))?,
+        varied(Parameter::Amplitude, by_amplitude)?,
+        varied(Parameter::PeakAngularSpeed, with(Parameter::PeakAngularSpeed, &peak_angular_speeds))?,
+    ];
+    let rises: Vec<f64> = default.iter().map(MotorCase::rise_time_s).collect();
+    Ok(AlikeMotors {
+        inputs: inputs.words(),
+        drawn: count,
+        prevalence: restitutions
+            .iter()
+            .zip(&sweeps[1].motors)
+            .map(|(&restitution, motors)| prevalence(restitution, motors, &rises))
+            .collect(),
+        draws: (0..count).map(|index| draw(&restitutions, &sweeps, index)).collect(),
+        frictions: frictions.to_vec(),
+        phase_lags_rad: phase_lags,
+        peak_angular_speeds_rad_per_s: peak_angular_speeds.to_vec(),
+    })
+}
+
+/// All drawn motors with other values of one parameter.
+struct Varied {
+    parameter: Parameter,
+    /// By value, then by draw.
+    cases: Vec<Vec<MotorCase>>,
+    motors: Vec<Vec<AlikeMotor>>,
+}
+
+impl Varied {
+    /// The values and what is read from one draw.
+    fn read(&self, index: usize, of: fn(&MotorCase, &AlikeMotor) -> Option<f64>) -> Vec<(f64, f64)> {
+        let pairs = self.cases.iter().zip(&self.motors);
+        pairs
+            .filter_map(|(cases, motors)| {
+                Some((self.parameter.of(&cases[index]), of(&cases[index], &motors[index])?))
+            })
+            .collect()
+    }
+
+    fn sensitivity(&self, index: usize, default: (Option<f64>, Option<f64>)) -> Sensitivity {
+        let (speeds, stalls) = (self.read(index, speed), self.read(index, stall));
+        let line = |points: &[(f64, f64)]| {
+            let coordinate = |x: f64| if self.parameter == Parameter::Amplitude { ln(x) } else { x };
+            StraightLine::through(&points.iter().map(|(x, y)| (coordinate(*x), *y)).collect::<Vec<_>>())
+        };
+        let change = |points: &[(f64, f64)], default: Option<f64>| {
+            let (first, last) = (points.first()?, points.last()?);
+            let change = match self.parameter {
+                Parameter::PhaseLag => 2.0 * cosine_fit(points)?.0,
+                Parameter::Amplitude => line(points)?.slope * (ln(last.0) - ln(first.0)),
+                _ => line(points)?.slope * (last.0 - first.0),
+            };
+            Some((change / default?).abs())
+        };
+        let exponent = |points: &[(f64, f64)]| {
+            let positive = points.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
+            let line = StraightLine::through(&positive.map(|(x, y)| (ln(*x), ln(*y))).collect::<Vec<_>>());
+            line.filter(|_| self.parameter != Parameter::PhaseLag).map(|line| line.slope)
+        };
+        Sensitivity {
+            parameter: self.parameter,
+            speed_change: change(&speeds, default.0),
+            stall_change: change(&stalls, default.1),
+            speed_exponent: exponent(&speeds),
+            stall_exponent: exponent(&stalls),
+            stall_explained: line(&stalls).map(|line| line.explained),
+        }
+    }
+}
+
+fn speed(_: &MotorCase, motor: &AlikeMotor) -> Option<f64> {
+    Some(motor.steady_speed_rad_per_s)
+}
+
+fn stall(case: &MotorCase, motor: &AlikeMotor) -> Option<f64> {
+    motor.stall_over_limit.map(|stall| stall * case.largest_acceleration())
+}
+
+/// Steady speed over ωΦ. Each of these motors has the ωΦ that was drawn for it.
+fn speed_ratio(motor: &AlikeMotor) -> f64 {
+    motor.steady_speed_rad_per_s / motor.peak_angular_speed_rad_per_s
+}
+
+fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
+    let [_, by_restitution, by_lag, by_amplitude, _] = sweeps;
+    let motors = || by_restitution.motors.iter().map(|motors| &motors[index]);
+    let line = |of: fn(&AlikeMotor) -> Option<f64>| {
+        let points = restitutions.iter().zip(motors());
+        let points: Vec<_> = points.filter_map(|(x, motor)| of(motor).map(|y| (*x, y))).collect();
+        StraightLine::through(&points)
+    };
+    let range = restitutions.last().zip(restitutions.first()).map_or(0.0, |(last, first)| last - first);
+    let largest =
+        |of: fn(&AlikeMotor) -> Option<f64>| motors().filter_map(of).fold(f64::NEG_INFINITY, f64::max);
+    let ratio = |motor: &AlikeMotor| Some(speed_ratio(motor));
+    let over_limit = |motor: &AlikeMotor| motor.stall_over_limit;
+    // The middle amplitude is the printed one.
+    let printed = (&by_amplitude.cases[1][index], &by_amplitude.motors[1][index]);
+    let default = (speed(printed.0, printed.1), stall(printed.0, printed.1));
+    let sensitivities: Vec<Sensitivity> =
+        sweeps.iter().map(|sweep| sweep.sensitivity(index, default)).collect();
+    let exponents = sensitivities[3];
+    Draw {
+        speed_ratio_slope: line(ratio).map(|line| line.slope),
+        stall_over_limit_slope: line(over_limit).map(|line| line.slope),
+        stall_over_limit_rise: line(over_limit).map(|line| line.slope * range / line.intercept),
+        largest_stall_over_limit: largest(over_limit),
+        largest_speed_ratio: largest(ratio),
+        share_of_exponential: motors().filter(|motor| motor.is_exponential()).count() as f64
+            / restitutions.len() as f64,
+        speed_cosine: cosine_fit(&by_lag.read(index, speed)).map(|fit| fit.1),
+        stall_cosine: cosine_fit(&by_lag.read(index, stall)).map(|fit| fit.1),
+        speed_amplitude_exponent: exponents.speed_exponent,
+        stall_amplitude_exponent: exponents.stall_exponent,
+        sensitivities,
+    }
+}
+
+fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevalence {
+    let count = motors.len() as f64;
+    let share_where = |holds: &dyn Fn(usize, &AlikeMotor) -> bool| {
+        motors.iter().enumerate().filter(|(index, motor)| holds(*index, motor)).count() as f64 / count
+    };
+    let mut flights: Vec<usize> =
+        motors.iter().map(|motor| motor.cycle.chattering_flights().unwrap_or(usize::MAX)).collect();
+    flights.sort_unstable();
+    let share = |most: usize| flights.partition_point(|flights| *flights <= most) as f64 / count;
+    let median = |of: fn(&AlikeMotor) -> Option<f64>| samples::median(motors.iter().filter_map(of));
+    Prevalence {
+        restitution,
+        share_of_low_period: share_where(&|_, motor| motor.cycle.is_low_period()),
+        share_up_to: FLIGHT_COUNTS.iter().map(|&count| (count, share(count))).collect(),
+        share_of_short: share_where(&|index, motor| {
+            motor
+                .cycle
+                .platform_periods()
+                .is_some_and(|periods| periods as f64 / motor.frequency_hz <= SHORT_CYCLE * rises[index])
+        }),
+        median_flights: flights.get(flights.len() / 2).copied().filter(|flights| *flights < usize::MAX),
+        within_limit: Agreement::of(
+            motors.iter().filter_map(|motor| motor.stall_over_limit).map(|stall| stall <= 1.0),
+        ),
+        median_speed_ratio: median(|motor| Some(speed_ratio(motor))).unwrap_or_default(),
+        median_stall_over_limit: median(|motor| motor.stall_over_limit),
+    }
+}

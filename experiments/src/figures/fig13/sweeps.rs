@@ -1,0 +1,74 @@
+//! Quantity off the sweeps of Fig. 13.
+
+use bouncing_disk::core::elementary::{cos, ln};
+
+use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
+use crate::figures::regression::StraightLine;
+pub(super) use crate::figures::samples::extent;
+
+pub(super) fn sweep_points(data: &Fig13Data) -> impl Iterator<Item = &SweepPoint> {
+    data.sweeps.iter().flat_map(|sweep| &sweep.points)
+}
+
+pub(super) fn sweep(data: &Fig13Data, parameter: Parameter) -> Option<&Sweep> {
+    data.sweeps.iter().find(|sweep| sweep.parameter == parameter)
+}
+
+/// What is read from a point: the steady speed in rad/s, or the stall acceleration.
+pub(super) type Quantity = fn(&SweepPoint) -> Option<f64>;
+
+pub(super) fn speed(point: &SweepPoint) -> Option<f64> {
+    Some(point.statistics.steady_speed_rad_per_s.mean)
+}
+
+pub(super) fn stall(point: &SweepPoint) -> Option<f64> {
+    point.stall()
+}
+
+/// All points drawn, those on a low-period cycle among them, as (value, quantity).
+pub(super) fn read(data: &Fig13Data, parameter: Parameter, of: Quantity) -> Vec<(f64, f64)> {
+    let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+    points.iter().filter_map(|point| of(point).map(|value| (point.value, value))).collect()
+}
+
+/// How many of the points of a sweep a low-period cycle governs, in words.
+pub(super) fn low_period_words(data: &Fig13Data, parameter: Parameter) -> String {
+    let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+    let low = points.iter().filter(|point| point.statistics.is_low_period()).count();
+    format!("{low} of {} motors on a low-period cycle", points.len())
+}
+
+/// y = c cos θ by least squares: c, and the share of the variance that it explains. `None` of fewer than three points.
+pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    if points.len() < 3 {
+        return None;
+    }
+    let (mut products, mut squares) = (0.0, 0.0);
+    for (angle, value) in points {
+        products += cos(*angle) * value;
+        squares += cos(*angle) * cos(*angle);
+    }
+    let factor = products / squares;
+    let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64;
+    let (mut rest, mut all) = (0.0, 0.0);
+    for (angle, value) in points {
+        let (off, from_mean) = (value - factor * cos(*angle), value - mean);
+        rest += off * off;
+        all += from_mean * from_mean;
+    }
+    Some((factor, 1.0 - rest / all))
+}
+
+/// Elasticity: the exponent of a power law through all positive points.
+pub(super) fn elasticity(data: &Fig13Data, parameter: Parameter, of: Quantity) -> Option<StraightLine> {
+    let points: Vec<(f64, f64)> = read(data, parameter, of)
+        .into_iter()
+        .filter(|(value, quantity)| *value > 0.0 && *quantity > 0.0)
+        .map(|(value, quantity)| (ln(value), ln(quantity)))
+        .collect();
+    StraightLine::through(&points)
+}
+
+pub(super) fn words(line: Option<StraightLine>) -> String {
+    line.map_or_else(|| "no fit".to_owned(), |line| format!("{:+.3} ± {:.3}", line.slope, line.slope_error))
+}
