@@ -1,7 +1,8 @@
 //! The builder methods that layers share, written once.
 
-/// Writes those of the shared builder methods that a layer names. The methods set parts of its field `style` (a
-/// [`Style`](crate::style::Style), or for words a [`TextStyle`](crate::text_style::TextStyle)) or its field `name`.
+/// Writes those of the shared builder methods that a layer names. The methods set parts of its field `style`
+/// (a [`Style`](crate::style::Style), or for words a [`TextStyle`](crate::text_style::TextStyle)) or its
+/// field `name`.
 macro_rules! builders {
     ($layer:ident: $($method:ident),+) => {
         impl $layer {

@@ -15,8 +15,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that looks at `target` from `distance` away, at an azimuth (rad, from x towards y) and an elevation
-    /// above the horizontal (rad) of less than a right angle.
+    /// A camera that looks at `target` from `distance` away, at an azimuth (rad, from x towards y) and an
+    /// elevation above the horizontal (rad) of less than a right angle.
     pub fn around(target: DVec3, azimuth: f64, elevation: f64, distance: f64) -> Self {
         let back = DMat3::from_rotation_z(azimuth) * DMat3::from_rotation_y(-elevation) * DVec3::X;
         let eye = target + distance * back;

@@ -41,7 +41,8 @@ impl DensePoints {
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
         let area = frame.area;
         let (width, height) = ((area.width * RESOLUTION).ceil(), (area.height * RESOLUTION).ceil());
-        // The image covers the frame exactly, so pixels may differ from squares by less than one part in a hundred.
+        // The image covers the frame exactly, so pixels may differ from squares by less than one part in a
+        // hundred.
         let (across, down) = (width / area.width, height / area.height);
         let places = self.points.iter().map(|point| frame.point(*point));
         let places = places.map(|place| ((place.x - area.left) * across, (place.y - area.top) * down));

@@ -156,7 +156,8 @@ impl Drawing {
         self
     }
 
-    /// The local coordinates of a place on the page, for letters in the corner of a drawing with widened ranges.
+    /// The local coordinates of a place on the page, for letters in the corner of a drawing with widened
+    /// ranges.
     pub fn local(&self, place: (f64, f64)) -> (f64, f64) {
         (self.to_page().inverse() * Point::from(place)).into()
     }

@@ -1,5 +1,5 @@
-//! The bundled fonts: STIX Two, which resembles the journal's typeface. No font of the system is ever used, so
-//! that a picture is the same on every machine.
+//! The bundled fonts: STIX Two, which resembles the journal's typeface. No font of the system is ever used,
+//! so that a picture is the same on every machine.
 
 use std::sync::{Arc, OnceLock};
 

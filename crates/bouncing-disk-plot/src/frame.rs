@@ -33,8 +33,8 @@ impl Rect {
         self.top + self.height
     }
 
-    /// A part of this rectangle, for insets: fractions of its width and height, measured from the *lower* left
-    /// corner.
+    /// A part of this rectangle, for insets: fractions of its width and height, measured from the *lower*
+    /// left corner.
     #[must_use]
     pub fn part(&self, left: f64, bottom: f64, width: f64, height: f64) -> Self {
         Self::new(
@@ -79,8 +79,8 @@ impl Default for Margins {
     }
 }
 
-/// Equal or weighted cells for the axes of several panels. A cell is the frame of a panel: tick labels and axis
-/// labels lie outside it, in the margins and gaps.
+/// Equal or weighted cells for the axes of several panels. A cell is the frame of a panel: tick labels and
+/// axis labels lie outside it, in the margins and gaps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     width: f64,
@@ -135,7 +135,8 @@ impl Grid {
         self
     }
 
-    /// The frame in a row and column, counted from 0 at the upper left; a cell outside the grid is the last one.
+    /// The frame in a row and column, counted from 0 at the upper left; a cell outside the grid is the last
+    /// one.
     pub fn cell(&self, row: usize, column: usize) -> Rect {
         self.span(row, column, 1, 1)
     }

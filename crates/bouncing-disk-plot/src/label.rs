@@ -1,9 +1,9 @@
 //! Labels: text with mathematics in a small subset of TeX.
 //!
-//! Between dollar signs, Latin and lower-case Greek letters are italic, upper-case Greek, digits and operators
-//! upright, as the journal sets them; `_` and `^` make scripts, `\dot` and `\ddot` accents. Two or more Latin
-//! letters in a script are a word and upright (`$\tau_{imp}$`), unless `\mathit` is used. Greek letters may be
-//! written as such (`$τ_{imp}$`) or as commands.
+//! Between dollar signs, Latin and lower-case Greek letters are italic, upper-case Greek, digits and
+//! operators upright, as the journal sets them; `_` and `^` make scripts, `\dot` and `\ddot` accents. Two or
+//! more Latin letters in a script are a word and upright (`$\tau_{imp}$`), unless `\mathit` is used. Greek
+//! letters may be written as such (`$τ_{imp}$`) or as commands.
 
 use crate::error::DrawError;
 use crate::font::{self, FontStyle};

@@ -1,7 +1,8 @@
 //! Figures as a journal prints them, written as SVG with real text and rendered to PNG with bundled fonts.
 //!
-//! A [`Figure`] has a size in points (1/72 inch) and holds [`Panel`]s (axes with layers) and [`Drawing`]s (free
-//! sketches) at given rectangles; a [`Grid`] computes those. The same figure gives the same text on every machine.
+//! A [`Figure`] has a size in points (1/72 inch) and holds [`Panel`]s (axes with layers) and [`Drawing`]s
+//! (free sketches) at given rectangles; a [`Grid`] computes those. The same figure gives the same text on
+//! every machine.
 //!
 //! ```
 //! use bouncing_disk_plot::{Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Panel, SINGLE_COLUMN, Ticks};
@@ -26,15 +27,17 @@
 //! | the page: its size, its parts, SVG and PNG | [`Figure`], [`SINGLE_COLUMN`], [`DOUBLE_COLUMN`] |
 //! | rectangles on the page | [`Grid`], [`Margins`], [`Rect`] |
 //! | a frame with axes | [`Panel`], [`Axis`], [`Scale`], [`Ticks`], [`Legend`], [`Corner`] |
-//! | layers: what a panel shows | [`Line`], [`Band`], [`Rule`], [`Scatter`] with its [`Marker`], [`DensePoints`], [`Raster`], [`Text`], [`Arrow`]; any of them is a [`Layer`] |
+//! | layers of a panel: curves and areas | [`Line`], [`Band`], [`Rule`] |
+//! | layers of points and cells | [`Scatter`] with its [`Marker`], [`DensePoints`], [`Raster`] |
+//! | layers of words | [`Text`], [`Arrow`]; any of these is a [`Layer`] |
 //! | how shapes look, in all layers alike | [`Style`] of [`Stroke`] and [`Fill`], [`Dash`], [`Colour`] |
 //! | words with symbols and scripts | [`Label`], placed by an [`Anchor`] |
 //! | sketches, flow charts, perspective | [`Drawing`], [`Path`], [`Camera`] |
 //! | a table between rules | [`ruled_table`] |
 //! | what can go wrong | [`DrawError`] |
 //!
-//! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. Outlines, clipping and maps to the page
-//! are kurbo's, dense layers are painted by tiny-skia, and resvg renders the PNG.
+//! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. Outlines, clipping and maps to
+//! the page are kurbo's, dense layers are painted by tiny-skia, and resvg renders the PNG.
 
 mod annotation;
 mod axis;

@@ -180,8 +180,8 @@ impl Panel {
         self
     }
 
-    /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of below, so that those at an
-    /// edge are seen whole; those of the axis on the right stay below.
+    /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
+    /// below, so that those at an edge are seen whole; those of the axis on the right stay below.
     #[must_use]
     pub fn markers_on_top(mut self) -> Self {
         self.markers_on_top = true;

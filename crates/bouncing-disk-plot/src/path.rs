@@ -41,7 +41,8 @@ impl Path {
         self.then(PathEl::LineTo(Point::new(x, y)))
     }
 
-    /// A cubic Bézier curve with two control points; at the beginning of an outline it only sets the first point.
+    /// A cubic Bézier curve with two control points; at the beginning of an outline it only sets the first
+    /// point.
     #[must_use]
     pub fn curve_to(self, first: (f64, f64), second: (f64, f64), end: (f64, f64)) -> Self {
         self.then(PathEl::CurveTo(first.into(), second.into(), end.into()))

@@ -53,8 +53,8 @@ impl Raster {
             return Err(DrawError::RasterColour { index, colours });
         }
         let (from, to) = (frame.point((self.x.0, self.y.0)), frame.point((self.x.1, self.y.1)));
-        // Image rows run downwards on the page: the first row of data is the last of the image, unless the axis
-        // runs backwards; likewise for columns.
+        // Image rows run downwards on the page: the first row of data is the last of the image, unless the
+        // axis runs backwards; likewise for columns.
         let (flip_columns, flip_rows) = (to.x < from.x, to.y < from.y);
         let mut pixels = Vec::with_capacity(self.cells.len());
         for row in 0..height {

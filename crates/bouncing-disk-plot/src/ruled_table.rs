@@ -15,7 +15,8 @@ const ROW: f64 = 14.0;
 const GAP: f64 = 18.0;
 const MARGIN: f64 = 10.0;
 
-/// A figure that shows a table. Columns are as wide as their longest cell; a row may be shorter than the header.
+/// A figure that shows a table. Columns are as wide as their longest cell; a row may be shorter than the
+/// header.
 pub fn ruled_table(header: &[Label], rows: &[Vec<Label>]) -> Figure {
     let widths: Vec<f64> = header
         .iter()

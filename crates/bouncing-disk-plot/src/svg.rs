@@ -88,7 +88,8 @@ impl Svg {
         self.path_with("", path, style);
     }
 
-    /// Discs about points: lines of no length with round ends, which take a fifth of the text of their outlines.
+    /// Discs about points: lines of no length with round ends, which take a fifth of the text of their
+    /// outlines.
     pub(crate) fn dots(&mut self, centres: impl IntoIterator<Item = Point>, diameter: f64, fill: Fill) {
         let dots = centres.into_iter().flat_map(|centre| polyline([centre; 2])).collect();
         let stroke =
