@@ -41,8 +41,9 @@ pub(crate) struct Options {
 enum Bench {
     /// Run the benches and print the least time of each
     Run {
-        /// Bench programs to run, such as impact or basin; all when none is given
-        #[arg(value_name = "PROGRAM", value_parser = names())]
+        /// Bench programs to run; those of docs/performance.md when none is given
+        #[arg(value_name = "PROGRAM", value_parser = names(),
+              default_values = ["limit", "impact", "growth", "basin", "motor"])]
         programs: Vec<String>,
         /// Go through them so many times
         #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
@@ -90,8 +91,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
             }
             if *store {
                 record.first_build_s = Some(dependencies::first_build_time()?);
-                let folder = OutputFolder::create(in_workspace(STORE))?;
-                folder.write(&record.file_name(), &record.to_json()?)?;
+                record.store(&OutputFolder::create(in_workspace(STORE))?)?;
                 write_page()?;
             }
         }
@@ -112,11 +112,10 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
 fn measured(programs: &[String], passes: u32) -> anyhow::Result<Record> {
     let (root, target) = (in_workspace(""), target_folder()?);
     let mut record = Record::here(&root, passes)?;
-    let all: Vec<_> = PROGRAMS.map(|(_, name)| name.to_owned()).into();
-    let ready = compiled(&root, &target, if programs.is_empty() { &all } else { programs })?;
+    let programs = compiled(&root, &target, programs)?;
     // All programs again and again: a neighbour on the machine mostly stays for some minutes.
     for pass in 1..=passes {
-        for program in &ready {
+        for program in &programs {
             complain!("pass {pass} of {passes}: {}", program.name);
             keep_least(&mut record.times_ns, program.measure(&target.join("performance"), &SHORT)?);
         }
@@ -186,7 +185,7 @@ fn compared(
     programs: &[String],
     filter: &str,
 ) -> anyhow::Result<String> {
-    let (root, target) = (in_workspace(""), target_folder()?.join("compare"));
+    let (root, target) = (in_workspace(""), target_folder()?);
     // A commit of the tracked files as they are, which no branch has; nothing if they are those of the last commit.
     let present = git(&root, &["stash", "create"])?;
     let new = new.unwrap_or(if present.is_empty() { "HEAD" } else { &present });

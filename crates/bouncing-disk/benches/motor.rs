@@ -1,9 +1,6 @@
 //! W2: the motor of Table III (70 kHz, A = 1e-8 m, g = 9.8 m/s^2, restitution 0.5, friction 0.1). The time is that of one
 //! motor second.
 
-#[path = "../../bouncing-disk-core/benches/reference/mod.rs"]
-mod reference;
-
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
@@ -78,5 +75,5 @@ fn w2(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, w2, reference::after);
+criterion_group!(benches, w2);
 criterion_main!(benches);

@@ -5,7 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::Command;
 
-use anyhow::{Context as _, bail};
+use anyhow::Context as _;
+use bouncing_disk_experiments::output::OutputFolder;
 use serde::{Deserialize, Serialize};
 
 use super::criterion::{Times, parsed};
@@ -51,7 +52,7 @@ impl Record {
         format!("{}, {}", self.processor, self.instructions)
     }
 
-    pub(super) fn file_name(&self) -> String {
+    fn file_name(&self) -> String {
         let heading = self.heading().to_lowercase();
         let words: Vec<_> =
             heading.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
@@ -64,22 +65,14 @@ impl Record {
         let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
         paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
         paths.sort();
-        paths.iter().map(|path| Self::read(path)).collect()
+        paths.iter().map(|path| parsed(path)).collect()
     }
 
-    pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
-        let record: Self = parsed(path)?;
-        if let Some((name, time)) = record.times_ns.iter().find(|(_, time)| !(**time > 0.0)) {
-            bail!("{}: {name} took {time} ns", path.display());
-        }
-        Ok(record)
-    }
-
-    /// The text to store.
-    pub(super) fn to_json(&self) -> anyhow::Result<Vec<u8>> {
+    /// Stores it beside the others.
+    pub(super) fn store(&self, folder: &OutputFolder) -> anyhow::Result<()> {
         let mut text = serde_json::to_vec_pretty(self).context("the record cannot be written as JSON")?;
         text.push(b'\n');
-        Ok(text)
+        Ok(folder.write(&self.file_name(), &text)?)
     }
 }
 
@@ -127,20 +120,18 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_record_is_stored_and_read_and_what_is_no_time_is_refused() {
-        let folder = std::env::temp_dir().join(format!("bouncing-disk-record-{}", std::process::id()));
-        fs::create_dir_all(&folder).expect("writable");
-        let mut record = record(&[("w1/scalar", 150.0)]);
-        assert_eq!(record.file_name(), "a-processor-1-2-avx-512.json");
-        let path = folder.join(record.file_name());
-        fs::write(&path, record.to_json().expect("JSON")).expect("writable");
-        fs::write(folder.join("README.md"), "not a record").expect("writable");
-        assert_eq!(Record::all(&folder).expect("readable"), [record.clone()]);
-        record.times_ns.insert("w3".to_owned(), 0.0);
-        fs::write(&path, record.to_json().expect("JSON")).expect("writable");
-        let error = Record::all(&folder).expect_err("no time is zero");
-        assert!(format!("{error:#}").contains("w3 took 0 ns"), "{error:#}");
-        fs::remove_dir_all(&folder).expect("removable");
+    fn records_are_stored_and_read() {
+        let path = std::env::temp_dir().join(format!("bouncing-disk-record-{}", std::process::id()));
+        let folder = OutputFolder::create(&path).expect("writable");
+        let record = record(&[("w1/scalar", 150.0)]);
+        record.store(&folder).expect("writable");
+        fs::write(path.join("README.md"), "not a record").expect("writable");
+        assert_eq!(Record::all(&path).expect("readable"), [record]);
+        let stored = path.join("a-processor-1-2-avx-512.json");
+        fs::write(&stored, r#"{"processor": 3}"#).expect("writable");
+        let error = Record::all(&path).expect_err("malformed");
+        assert!(format!("{error:#}").contains("a-processor-1-2-avx-512.json"), "{error:#}");
+        fs::remove_dir_all(&path).expect("removable");
     }
 
     #[test]
