@@ -149,9 +149,8 @@ fn git(root: &Path, arguments: &[&str]) -> anyhow::Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// The source of a commit in a folder that is removed at the end. It lies outside of the workspace, whose
-/// `.cargo/config.toml` cargo would add to that of the commit, and is called after the commit: cargo would take what it
-/// built of another one in the same folder for up to date, as the files are old.
+/// The source of a commit in a folder called after it, which is removed at the end. It lies outside of the workspace,
+/// whose `.cargo/config.toml` cargo would add to that of the commit.
 struct Tree(PathBuf);
 
 impl Tree {
@@ -189,8 +188,14 @@ fn compared(
     // A commit of the tracked files as they are, which no branch has; nothing if they are those of the last commit.
     let present = git(&root, &["stash", "create"])?;
     let new = new.unwrap_or(if present.is_empty() { "HEAD" } else { &present });
-    let [old, new] = [Tree::new(&root, old)?, Tree::new(&root, new)?];
-    let [old, new] = [compiled(&old.0, &target, programs)?, compiled(&new.0, &target, programs)?];
+    let trees = [Tree::new(&root, old)?, Tree::new(&root, new)?];
+    // Each commit is built in a folder of its own: cargo tells the crates of two copies of a workspace apart by nothing
+    // but the times of the files, and would take what it built of one commit for the other.
+    let build = |tree: &Tree| {
+        let name = tree.0.file_name().context("it has a name")?;
+        compiled(&tree.0, &target.join("compare").join(name), programs)
+    };
+    let [old, new] = [build(&trees[0])?, build(&trees[1])?];
     let arguments = [&SHORT[..], &[filter]].concat();
     let mut least = [Times::new(), Times::new(), Times::new()];
     for round in 1..=rounds {
