@@ -1,9 +1,6 @@
 //! The data of Figs. 6 and 7: the two that cost most. In draft quality; with `BOUNCING_DISK_PAPER=1` in paper quality as
 //! well, which takes minutes.
 
-#[path = "../../crates/bouncing-disk-core/benches/reference/mod.rs"]
-mod reference;
-
 use std::hint::black_box;
 
 use bouncing_disk_experiments::figures::{fig06::Fig06, fig07::Fig07};
@@ -34,5 +31,5 @@ fn figures(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, reference::before, figures, reference::after);
+criterion_group!(benches, figures);
 criterion_main!(benches);

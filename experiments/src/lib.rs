@@ -44,3 +44,8 @@ pub use finite::FiniteError;
 pub use measured::Measurements;
 pub use progress::{Progress, Silent};
 pub use table::Table;
+
+/// Compiles and runs the examples of the workspace's README, which no packaged crate may read.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct ReadmeExamples;

@@ -1,239 +1,265 @@
-//! `cargo xtask bench`.
+//! `cargo xtask bench`: runs the criterion benches, compares the speed of two commits, writes `docs/performance.md`.
 
 mod criterion;
 mod page;
 mod record;
-mod table;
-mod workloads;
 
-use std::num::NonZeroUsize;
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
-use std::time::Instant;
+use std::process::{Command, ExitCode, Stdio};
 
 use anyhow::{Context as _, bail};
 use bouncing_disk_experiments::output::OutputFolder;
-use clap::Args;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Subcommand};
 
+use crate::dependencies;
 use crate::output::{complain, say};
 use crate::workspace::{DOCS_FOLDER, in_workspace};
-use criterion::PROGRAMS;
-use record::{FigureTimes, Machine, Record};
+use criterion::{PROGRAMS, Times, compiled, keep_least};
+use record::Record;
 
-/// The folder of the stored baseline, relative to the root of the workspace.
-const BASELINE_FOLDER: &str = "data/performance";
-const BASELINE_FILE: &str = "baseline.json";
+/// The folder of the stored measurements, relative to the root of the workspace.
+const STORE: &str = "data/performance";
 const PAGE_FILE: &str = "performance.md";
-/// The folder of criterion's results, in the target folder.
-const RESULTS_FOLDER: &str = "performance";
 
-/// How often everything is measured at least.
-const REPETITIONS: u32 = 8;
+/// Arguments of one run of a bench program: less than a second for most benches, so that some runs fall between
+/// the bursts of whatever else the machine does.
+const SHORT: [&str; 4] = ["--warm-up-time", "0.2", "--measurement-time", "0.4"];
+
+/// The benches of W1, W2 and W3 on one thread.
+const WORKLOADS: &str = "^(w1/(scalar|lanes/.*)|w2/(one_motor|ensemble/threads_1)|w3/(scalar|threads_1))$";
 
 /// The options of `cargo xtask bench`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Bench programs to run, such as impact or basin; all when none is given
-    #[arg(value_name = "PROGRAM", value_parser = criterion::NAMES, conflicts_with = "reuse")]
-    programs: Vec<String>,
-    /// Show the ratios of the stored baseline beside this run's and write docs/performance.md
-    #[arg(long)]
-    compare: bool,
-    /// Measure everything only once
-    #[arg(long, conflicts_with = "reuse")]
-    quick: bool,
-    /// Store this run in data/performance/baseline.json
-    #[arg(long)]
-    save_baseline: bool,
-    /// Measure the wall time of `cargo xtask figures` in both qualities as well
-    #[arg(long)]
-    figures: bool,
-    /// Measure the wall time of a release build of xtask in an empty target folder as well
-    #[arg(long)]
-    build: bool,
-    /// Take the results of the last run instead of measuring
-    #[arg(long)]
-    reuse: bool,
+    #[command(subcommand)]
+    what: Bench,
+}
+
+#[derive(Subcommand)]
+enum Bench {
+    /// Run the benches and print the least time of each
+    Run {
+        /// Bench programs to run; those of docs/performance.md when none is given
+        #[arg(value_name = "PROGRAM", value_parser = names(),
+              default_values = ["limit", "impact", "growth", "basin", "motor"])]
+        programs: Vec<String>,
+        /// Go through them so many times
+        #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+        passes: u32,
+        /// Store the times, with that of a first build, in data/performance and write docs/performance.md
+        #[arg(long, conflicts_with = "programs")]
+        store: bool,
+    },
+    /// Compare the speed of two commits, running the programs of both in turn
+    Compare {
+        /// The commit to compare with, by any name that Git knows
+        old: String,
+        /// The commit to judge; by default the tracked files as they are
+        new: Option<String>,
+        /// Run the programs so many times
+        #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+        rounds: u32,
+        /// The bench programs
+        #[arg(long, value_name = "PROGRAM", value_delimiter = ',', value_parser = names(),
+              default_values = ["impact", "motor", "basin"])]
+        programs: Vec<String>,
+        /// The benches, a regular expression
+        #[arg(long, value_name = "REGEX", default_value = WORKLOADS)]
+        filter: String,
+    },
+    /// Write docs/performance.md from what is stored in data/performance, and from the lock file
+    Page {
+        /// Say whether it is up to date instead
+        #[arg(long)]
+        check: bool,
+    },
+}
+
+fn names() -> PossibleValuesParser {
+    PROGRAMS.map(|(_, name)| name).into()
 }
 
 /// Does what the options ask for.
 pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
-    let baseline_path = in_workspace(BASELINE_FOLDER).join(BASELINE_FILE);
-    // Before the run: nobody should wait for minutes to hear that the baseline cannot be read.
-    let baseline = options
-        .compare
-        .then(|| Record::read(&baseline_path, "cargo xtask bench --save-baseline"))
-        .transpose()?;
-    let run = measured(options)?;
-    say!("{}", table::aligned(&table::rows(&run, baseline.as_ref())).trim_end())?;
-    say!(
-        "\na ratio is a time over that of its reference kernel, measured before and after in the same program"
-    )?;
-    if run.machine.processors < 2 {
-        say!("one processor was available: the times with two threads show no speed-up")?;
-    }
-    if options.compare {
-        let page = page::page(&run, baseline.as_ref())?;
-        let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-        docs.write(PAGE_FILE, page.as_bytes())?;
-        say!("{} is written", docs.path().join(PAGE_FILE).display())?;
-    }
-    if options.save_baseline {
-        OutputFolder::create(in_workspace(BASELINE_FOLDER))?.write(BASELINE_FILE, &run.to_json()?)?;
-        say!("{} is written", baseline_path.display())?;
+    match &options.what {
+        Bench::Run { programs, passes, store } => {
+            let mut record = measured(programs, *passes)?;
+            for (name, time) in &record.times_ns {
+                say!("{name:<40} {:>12}", page::time(*time))?;
+            }
+            if *store {
+                record.first_build_s = Some(dependencies::first_build_time()?);
+                record.store(&OutputFolder::create(in_workspace(STORE))?)?;
+                write_page()?;
+            }
+        }
+        Bench::Compare { old, new, rounds, programs, filter } => {
+            say!("{}", compared(old, new.as_deref(), *rounds, programs, filter)?.trim_end())?;
+        }
+        Bench::Page { check: false } => write_page()?,
+        Bench::Page { check: true } => {
+            if fs::read_to_string(in_workspace(DOCS_FOLDER).join(PAGE_FILE)).ok() != Some(page()?) {
+                complain!("docs/{PAGE_FILE} is not up to date: `cargo xtask bench page` writes it anew");
+                return Ok(ExitCode::FAILURE);
+            }
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// The times of all benches, measured now or taken from the last run.
-fn measured(options: &Options) -> anyhow::Result<Record> {
-    let (root, results) = (in_workspace(""), results_folder()?);
-    let stored = results.join("run.json");
-    if options.reuse {
-        let mut record = Record::read(&stored, "cargo xtask bench")?;
-        if (options.build || options.figures) && machine(&root)? != record.machine {
-            bail!(
-                "the last run was of {}, not of what is there now; run without --reuse",
-                record.machine.source
-            );
-        }
-        measure_programs(options, &results, &mut record)?;
-        return Ok(record);
-    }
-    let machine = machine(&root)?;
-    let fresh =
-        Record { machine, quick: options.quick, benches: Default::default(), figures: None, build_s: None };
-    // Single programs add to the last run, if that was one of the same source and kind.
-    let mut record = if options.programs.is_empty() || !stored.exists() {
-        fresh
-    } else {
-        match Record::read(&stored, "cargo xtask bench") {
-            Ok(last) if last.machine == fresh.machine && last.quick == fresh.quick => last,
-            Ok(last) => {
-                let (quick, source) = (if last.quick { "short " } else { "" }, last.machine.source);
-                complain!(
-                    "the last {quick}run, of {source}, was not of this source, machine and kind: a new one begins"
-                );
-                fresh
-            }
-            Err(error) => {
-                complain!("{error:#}: a new run begins");
-                fresh
-            }
-        }
-    };
-    let selected = |name: &str| options.programs.is_empty() || options.programs.iter().any(|own| own == name);
+fn measured(programs: &[String], passes: u32) -> anyhow::Result<Record> {
+    let (root, target) = (in_workspace(""), target_folder()?);
+    let mut record = Record::here(&root, passes)?;
+    let programs = compiled(&root, &target, programs)?;
     // All programs again and again: a neighbour on the machine mostly stays for some minutes.
-    for _ in 0..if options.quick { 1 } else { REPETITIONS } {
-        for program in PROGRAMS.into_iter().filter(|program| selected(program.name())) {
-            program.run(&root, &results)?;
-            record.add(program.read(&results)?);
-            // Now, so that a run that is broken off loses no more than one program.
-            OutputFolder::create(results.clone())?.write("run.json", &record.to_json()?)?;
+    for pass in 1..=passes {
+        for program in &programs {
+            complain!("pass {pass} of {passes}: {}", program.name);
+            keep_least(&mut record.times_ns, program.measure(&target.join("performance"), &SHORT)?);
         }
     }
-    measure_programs(options, &results, &mut record)?;
     Ok(record)
 }
 
-/// Measures whole programs, as far as it was asked for, and stores the record with their times.
-fn measure_programs(options: &Options, results: &Path, record: &mut Record) -> anyhow::Result<()> {
-    // After each, so that a failure of the next one does not lose it.
-    let store = |record: &Record| -> anyhow::Result<()> {
-        OutputFolder::create(results.to_path_buf())?.write("run.json", &record.to_json()?)?;
-        Ok(())
-    };
-    if options.build {
-        record.build_s = Some(build_time(results)?);
-        store(record)?;
-    }
-    if options.figures {
-        record.figures = Some(figure_times(results)?);
-        store(record)?;
-    }
+fn page() -> anyhow::Result<String> {
+    Ok(page::page(&Record::all(&in_workspace(STORE))?, &dependencies::table()?))
+}
+
+fn write_page() -> anyhow::Result<()> {
+    OutputFolder::create(in_workspace(DOCS_FOLDER))?.write(PAGE_FILE, page()?.as_bytes())?;
+    say!("docs/{PAGE_FILE} is written")?;
     Ok(())
 }
 
-/// In the folder that cargo builds into.
-fn results_folder() -> anyhow::Result<PathBuf> {
+/// The folder that cargo builds into.
+fn target_folder() -> anyhow::Result<PathBuf> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| in_workspace("target"), PathBuf::from);
-    let target = std::path::absolute(target).context("cannot tell where the target folder is")?;
-    Ok(target.join(RESULTS_FOLDER))
+    std::path::absolute(target).context("cannot tell where the target folder is")
 }
 
-fn machine(root: &Path) -> anyhow::Result<Machine> {
-    let compiler = said(Command::new("rustc").arg("--version")).context("cannot start rustc")?;
-    let git = || {
-        let mut git = Command::new("git");
-        git.current_dir(root);
-        git
-    };
-    // What this command writes is not what it measures.
-    let products = [BASELINE_FOLDER.to_owned(), format!("{DOCS_FOLDER}/{PAGE_FILE}")];
-    let products = products.map(|product| format!(":(exclude){product}"));
-    let changes =
-        said(git().args(["status", "--porcelain", "--untracked-files=no", "--", "."]).args(products));
-    let source = said(git().args(["describe", "--always"]))
-        .and_then(|source| Ok(if changes?.is_empty() { source } else { format!("{source}-dirty") }));
-    let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
-        let line = text.lines().find(|line| line.starts_with("model name"))?;
-        Some(line.split_once(':')?.1.trim().to_owned())
-    });
-    Ok(Machine {
-        processor: processor.unwrap_or_else(|| format!("unknown ({})", std::env::consts::ARCH)),
-        processors: std::thread::available_parallelism().map_or(1, NonZeroUsize::get),
-        compiler,
-        source: source.unwrap_or_else(|_| "unknown".to_owned()),
-    })
-}
-
-/// What a program prints.
-fn said(command: &mut Command) -> anyhow::Result<String> {
-    let output = command.output()?;
+/// What Git prints.
+fn git(root: &Path, arguments: &[&str]) -> anyhow::Result<String> {
+    let output =
+        Command::new("git").args(arguments).current_dir(root).output().context("cannot start git")?;
     if !output.status.success() {
-        bail!("{}", String::from_utf8_lossy(&output.stderr).trim());
+        bail!("git {}: {}", arguments.join(" "), String::from_utf8_lossy(&output.stderr).trim());
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Wall time of a release build of xtask into an empty folder, which is removed again.
-fn build_time(results: &Path) -> anyhow::Result<f64> {
-    let target = results.join("build");
-    let remove = || match std::fs::remove_dir_all(&target) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    };
-    remove().with_context(|| format!("cannot empty {}", target.display()))?;
-    let mut cargo = Command::new("cargo");
-    cargo.args(["build", "--release", "--locked", "--package", "xtask", "--target-dir"]).arg(&target);
-    // A cache of compiled crates would make it another build.
-    cargo.env_remove("RUSTC_WRAPPER").env_remove("CARGO_BUILD_RUSTC_WRAPPER");
-    let start = Instant::now();
-    let status = cargo.current_dir(in_workspace("")).status().context("cannot start cargo")?;
-    let seconds = start.elapsed().as_secs_f64();
-    remove().with_context(|| format!("cannot remove {}", target.display()))?;
-    if !status.success() {
-        bail!("cargo build failed: {status}");
+/// The source of a commit in a folder called after it, which is removed at the end. It lies outside of the workspace,
+/// whose `.cargo/config.toml` cargo would add to that of the commit.
+struct Tree(PathBuf);
+
+impl Tree {
+    fn new(root: &Path, commit: &str) -> anyhow::Result<Self> {
+        let commit = git(root, &["rev-parse", "--verify", &format!("{commit}^{{commit}}")])?;
+        let tree = Self(std::env::temp_dir().join(format!("bouncing-disk-{}", &commit[..12])));
+        fs::create_dir_all(&tree.0).with_context(|| format!("cannot make {}", tree.0.display()))?;
+        let mut archive = Command::new("git");
+        archive.args(["archive", "--format=tar", &commit]).current_dir(root).stdout(Stdio::piped());
+        let mut archive = archive.spawn().context("cannot start git")?;
+        let mut tar = Command::new("tar");
+        tar.arg("-x").arg("-C").arg(&tree.0).stdin(archive.stdout.take().context("git gives nothing")?);
+        if !(tar.status().context("cannot start tar")?.success() && archive.wait()?.success()) {
+            bail!("cannot unpack {commit} into {}", tree.0.display());
+        }
+        Ok(tree)
     }
-    Ok(seconds.round())
 }
 
-/// Wall times of all figures, made anew into a folder that is removed again.
-fn figure_times(results: &Path) -> anyhow::Result<FigureTimes> {
-    let program = std::env::current_exe().context("cannot tell where this program is")?;
-    let out = results.join("figures");
-    let time = |quality: &str| -> anyhow::Result<f64> {
-        let mut command = Command::new(&program);
-        command.args(["figures", "--force", "--quality", quality, "--out"]).arg(&out);
-        let start = Instant::now();
-        let status = command.status().context("cannot start cargo xtask figures")?;
-        let seconds = start.elapsed().as_secs_f64();
-        if !status.success() {
-            bail!("cargo xtask figures --quality {quality} failed: {status}");
-        }
-        Ok((seconds * 100.0).round() / 100.0)
+impl Drop for Tree {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Builds both commits and runs old, new and old again in each round.
+fn compared(
+    old: &str,
+    new: Option<&str>,
+    rounds: u32,
+    programs: &[String],
+    filter: &str,
+) -> anyhow::Result<String> {
+    let (root, target) = (in_workspace(""), target_folder()?);
+    // A commit of the tracked files as they are, which no branch has; nothing if they are those of the last commit.
+    let present = git(&root, &["stash", "create"])?;
+    let new = new.unwrap_or(if present.is_empty() { "HEAD" } else { &present });
+    let trees = [Tree::new(&root, old)?, Tree::new(&root, new)?];
+    // Each commit is built in a folder of its own: cargo tells the crates of two copies of a workspace apart by nothing
+    // but the times of the files, and would take what it built of one commit for the other.
+    let build = |tree: &Tree| {
+        let name = tree.0.file_name().context("it has a name")?;
+        compiled(&tree.0, &target.join("compare").join(name), programs)
     };
-    let times = FigureTimes { draft_s: time("draft")?, paper_s: time("paper")? };
-    std::fs::remove_dir_all(&out).with_context(|| format!("cannot remove {}", out.display()))?;
-    Ok(times)
+    let [old, new] = [build(&trees[0])?, build(&trees[1])?];
+    let arguments = [&SHORT[..], &[filter]].concat();
+    let mut least = [Times::new(), Times::new(), Times::new()];
+    for round in 1..=rounds {
+        complain!("round {round} of {rounds}");
+        for (old, new) in old.iter().zip(&new) {
+            for (program, least) in [old, new, old].into_iter().zip(&mut least) {
+                keep_least(least, program.measure(&target.join("performance"), &arguments)?);
+            }
+        }
+    }
+    Ok(comparison(&least))
+}
+
+/// The table of the least times of the old programs, the new ones, and the old ones again, for the benches of both.
+fn comparison([old, new, again]: &[Times; 3]) -> String {
+    let mut text = format!("{:<24}{:>10}{:>10}{:>10}{:>10}\n", "", "old", "new", "new/old", "old/old");
+    for (name, old) in old {
+        let (Some(new), Some(again)) = (new.get(name), again.get(name)) else { continue };
+        let least = old.min(*again);
+        let (ratio, own) = (new / least, old.max(*again) / least);
+        let verdict = match ratio {
+            ratio if ratio > own => "slower",
+            ratio if ratio * own < 1.0 => "faster",
+            _ => "as fast",
+        };
+        let [least, new] = [least, *new].map(page::time);
+        text += &format!("{name:<24}{least:>10}{new:>10}{ratio:>10.3}{own:>10.3}  {verdict}\n");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slower_is_what_exceeds_the_old_program_against_itself() {
+        let times = |times: [f64; 3]| {
+            let names = ["w1/scalar", "w2/one_motor", "w3/scalar"].map(str::to_owned);
+            names.into_iter().zip(times).collect::<Times>()
+        };
+        let mut old = times([100.0, 100.0, 100.0]);
+        old.insert("w4".to_owned(), 7.0);
+        let text = comparison(&[old, times([104.0, 103.0, 90.0]), times([103.0, 104.0, 105.0])]);
+        let lines: Vec<_> = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>()).collect();
+        assert_eq!(lines[1], ["w1/scalar", "100", "ns", "104", "ns", "1.040", "1.030", "slower"]);
+        assert_eq!(lines[2][5..], ["1.030", "1.040", "as", "fast"]);
+        assert_eq!(lines[3][5..], ["0.900", "1.050", "faster"]);
+        assert_eq!(lines.len(), 4);
+    }
+
+    #[test]
+    fn a_commit_is_unpacked_and_removed() {
+        let root = in_workspace("");
+        // Sources without their history can be tested, too.
+        if git(&root, &["rev-parse", "HEAD"]).is_err() {
+            return;
+        }
+        let tree = Tree::new(&root, "HEAD").expect("there");
+        let path = tree.0.clone();
+        assert!(path.join("Cargo.toml").is_file() && path.join(".cargo/config.toml").is_file());
+        drop(tree);
+        assert!(!path.exists());
+        let error = Tree::new(&root, "no-such-commit").err().expect("unknown");
+        assert!(format!("{error:#}").contains("no-such-commit"), "{error:#}");
+    }
 }

@@ -1,9 +1,10 @@
 //! The chores of this repository.
 //!
-//! `cargo xtask figures` computes and draws the figures and tables of the paper; `cargo xtask bench` measures how fast
-//! the library is.
+//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask bench` measures how fast
+//! the library is, and `cargo xtask dependencies` counts what it depends on and checks the licences.
 
 mod bench;
+mod dependencies;
 mod figures;
 mod output;
 mod report;
@@ -25,8 +26,10 @@ struct Arguments {
 enum Chore {
     /// Compute and draw the figures and tables of the paper.
     Figures(figures::Options),
-    /// Measure the speed of everything that costs time, beside a stored baseline.
+    /// Run the benches, compare the speed of two commits, or write docs/performance.md.
     Bench(bench::Options),
+    /// Count the crates that each dependency brings, and check licences and sources.
+    Dependencies,
 }
 
 fn main() -> ExitCode {
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
     let done = match chore {
         Chore::Figures(options) => figures::run(&options),
         Chore::Bench(options) => bench::run(&options),
+        Chore::Dependencies => dependencies::run(),
     };
     match done {
         Ok(code) => code,

@@ -1,6 +1,8 @@
 //! Places in the workspace.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// The documentation, relative to the root of the workspace.
 pub(crate) const DOCS_FOLDER: &str = "docs";
@@ -9,4 +11,11 @@ pub(crate) const DOCS_FOLDER: &str = "docs";
 pub(crate) fn in_workspace(path: &str) -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().unwrap_or(package).join(path)
+}
+
+/// The cargo that runs this program, in the root of the workspace.
+pub(crate) fn cargo() -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")));
+    cargo.current_dir(in_workspace(""));
+    cargo
 }

@@ -1,9 +1,6 @@
 //! W3: the basin at Gamma = 0.5, restitution 0.5, impact phase over the full cycle, normalised speed in [0, 2], each
 //! cell to rest, to the known period-2 orbit, or 500 impacts. The time is that of one cell.
 
-#[path = "reference/mod.rs"]
-mod reference;
-
 use std::hint::black_box;
 
 use bouncing_disk_core::{
@@ -101,5 +98,5 @@ fn growth(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, w3, growth, reference::after);
+criterion_group!(benches, w3, growth);
 criterion_main!(benches);

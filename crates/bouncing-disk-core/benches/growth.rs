@@ -1,8 +1,5 @@
 //! How the time of one impact grows: with the length of an orbit, with the forcing, and with the length of a flight.
 
-#[path = "reference/mod.rs"]
-mod reference;
-
 use std::f64::consts::PI;
 use std::hint::black_box;
 
@@ -71,5 +68,5 @@ fn flight(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, impacts, forcing, flight, reference::after);
+criterion_group!(benches, impacts, forcing, flight);
 criterion_main!(benches);

@@ -1,8 +1,5 @@
 //! One impact: W1 (one after the other and in lockstep) and single flights by regime.
 
-#[path = "reference/mod.rs"]
-mod reference;
-
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
@@ -140,5 +137,5 @@ fn regimes(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, w1, regimes, reference::after);
+criterion_group!(benches, w1, regimes);
 criterion_main!(benches);

@@ -1,8 +1,5 @@
 //! The limit: the sine-cosine pair alone. An impact returns the pair of its phase, so it cannot be had for less than one.
 
-#[path = "reference/mod.rs"]
-mod reference;
-
 use std::f64::consts::FRAC_2_PI;
 use std::hint::black_box;
 
@@ -118,5 +115,5 @@ fn lanes(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, scalar, lanes, reference::after);
+criterion_group!(benches, scalar, lanes);
 criterion_main!(benches);

@@ -68,3 +68,8 @@ pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent}
 pub use numerics::elementary;
 pub use platform::phase::Phase;
 pub use platform::vibration::Vibration;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -1,9 +1,6 @@
 //! W2: the motor of Table III ([`System::motor`]). The time is that of one
 //! motor second.
 
-#[path = "../../bouncing-disk-core/benches/reference/mod.rs"]
-mod reference;
-
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
@@ -57,5 +54,5 @@ fn w2(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, w2, reference::after);
+criterion_group!(benches, w2);
 criterion_main!(benches);

@@ -1,9 +1,6 @@
 //! A single toss of the paper's Table I: its performance up to the separation, and the whole trajectory until the dough
 //! lands.
 
-#[path = "../../bouncing-disk-core/benches/reference/mod.rs"]
-mod reference;
-
 use std::hint::black_box;
 
 use bouncing_disk::{InitialSpin, System, single_toss, toss_trajectory};
@@ -21,5 +18,5 @@ fn toss(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, reference::before, toss, reference::after);
+criterion_group!(benches, toss);
 criterion_main!(benches);

@@ -73,9 +73,9 @@ pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit,
 pub use toss::period_one::period_one_rotary_speed;
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
-/// Compiles and runs the examples of the README.
+/// Compiles and runs the example of the README.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
+#[doc = include_str!("../README.md")]
 struct ReadmeExamples;
 
 /// Compiles and runs the programs of the tutorial.
