@@ -1,4 +1,5 @@
-//! Arithmetic that gives the same bits on every processor, roots, minima, statistics of samples and angles, and random streams.
+//! Arithmetic that gives the same bits on every processor, roots, minima, statistics of samples and angles,
+//! and random streams.
 
 pub mod circular;
 pub mod elementary;
