@@ -1,5 +1,4 @@
-//! W2: the motor of Table III ([`System::motor`]). The time is that of one
-//! motor second.
+//! W2: the motor of Table III ([`System::motor`]). The time is that of one motor second.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;

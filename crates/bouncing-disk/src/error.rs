@@ -93,7 +93,8 @@ pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'stati
     if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
 }
 
-/// Reads a type through its checks: a mirror of its fields, each of which must be there and no other, then `check` on the whole.
+/// Reads a type through its checks: a mirror of its fields, each of which must be there and no other, then
+/// `check` on the whole.
 macro_rules! read_checked {
     ($type:ident as $mirror:ident { $($field:ident: $kind:ty),+ $(,)? }) => {
         #[derive(serde::Deserialize)]

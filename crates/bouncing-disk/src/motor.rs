@@ -1,4 +1,5 @@
-//! The motor: speed transients, ensembles of them and their statistics, fits, the balance of the impulse, stall, and braking.
+//! The motor: speed transients, ensembles of them and their statistics, fits, the balance of the impulse,
+//! stall, and braking.
 
 pub(crate) mod brake;
 pub(crate) mod ensemble;

@@ -1,6 +1,7 @@
 //! The load at which a motor stalls.
 //!
-//! The model's [`ImpulseTrain`] finds it; beside it stands what the balance of the normal impulse says ([`NormalImpulses`]).
+//! The model's [`ImpulseTrain`] finds it; beside it stands what the balance of the normal impulse says
+//! ([`NormalImpulses`]).
 
 use bouncing_disk::{ExponentialFit, ImpulseTrain, NormalImpulses, Spread};
 use rayon::prelude::*;

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::numerics::elementary::{atan2, cos, hypot, sin_cos};
 
-/// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap between neighbours. Zero
-/// for one phase, `None` for none.
+/// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap
+/// between neighbours. Zero for one phase, `None` for none.
 ///
 /// Phases are in periods; 0 and 1 are the same.
 pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {

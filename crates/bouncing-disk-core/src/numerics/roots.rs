@@ -1,7 +1,7 @@
 //! Roots of functions of one variable inside a bracket.
 
-/// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings; the middle of the last
-/// bracket. The answer is not asked for at the ends, which count as true and false.
+/// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings; the
+/// middle of the last bracket. The answer is not asked for at the ends, which count as true and false.
 ///
 /// # Errors
 /// Those of `is_below`.
@@ -22,11 +22,12 @@ pub fn bisection<E>(
     Ok(0.5 * (low + high))
 }
 
-/// The root between `low` and `high` of a function that is positive below it and negative above it, to the relative `accuracy`:
-/// Newton steps, replaced by bisection wherever they leave the bracket or fail to halve the previous step but one.
+/// The root between `low` and `high` of a function that is positive below it and negative above it, to the
+/// relative `accuracy`: Newton steps, replaced by bisection wherever they leave the bracket or fail to halve
+/// the previous step but one.
 ///
-/// `function` gives the value and its derivative; `at_low` are those at `low`, which the caller often knows. Where the value
-/// there is not positive, or the bracket is empty, `low` is the root.
+/// `function` gives the value and its derivative; `at_low` are those at `low`, which the caller often knows.
+/// Where the value there is not positive, or the bracket is empty, `low` is the root.
 #[inline(always)]
 pub fn falling_root(
     mut low: f64,

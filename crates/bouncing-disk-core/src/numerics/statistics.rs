@@ -3,8 +3,8 @@
 /// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
 const ORDINARY: f64 = 1.0e120;
 
-/// The power of two by which numbers are multiplied before they or their squares are added up, so that the sum neither overflows
-/// nor vanishes. One for ordinary numbers, whose results keep their bits.
+/// The power of two by which numbers are multiplied before they or their squares are added up, so that the
+/// sum neither overflows nor vanishes. One for ordinary numbers, whose results keep their bits.
 #[must_use]
 pub fn summing_scale(values: &[f64]) -> f64 {
     let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -29,8 +29,8 @@ pub fn mean(values: &[f64]) -> f64 {
     sum / values.len() as f64 / scale
 }
 
-/// The standard deviation (with n - 1) of finite numbers about their [`mean`]; zero of one or none, infinite where no double
-/// holds it.
+/// The standard deviation (with n - 1) of finite numbers about their [`mean`]; zero of one or none, infinite
+/// where no double holds it.
 #[must_use]
 pub fn standard_deviation(values: &[f64]) -> f64 {
     let n = values.len() as f64;

@@ -158,7 +158,8 @@ impl Vibration {
         1.0 - self.peak_acceleration * phase.sin()
     }
 
-    /// Whether the platform falls away from a resting disk at this angle (rad) in [0, 2 pi): sigma <= tau < pi - sigma.
+    /// Whether the platform falls away from a resting disk at this angle (rad) in [0, 2 pi): sigma <= tau <
+    /// pi - sigma.
     #[must_use]
     #[inline(always)]
     pub fn falls_away_at(&self, angle: f64) -> bool {

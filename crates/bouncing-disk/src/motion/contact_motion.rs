@@ -1,7 +1,8 @@
-//! The motion of a disk on the platform from event to event: how it begins, which event comes next, and what that leaves.
+//! The motion of a disk on the platform from event to event: how it begins, which event comes next, and what
+//! that leaves.
 //!
-//! Every contact event is decided here and nowhere else. The [`Engine`](crate::Engine) makes a record of each step, with
-//! its energy; the motor's rotor takes the speed and the angle from it and pays for nothing more.
+//! Every contact event is decided here and nowhere else. The [`Engine`](crate::Engine) makes a record of each
+//! step, with its energy; the motor's rotor takes the speed and the angle from it and pays for nothing more.
 
 use std::cmp::Ordering;
 
@@ -14,8 +15,8 @@ use crate::motion::rotary_change::{RotaryChange, change_in_contact};
 use crate::motion::state::{Mode, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the platform's
-/// largest one, is the platform's: four units in the last place.
+/// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the
+/// platform's largest one, is the platform's: four units in the last place.
 pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 
 /// A disk on the platform.
@@ -60,15 +61,16 @@ pub(crate) struct ContactStep {
     /// Duration of the segment.
     pub(crate) span: PhaseSpan,
     pub(crate) event: ContactEvent,
-    /// What the closed forms say of the segment. Where a slip ends, rounding leaves a little between this speed and
-    /// [`Self::speed`].
+    /// What the closed forms say of the segment. Where a slip ends, rounding leaves a little between this
+    /// speed and [`Self::speed`].
     pub(crate) change: RotaryChange,
     /// Angular speed at the event: that of the platform where a slip ends.
     pub(crate) speed: f64,
 }
 
 impl Contact {
-    /// A disk that comes to rest on the platform at `time` with angular `speed` and lies there until `separation`.
+    /// A disk that comes to rest on the platform at `time` with angular `speed` and lies there until
+    /// `separation`.
     #[inline]
     pub(crate) fn new(
         system: &DimensionlessSystem,
@@ -158,7 +160,8 @@ impl Contact {
             Due::Separation => (ContactEvent::Separation, change.speed),
             Due::SlipStart(direction) => (ContactEvent::StickToSlip(direction), change.speed),
             Due::SlipEnd { direction, began_here } => {
-                // A slip that begins and ends at the same instant is one of rounding: let nothing slip again here.
+                // A slip that begins and ends at the same instant is one of rounding: let nothing slip again
+                // here.
                 let idle = began_here && span == PhaseSpan::ZERO;
                 let spent = if idle { Spent::Both } else { Spent::One(direction) };
                 let event = friction

@@ -1,15 +1,18 @@
 //! Where in the cycle of the stator the rotor gets its normal impulse, and what speed follows from it.
 //!
-//! Between two moments of the same vertical state the normal impulse, of impacts and contact together, equals the
-//! weight times the time between them. Friction passes on mu a_e of it, forwards wherever the stator turns faster than
-//! the rotor and backwards elsewhere. For a rotor whose speed q changes little in one impact therefore
+//! Between two moments of the same vertical state the normal impulse, of impacts and contact together, equals
+//! the weight times the time between them. Friction passes on mu a_e of it, forwards wherever the stator
+//! turns faster than the rotor and backwards elsewhere. For a rotor whose speed q changes little in one
+//! impact therefore
 //!
 //! ```text
-//! dq/dt = (mu a_e g/a_g^2) S(q/(omega Phi)),    S(x) = share of the impulse with cos(tau + theta) > x minus the rest
+//! dq/dt = (mu a_e g/a_g^2) S(q/(omega Phi)),
+//! S(x) = share of the impulse with cos(tau + theta) > x minus the rest
 //! ```
 //!
-//! The steady speed is omega Phi times the impulse-weighted median of cos(tau + theta), and for a cycle of few impacts the
-//! speed rises in straight lines that break where the rotor catches up with the stator at one of them.
+//! The steady speed is omega Phi times the impulse-weighted median of cos(tau + theta), and for a cycle of
+//! few impacts the speed rises in straight lines that break where the rotor catches up with the stator at one
+//! of them.
 
 use std::f64::consts::TAU;
 
@@ -46,8 +49,8 @@ pub struct PhasedImpulse {
 pub struct NormalImpulses {
     /// Of single impacts.
     pub impacts: Vec<PhasedImpulse>,
-    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], those of a last cycle that is cut off among
-    /// them. Those of a chattering sequence, without end, are not among them.
+    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], those of a last cycle that
+    /// is cut off among them. Those of a chattering sequence, without end, are not among them.
     pub landings: Vec<f64>,
     /// Of chattering that is summed, and of contact, in parts.
     pub contact: Vec<PhasedImpulse>,
@@ -56,13 +59,13 @@ pub struct NormalImpulses {
 }
 
 impl NormalImpulses {
-    /// Of at least `impacts` impacts from one separation to a later one; none if the platform never falls away. Each separation
-    /// gets a relative speed below `perturbation` (in units of g/omega, in [0, 1e100]), evenly spread; the last cycle, cut off,
-    /// is left out unless it is the only one.
+    /// Of at least `impacts` impacts from one separation to a later one; none if the platform never falls
+    /// away. Each separation gets a relative speed below `perturbation` (in units of g/omega, in [0, 1e100]),
+    /// evenly spread; the last cycle, cut off, is left out unless it is the only one.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`] impacts; those of the
-    /// flights.
+    /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`]
+    /// impacts; those of the flights.
     pub fn of(map: &ImpactMap, impacts: usize, perturbation: f64) -> Result<Self, Error> {
         moderate_not_negative("perturbation", perturbation)?;
         within_limit("impacts whose impulses are wanted", impacts, MAX_EXAMINED)?;
@@ -125,7 +128,8 @@ impl NormalImpulses {
         self.all().map(|one| one.impulse).sum()
     }
 
-    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; not numbers where there is no impulse.
+    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; not numbers where there is no
+    /// impulse.
     #[must_use]
     pub fn histogram(&self, parts: usize) -> Vec<f64> {
         let mut shares = vec![0.0; parts];
@@ -187,7 +191,8 @@ fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Erro
 /// The normal impulses from the last single impact before a rest to the separation after it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RestImpulses {
-    /// Of the chattering sequence, as one at the attachment: impulse is change of velocity plus weight times time.
+    /// Of the chattering sequence, as one at the attachment: impulse is change of velocity plus weight times
+    /// time.
     pub(crate) chatter: PhasedImpulse,
     /// Angle of the separation, counted on from that of the attachment.
     pub(crate) until: f64,
@@ -196,8 +201,8 @@ pub(crate) struct RestImpulses {
 }
 
 impl RestImpulses {
-    /// Of a rest whose last single impact, or separation, was at the angle `last`; `None` if it lasts for ever. The contact is
-    /// divided into `parts`.
+    /// Of a rest whose last single impact, or separation, was at the angle `last`; `None` if it lasts for
+    /// ever. The contact is divided into `parts`.
     pub(crate) fn of(map: &ImpactMap, rest: &Attachment, last: f64, parts: u32) -> Option<Self> {
         let (leaves, turns) = rest.separation?;
         let peak_acceleration = map.vibration().peak_acceleration();
@@ -232,7 +237,8 @@ impl RestImpulses {
     }
 }
 
-/// A part of a segment of contact: the impulse of the normal force 1 - P sin tau in it is the duration plus the gain.
+/// A part of a segment of contact: the impulse of the normal force 1 - P sin tau in it is the duration plus
+/// the gain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactPart {
     /// Angle of its middle, not wrapped.
@@ -243,8 +249,8 @@ pub(crate) struct ContactPart {
     pub(crate) gain: f64,
 }
 
-/// The balance of the impulses that drive a rotor forwards and those that brake it: [`NormalImpulses`] ordered by
-/// cos(tau + theta), the speed of the stator.
+/// The balance of the impulses that drive a rotor forwards and those that brake it: [`NormalImpulses`]
+/// ordered by cos(tau + theta), the speed of the stator.
 ///
 /// ```
 /// use bouncing_disk::{NormalImpulses, System};
@@ -268,7 +274,8 @@ pub struct ImpulseBalance {
 }
 
 impl ImpulseBalance {
-    /// S: share of the impulse where the stator turns faster than `speed` (in units of omega Phi) minus the rest.
+    /// S: share of the impulse where the stator turns faster than `speed` (in units of omega Phi) minus the
+    /// rest.
     #[must_use]
     pub fn net_share(&self, speed: f64) -> f64 {
         let slower = self.speeds.partition_point(|level| *level <= speed);
@@ -285,8 +292,8 @@ impl ImpulseBalance {
         self.speeds.get(index).or(self.speeds.last()).copied().unwrap_or(0.0)
     }
 
-    /// Times in units of the rise time omega Phi a_g^2/(mu a_e g) ([`crate::System::rise_time`]), and the speed from rest at
-    /// them in units of omega Phi: `count` equal steps up to `rises`.
+    /// Times in units of the rise time omega Phi a_g^2/(mu a_e g) ([`crate::System::rise_time`]), and the
+    /// speed from rest at them in units of omega Phi: `count` equal steps up to `rises`.
     #[must_use]
     pub fn transient(&self, rises: f64, count: u32) -> (Vec<f64>, Vec<f64>) {
         let step = rises / f64::from(count);

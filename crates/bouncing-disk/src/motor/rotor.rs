@@ -1,7 +1,8 @@
 //! The rotary motion alone, carried along an orbit of the core without records or energy balance.
 //!
-//! Its contact motion is the [`crate::Engine`]'s own ([`crate::motion::contact_motion`]). Only the sum over a chattering
-//! sequence is shorter where every impact of it slides the same way: then the summed impulse is known in closed form.
+//! Its contact motion is the [`crate::Engine`]'s own ([`crate::motion::contact_motion`]). Only the sum over a
+//! chattering sequence is shorter where every impact of it slides the same way: then the summed impulse is
+//! known in closed form.
 
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase};
 

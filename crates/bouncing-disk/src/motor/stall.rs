@@ -1,13 +1,15 @@
 //! The load at which a motor stalls.
 //!
-//! A constant load torque T takes T/(m a_g^2) of angular speed per time. The *stall load* is the T/(m a_g^2) at which the
-//! rotor's mean speed over a long run is zero. The vertical motion knows no load, so all loads share one seeded list of
-//! collisions and segments of contact, along which the speed is carried and the load bisected. Friction never holds the rotor
-//! meanwhile: at speed zero it would have to follow the stator, whose angular acceleration is some thousand times what friction
-//! can give in a motor ([`ImpulseTrain::hold_share`] is the inverse), so that there is no range of loads that all stall it.
+//! A constant load torque T takes T/(m a_g^2) of angular speed per time. The *stall load* is the T/(m a_g^2)
+//! at which the rotor's mean speed over a long run is zero. The vertical motion knows no load, so all loads
+//! share one seeded list of collisions and segments of contact, along which the speed is carried and the load
+//! bisected. Friction never holds the rotor meanwhile: at speed zero it would have to follow the stator,
+//! whose angular acceleration is some thousand times what friction can give in a motor
+//! ([`ImpulseTrain::hold_share`] is the inverse), so that there is no range of loads that all stall it.
 //!
-//! Beside it stands what the balance of the normal impulse says ([`crate::ImpulseBalance`]): a rotor held at rest gets the mean
-//! acceleration (mu a_e g/a_g^2) S(0), and a load of this size stalls it as long as its speed strays little from zero.
+//! Beside it stands what the balance of the normal impulse says ([`crate::ImpulseBalance`]): a rotor held at
+//! rest gets the mean acceleration (mu a_e g/a_g^2) S(0), and a load of this size stalls it as long as its
+//! speed strays little from zero.
 
 use std::convert::Infallible;
 
@@ -20,8 +22,8 @@ use crate::error::{Error, moderate_not_negative, positive, within_limit};
 use crate::motor::impulse::RestImpulses;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Halvings of the range of loads, from minus to plus the most that friction can give: to 2e-6 of it, far below the statistical
-/// error.
+/// Halvings of the range of loads, from minus to plus the most that friction can give: to 2e-6 of it, far
+/// below the statistical error.
 const HALVINGS: u32 = 20;
 
 /// Parts into which a segment of contact is divided.
@@ -51,13 +53,13 @@ pub struct ImpulseTrain {
 }
 
 impl ImpulseTrain {
-    /// Of at least `duration` (rad, positive) from a separation on. Every separation gets a relative speed drawn evenly below
-    /// `perturbation` (in units of g/omega, in [0, 1e100]) from the stream of `seed`. A motor whose stator never throws the
-    /// rotor has no impulses.
+    /// Of at least `duration` (rad, positive) from a separation on. Every separation gets a relative speed
+    /// drawn evenly below `perturbation` (in units of g/omega, in [0, 1e100]) from the stream of `seed`. A
+    /// motor whose stator never throws the rotor has no impulses.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the numbers, and for a stator that does not twist; an error of the core for more than
-    /// [`MAX_IMPULSES`]; those of the flights.
+    /// [`Error::OutOfRange`] for the numbers, and for a stator that does not twist; an error of the core for
+    /// more than [`MAX_IMPULSES`]; those of the flights.
     pub fn new(
         system: &DimensionlessSystem,
         duration: f64,
@@ -72,15 +74,16 @@ impl ImpulseTrain {
         Ok(Self { kicks: kicks(system, duration, perturbation, SplitMix64::new(seed))?, grip, hold_share })
     }
 
-    /// The largest angular acceleration that friction can give in contact over the stator's largest one: where it is small,
-    /// friction cannot hold the rotor on the stator but for an instant about the turning points of the stator's speed.
+    /// The largest angular acceleration that friction can give in contact over the stator's largest one:
+    /// where it is small, friction cannot hold the rotor on the stator but for an instant about the turning
+    /// points of the stator's speed.
     #[must_use]
     pub const fn hold_share(&self) -> f64 {
         self.hold_share
     }
 
-    /// The mean speed in units of omega Phi, from rest, against a load of `share` times the most that friction can give on
-    /// average ([`crate::Disk::friction_acceleration`]); zero without impulses.
+    /// The mean speed in units of omega Phi, from rest, against a load of `share` times the most that
+    /// friction can give on average ([`crate::Disk::friction_acceleration`]); zero without impulses.
     #[must_use]
     pub fn mean_speed(&self, share: f64) -> f64 {
         let (mut speed, mut turned, mut elapsed) = (0.0, 0.0, 0.0);
@@ -95,8 +98,8 @@ impl ImpulseTrain {
         if elapsed > 0.0 { turned / elapsed } else { 0.0 }
     }
 
-    /// The load at which the mean speed changes its sign, as a share of the most that friction can give on average: between -1
-    /// and 1, to 2e-6.
+    /// The load at which the mean speed changes its sign, as a share of the most that friction can give on
+    /// average: between -1 and 1, to 2e-6.
     ///
     /// ```
     /// use bouncing_disk::{ImpulseTrain, System};
@@ -172,8 +175,9 @@ mod tests {
     use super::*;
     use crate::System;
 
-    /// All the impulse at one phase: the load that balances is all that friction can give, with the sign of the stator's speed.
-    /// Over n kicks the speed falls by the load before each of them, so that its mean is zero for (n - 1)/n of that.
+    /// All the impulse at one phase: the load that balances is all that friction can give, with the sign of
+    /// the stator's speed. Over n kicks the speed falls by the load before each of them, so that its mean is
+    /// zero for (n - 1)/n of that.
     #[test]
     fn a_stator_that_is_always_hit_at_one_phase_bears_the_whole_limit() {
         let train = |kicks: Vec<Kick>, grip: f64| ImpulseTrain { kicks, grip, hold_share: 0.0 };

@@ -1,4 +1,5 @@
-//! What an ensemble of transients says about its motor, and what the motor would repeat if nothing perturbed it.
+//! What an ensemble of transients says about its motor, and what the motor would repeat if nothing perturbed
+//! it.
 
 use std::f64::consts::TAU;
 
@@ -14,8 +15,8 @@ use crate::toss::chattering_cycle::ChatteringCycle;
 use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
 use crate::toss::single::TOSS_START;
 
-/// A fit whose constant exceeds this share of the duration, or whose residual exceeds [`LARGEST_RESIDUAL`] of its steady speed,
-/// has no meaning: the speed does not settle, or it is not told apart from zero.
+/// A fit whose constant exceeds this share of the duration, or whose residual exceeds [`LARGEST_RESIDUAL`] of
+/// its steady speed, has no meaning: the speed does not settle, or it is not told apart from zero.
 pub const LARGEST_CONSTANT: f64 = 0.5;
 /// See [`LARGEST_CONSTANT`].
 pub const LARGEST_RESIDUAL: f64 = 0.25;
@@ -50,15 +51,16 @@ pub fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitC
 pub enum RiseForm {
     /// alpha_ss (1 - exp(-t/t_c)): stall acceleration alpha_ss/t_c.
     Exponential,
-    /// alpha_ss min(t/t_r, 1): stall acceleration alpha_ss/t_r. Only for a chattering cycle that survives the perturbation.
+    /// alpha_ss min(t/t_r, 1): stall acceleration alpha_ss/t_r. Only for a chattering cycle that survives the
+    /// perturbation.
     Ramp,
 }
 
 /// Ensemble statistics of one motor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotorStatistics {
-    /// Steady speed (rad/s) from the fits; where less than half of the members can be fitted, the mean over the last half of
-    /// each.
+    /// Steady speed (rad/s) from the fits; where less than half of the members can be fitted, the mean over
+    /// the last half of each.
     pub steady_speed: Spread,
     /// Stall acceleration (rad/s^2) over the members that can be fitted; `None` where less than half can.
     pub stall_acceleration: Option<Spread>,
@@ -68,8 +70,8 @@ pub struct MotorStatistics {
     pub unfitted: usize,
     /// What the motor repeats without perturbation ([`unperturbed_orbit`]).
     pub orbit: OrbitClass,
-    /// Whether that is a chattering cycle of at most eight long flights and the perturbed members repeat it, too, judged by the
-    /// mean time between their separations.
+    /// Whether that is a chattering cycle of at most eight long flights and the perturbed members repeat it,
+    /// too, judged by the mean time between their separations.
     pub locked: bool,
 }
 

@@ -37,8 +37,8 @@ impl DiskParameters {
         self
     }
 
-    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse per time is the
-    /// weight, whatever the orbit; so nothing accelerates the disk more on average.
+    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse
+    /// per time is the weight, whatever the orbit; so nothing accelerates the disk more on average.
     #[must_use]
     pub fn friction_acceleration(&self) -> f64 {
         self.friction * self.contact_radius * self.preload_acceleration
@@ -104,8 +104,7 @@ impl Disk {
         self.parameters.preload_acceleration
     }
 
-    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse per time is the
-    /// weight, whatever the orbit; so nothing accelerates the disk more on average.
+    /// mu a_e g/a_g^2 (rad/s^2): [`DiskParameters::friction_acceleration`].
     #[must_use]
     pub fn friction_acceleration(&self) -> f64 {
         self.parameters.friction_acceleration()

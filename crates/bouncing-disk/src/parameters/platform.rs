@@ -182,7 +182,8 @@ impl Platform {
         self.angular_frequency() * self.twist_amplitude()
     }
 
-    /// Axial forcing parameter Gamma = A omega^2/(pi g) under a preload acceleration g (m/s^2, positive) (Sec. I).
+    /// Axial forcing parameter Gamma = A omega^2/(pi g) under a preload acceleration g (m/s^2, positive)
+    /// (Sec. I).
     #[must_use]
     pub fn axial_forcing(&self, preload_acceleration: f64) -> f64 {
         self.peak_acceleration() / (PI * preload_acceleration)

@@ -43,7 +43,8 @@ const ROTOR: DiskParameters = DiskParameters {
 };
 
 impl Stroke {
-    /// The hand of Table I ([`System::pizza_toss`]), to be changed and made a platform ([`Platform::from_stroke`]).
+    /// The hand of Table I ([`System::pizza_toss`]), to be changed and made a platform
+    /// ([`Platform::from_stroke`]).
     #[must_use]
     pub const fn pizza_toss() -> Self {
         HAND

@@ -5,8 +5,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// A flight is long if it lasts longer than this (rad): half a period of the platform. The short ones of a chattering sequence
-/// get shorter without end, so that their number says how the sequence was cut rather than what the disk does.
+/// A flight is long if it lasts longer than this (rad): half a period of the platform. The short ones of a
+/// chattering sequence get shorter without end, so that their number says how the sequence was cut rather
+/// than what the disk does.
 pub const LONG_FLIGHT: f64 = PI;
 
 /// One round of a disk that comes to rest on the platform again and again: from one separation to the next.
@@ -22,7 +23,8 @@ pub struct ChatteringCycle {
 }
 
 impl ChatteringCycle {
-    /// Whether the disk is thrown, chatters and rests within each period of the platform: a chain of single tosses.
+    /// Whether the disk is thrown, chatters and rests within each period of the platform: a chain of single
+    /// tosses.
     #[must_use]
     pub const fn is_single_toss(&self) -> bool {
         self.platform_periods == 1
