@@ -25,7 +25,7 @@
 //! | --- | --- |
 //! | the platform | [`Phase`], [`Vibration`] |
 //! | one flight | [`Launch`], [`Impact`], [`Vibration::first_impact`], [`Vibration::first_impact_of_drop`], [`mod@reference`] |
-//! | chattering | [`Vibration::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`Vibration::chatters_to_rest`] |
+//! | chattering | [`ImpactMap::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`ImpactMap::chatters_to_rest`] |
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |

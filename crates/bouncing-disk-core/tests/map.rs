@@ -112,7 +112,7 @@ proptest! {
         let map = map(forcing, restitution);
         let phase = Phase::new(angle).expect("finite");
         let speed = bouncing_disk_core::elementary::pow(10.0, exponent);
-        let Some(sum) = map.vibration().accumulation(phase, speed, restitution) else { return Ok(()) };
+        let Some(sum) = map.accumulation(Launch::new(phase, speed).expect("legal")) else { return Ok(()) };
         let (mut total, mut launch, mut at) = (0.0, speed, phase);
         while launch > 1e-30 * speed {
             let impact = map.vibration().first_impact(Launch::new(at, launch).expect("legal")).expect("returns");
@@ -128,7 +128,7 @@ proptest! {
             "{} {} bound {}", sum.duration, total, sum.error_bound
         );
         let mut last = 0.0;
-        for impact in map.vibration().chatter_impacts(phase, speed, restitution) {
+        for impact in map.chatter_impacts(Launch::new(phase, speed).expect("legal")) {
             prop_assert!(impact.time >= last && impact.time <= sum.duration * (1.0 + 1e-12) + 1e-15);
             last = impact.time;
         }

@@ -68,7 +68,7 @@ impl Vibration {
     /// `restitution` in [0, 1).
     #[must_use]
     #[inline]
-    pub fn accumulation(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
+    pub(crate) fn accumulation(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
         if self.bounces_on(phase, speed, restitution) {
             return None;
         }
@@ -179,7 +179,7 @@ impl Vibration {
     ///
     /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
     /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.
-    pub fn chatter_impacts(
+    pub(crate) fn chatter_impacts(
         &self,
         phase: Phase,
         speed: f64,

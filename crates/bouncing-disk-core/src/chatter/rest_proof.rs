@@ -90,7 +90,7 @@ impl Vibration {
     /// `restitution` in [0, 1).
     #[must_use]
     #[inline]
-    pub fn chatters_to_rest(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
+    pub(crate) fn chatters_to_rest(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
         if speed <= 0.0 {
             return !self.falls_away_at(phase.angle());
         }

@@ -109,7 +109,7 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
     powers
 }
 
-/// A chattering sequence in closed form: see [`Vibration::chatter_series`].
+/// A chattering sequence in closed form: see [`crate::ImpactMap::chatter_series`].
 ///
 /// Its impacts are numbered from 1; number 0 is the launch that it starts from. The flight that ends with impact n + 1
 /// and what this impact does are power series in r^n. They all contain 1 - r, which is left out of the coefficients, so
@@ -133,7 +133,7 @@ impl Vibration {
     /// The chatter after a launch at `phase` with `speed` > 0 in closed form, for a sequence that
     /// [`Self::accumulation`] accepts with a duration above 0 and a `restitution` in (0, 1).
     #[must_use]
-    pub fn chatter_series(&self, phase: Phase, speed: f64, restitution: f64) -> ChatterSeries {
+    pub(crate) fn chatter_series(&self, phase: Phase, speed: f64, restitution: f64) -> ChatterSeries {
         let (pull, drift) = (self.contact_force(phase), self.velocity(phase));
         let duration = Expansion { pull, drift, restitution }.duration(speed);
         // Pull and drift at the accumulation point, from those at the start: next to a separation the pull of a rounded
@@ -264,7 +264,7 @@ impl<'a> Shape<'a> {
 }
 
 impl ChatterSeries {
-    /// Whether a chatter after a launch with `speed` has too many impacts for [`Vibration::chatter_impacts`], or too slow
+    /// Whether a chatter after a launch with `speed` has too many impacts for [`crate::ImpactMap::chatter_impacts`], or too slow
     /// ones for their sums one by one.
     #[must_use]
     #[inline]
@@ -273,7 +273,7 @@ impl ChatterSeries {
         restitution > LARGEST_COUNTED_RESTITUTION || (slow && restitution > 0.0)
     }
 
-    /// Time from the start to the accumulation point (rad), that of [`Vibration::accumulation`].
+    /// Time from the start to the accumulation point (rad), that of [`crate::ImpactMap::accumulation`].
     #[must_use]
     pub const fn duration(&self) -> f64 {
         self.duration

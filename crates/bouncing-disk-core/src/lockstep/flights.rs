@@ -151,7 +151,7 @@ impl Flights {
     /// Sets the next launch of every lane of a batch to what follows its impact with a coefficient of restitution of its own
     /// in [0, 1); another number counts as zero.
     ///
-    /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`Vibration::accumulation`] is `None`.
+    /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`crate::ImpactMap::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
         self.scheduler.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });

@@ -1,7 +1,7 @@
 //! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no longer count, or
 //! in closed form where they are too many for that.
 
-use bouncing_disk_core::{ChatterImpact, ChatterSeries, Phase};
+use bouncing_disk_core::{ChatterImpact, ChatterSeries, Launch, Phase};
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
@@ -67,7 +67,8 @@ impl Chatter {
 
     /// The impacts up to `duration` one by one.
     fn go_through(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) {
-        for impact in system.vibration().chatter_impacts(phase, self.launch_speed, system.restitution()) {
+        let Ok(launch) = Launch::new(phase, self.launch_speed) else { return };
+        for impact in system.map().chatter_impacts(launch) {
             if impact.time > duration {
                 break;
             }

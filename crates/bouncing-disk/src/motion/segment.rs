@@ -1,5 +1,6 @@
 //! The closed-form motion between two events.
 
+use bouncing_disk_core::Launch;
 use serde::Serialize;
 
 use crate::motion::chatter::Chatter;
@@ -38,8 +39,8 @@ impl Segment {
         let platform = PlatformState::at(system, time.phase);
         // Any other sequence might never end.
         let chatters = |speed: &f64| {
-            let vibration = system.vibration();
-            let at = vibration.accumulation(self.start.phase, *speed, system.restitution());
+            let launch = Launch::new(self.start.phase, *speed);
+            let at = launch.ok().and_then(|launch| system.map().accumulation(launch));
             at.is_some_and(|at| at.duration > 0.0)
         };
         let disk = match (self.state.mode, self.chatter_speed.filter(chatters)) {

@@ -253,9 +253,9 @@ fn attend(
     if !may_rest {
         return Ok(false);
     }
-    let (Some(state), restitution) = (flights.state(lane), rotors.restitution[own]) else { return Ok(false) };
-    let vibration = run.rotor.system().vibration();
-    if vibration.accumulation(state.phase(), -restitution * state.velocity(), restitution).is_none() {
+    let Some(state) = flights.state(lane) else { return Ok(false) };
+    let map = run.rotor.system().map();
+    if map.accumulation(map.rebound(state)).is_none() {
         return Ok(false);
     }
     let (periods, speed) = rotors.motion(own);

@@ -1,7 +1,7 @@
 //! A chatter in closed form: pieces of many impacts in which the disk slides one way or follows the platform.
 
 use bouncing_disk_core::elementary::sin_cos;
-use bouncing_disk_core::{ChatterSeries, ImpactRange, Phase, PowerSeries};
+use bouncing_disk_core::{ChatterSeries, ImpactRange, Launch, Phase, PowerSeries};
 
 use super::Chatter;
 use crate::motion::impact::friction_impact;
@@ -19,7 +19,9 @@ const MAX_PIECES: u32 = USUAL_PIECES + 64;
 impl Chatter {
     /// The whole sequence up to `duration` at once; returns the number of pieces.
     pub(super) fn sum(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) -> u32 {
-        let series = system.vibration().chatter_series(phase, self.launch_speed, system.restitution());
+        // A launch speed is never negative; that of a segment made by hand may be anything.
+        let Ok(launch) = Launch::new(phase, self.launch_speed) else { return 0 };
+        let series = system.map().chatter_series(launch);
         let end = series.impacts_by(duration);
         if end == Some(0) {
             return 0;

@@ -64,7 +64,7 @@ fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
 fn largest_speed(system: &DimensionlessSystem, phase: Phase) -> Option<f64> {
     let accepted = |exponent: f64| {
         let speed = pow(10.0, exponent);
-        system.vibration().accumulation(phase, speed, system.restitution()).map(|_| speed)
+        system.map().accumulation(Launch::new(phase, speed).unwrap()).map(|_| speed)
     };
     let (mut slow, mut fast) = (-150.0, 0.0);
     accepted(slow)?;
@@ -97,7 +97,7 @@ fn cases(restitution: f64, peak_acceleration: f64, count: u64) -> impl Iterator<
             _ => Phase::new(std::f64::consts::TAU * pick(11)).unwrap(),
         };
         let speed = largest_speed(&system, phase)? * [1.0, 0.3, 1e-3][(k % 3) as usize];
-        let at = system.vibration().accumulation(phase, speed, restitution)?;
+        let at = system.map().accumulation(Launch::new(phase, speed).unwrap())?;
         let slip = match k % 5 {
             0 => 0.0,
             1 => 1e3,
@@ -238,7 +238,8 @@ fn friction_at_its_limit_takes_few_pieces() {
             // For the twisting platforms: about the phase where its acceleration takes what the load leaves.
             let phase = Phase::new(golden_spread(13 * k) * std::f64::consts::TAU).unwrap();
             let Some(speed) = largest_speed(&system, phase) else { continue };
-            let Some(at) = system.vibration().accumulation(phase, speed, restitution) else { continue };
+            let launch = Launch::new(phase, speed).unwrap();
+            let Some(at) = system.map().accumulation(launch) else { continue };
             let slips = [0.0, 1e-3 * limit * at.duration, -1e-17];
             let spin = system.platform_angular_speed(phase) + slips[(k % 3) as usize];
             let case = Case { system, phase, speed, spin, at };
@@ -260,7 +261,7 @@ fn a_slip_that_ends_in_an_impact_ends_there() {
             if system.friction() == 0.0 || system.twist_speed() > 0.0 || system.load() != 0.0 {
                 continue;
             }
-            let series = system.vibration().chatter_series(case.phase, case.speed, restitution);
+            let series = system.map().chatter_series(Launch::new(case.phase, case.speed).unwrap());
             let impulses = series.impact_speed().scaled(1.0 + restitution);
             for impacts in [1, 2, 3, 40, 300] {
                 let range = series.range(0, Some(impacts));

@@ -25,8 +25,8 @@ fn a_long_chatter_ends_as_in_the_engine() {
             .unwrap();
             let phase = Phase::new(std::f64::consts::TAU * pick(11)).unwrap();
             let speed = pow(10.0, -30.0 * pick(3));
-            let vibration = system.vibration();
-            let Some(at) = vibration.accumulation(phase, speed, restitution) else { continue };
+            let launch = Launch::new(phase, speed).unwrap();
+            let Some(at) = system.map().accumulation(launch) else { continue };
             let slip = [0.0, 1.0, at.duration * (pick(13) - 0.5)][(k % 3) as usize];
             let spin = system.platform_angular_speed(phase) + slip;
             // What a disk that is launched here does after an impact: both go on from the same one.
