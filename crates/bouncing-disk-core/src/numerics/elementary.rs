@@ -169,8 +169,9 @@ pub(crate) fn sine_deficit(h: f64, sin_h: f64) -> f64 {
 }
 
 /// (h - sin h) / h^3 for |h| up to 1/2; relative error below 2e-16.
+#[must_use]
 #[inline(always)]
-pub(crate) fn sine_deficit_ratio(h: f64) -> f64 {
+pub fn sine_deficit_ratio(h: f64) -> f64 {
     let z = h * h;
     1.0 / 6.0
         - z * (1.0 / 120.0

@@ -3,7 +3,7 @@
 use std::iter::Sum;
 
 use bouncing_disk_core::Phase;
-use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::elementary::{sin_cos, sine_deficit_ratio};
 
 use crate::motion::phase_time::PhaseSpan;
 
@@ -132,11 +132,5 @@ pub(crate) fn sine_deficit(t: f64, sine: f64) -> f64 {
         return t - sine;
     }
     let z = t * t;
-    t * z
-        * (1.0 / 6.0
-            - z * (1.0 / 120.0
-                - z * (1.0 / 5_040.0
-                    - z * (1.0 / 362_880.0
-                        - z * (1.0 / 39_916_800.0
-                            - z * (1.0 / 6_227_020_800.0 - z * (1.0 / 1_307_674_368_000.0)))))))
+    t * z * sine_deficit_ratio(t)
 }
