@@ -1,4 +1,4 @@
-//! Which claims answer which entries of the [catalogue].
+//! Which claims answer which entries of the [catalogue](crate::catalogue).
 
 use std::collections::BTreeSet;
 

@@ -3,6 +3,9 @@
 //! An entry is named `file.name`. It says where it is printed, what it is, and which figure or table answers it. The
 //! claim that answers it takes all this from here ([`Claim::printed`], [`Claim::printed_statement`]), and so do the
 //! experiments that need a printed number as an input ([`crate::paper`]).
+//!
+//! [`Claim::printed`]: crate::claim::Claim::printed
+//! [`Claim::printed_statement`]: crate::claim::Claim::printed_statement
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

@@ -129,7 +129,7 @@ pub(super) struct Trend {
     pub(super) speed: Agreement,
     pub(super) torque: Agreement,
     pub(super) both: Agreement,
-    /// Speed and torque for [`OTHER_BOUNDS`] instead of [`SHARP`].
+    /// Speed and torque for [`OTHER_BOUNDS`](super::trends::OTHER_BOUNDS) instead of [`SHARP`](super::trends::SHARP).
     pub(super) speed_for_other_bounds: [Agreement; 2],
     pub(super) torque_for_other_bounds: [Agreement; 2],
     /// Motors inside on a low-period cycle, and those of them with speed and torque on the trend.
