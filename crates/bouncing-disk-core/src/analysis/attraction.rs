@@ -180,7 +180,7 @@ mod tests {
             assert!(radius > 0.3, "{radius}");
             let labels = |radius| {
                 let known = [KnownOrbit::new(orbit.clone(), radius).expect("legal")];
-                map.basins(grid, &known, BasinSettings::default(), || ()).expect("no failure")
+                map.basins(grid, &known, BasinSettings::default()).expect("no failure")
             };
             assert_eq!(labels(radius), labels(0.003), "Gamma {axial_forcing}");
         }

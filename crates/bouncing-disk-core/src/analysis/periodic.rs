@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 use roots::{Convergency, SearchError, find_root_brent};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
@@ -63,7 +63,8 @@ impl Multipliers {
 }
 
 /// A periodic orbit of the impact map.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PeriodicOrbit {
     /// The impacts of one period of the orbit, in their order.
     pub states: Vec<ImpactState>,

@@ -1,7 +1,7 @@
 //! The impact map (next-collision map) of the vertical motion, and its orbits.
 
 use glam::{DMat2, DVec2};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
@@ -12,10 +12,27 @@ use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedState")]
 pub struct ImpactState {
     phase: Phase,
     velocity: f64,
+}
+
+/// What is read of an [`ImpactState`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedState {
+    phase: Phase,
+    velocity: f64,
+}
+
+impl TryFrom<UncheckedState> for ImpactState {
+    type Error = Error;
+
+    fn try_from(state: UncheckedState) -> Result<Self, Error> {
+        Self::new(state.phase, state.velocity)
+    }
 }
 
 impl ImpactState {
@@ -81,10 +98,27 @@ impl From<&Impact> for ImpactState {
 }
 
 /// The vertical impact map: vibration of the platform and coefficient of restitution.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedMap")]
 pub struct ImpactMap {
     vibration: Vibration,
     restitution: f64,
+}
+
+/// What is read of an [`ImpactMap`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedMap {
+    vibration: Vibration,
+    restitution: f64,
+}
+
+impl TryFrom<UncheckedMap> for ImpactMap {
+    type Error = Error;
+
+    fn try_from(map: UncheckedMap) -> Result<Self, Error> {
+        Self::new(map.vibration, map.restitution)
+    }
 }
 
 impl ImpactMap {
