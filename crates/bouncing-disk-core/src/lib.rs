@@ -51,7 +51,9 @@ pub use analysis::basin::{
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
 pub use analysis::orbit_batch::OrbitBatch;
-pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
+pub use analysis::periodic::{
+    MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings, period_doublings_observed,
+};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, orbit_diagram, orbit_diagram_observed,
     survival_times, survival_times_observed, sweep, sweep_observed,

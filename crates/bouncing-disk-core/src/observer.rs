@@ -139,7 +139,7 @@ impl<'o> Watch<'o> {
         self.done.fetch_add(items, Ordering::Relaxed);
     }
 
-    /// Sets how many items are finished: for a call of one thread that knows it anyway.
+    /// Sets how many items are finished: for a call of one thread, which knows.
     pub fn set_done(&self, items: u64) {
         self.done.store(items, Ordering::Relaxed);
     }
@@ -206,6 +206,16 @@ impl<'w> WorkCount<'w> {
         if self.work < FLIGHTS_BETWEEN_CALLS { Ok(()) } else { self.ask() }
     }
 
+    /// Counts items as finished that are a flight each.
+    ///
+    /// # Errors
+    /// Those of [`Self::spend`].
+    #[inline]
+    pub fn finish(&mut self, flights: u64) -> Result<(), Error> {
+        self.watch.finish(flights);
+        self.spend(flights)
+    }
+
     #[cold]
     fn ask(&mut self) -> Result<(), Error> {
         self.work = 0;
@@ -218,6 +228,9 @@ impl<'w> WorkCount<'w> {
         self.watch
     }
 }
+
+/// What the parts of a long call are given to count their flights with, each as they like; an error ends the call.
+pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
 
 #[cfg(test)]
 mod tests {

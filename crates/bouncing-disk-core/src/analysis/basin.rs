@@ -440,7 +440,7 @@ mod tests {
 
     #[test]
     fn settings_with_a_misspelt_key_are_refused() {
-        let text = r#"{"max_impacts":7,"policy":"Paper","polcy":"Complete"}"#;
+        let text = r#"{"max_impacts":7,"policy":"Complete","polcy":"Complete"}"#;
         assert!(
             serde_json::from_str::<BasinSettings>(text)
                 .is_err_and(|error| error.to_string().contains("polcy"))

@@ -8,6 +8,7 @@ use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
 use crate::error::{Error, within};
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
+use crate::observer::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
@@ -173,6 +174,29 @@ impl ImpactMap {
             let speed = -self.restitution * state.velocity;
             state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
         }
+        Ok(state)
+    }
+
+    /// [`Self::iterate`] with an observer; the items are the impacts.
+    ///
+    /// # Errors
+    /// Those of [`Self::iterate`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from there iterates in parts.
+    pub fn iterate_observed(
+        &self,
+        mut state: ImpactState,
+        impacts: u64,
+        observer: &dyn Observer,
+    ) -> Result<ImpactState, Error> {
+        let watch = Watch::begin(observer, 0, impacts)?;
+        let mut work = watch.work();
+        let mut left = impacts;
+        while left > 0 {
+            let part = left.min(FLIGHTS_BETWEEN_CALLS);
+            state = self.iterate(state, part)?;
+            left -= part;
+            work.finish(part)?;
+        }
+        watch.end();
         Ok(state)
     }
 

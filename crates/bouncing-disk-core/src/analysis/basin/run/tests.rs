@@ -63,9 +63,9 @@ fn a_run_that_is_stopped_ends_in_the_labels_of_one_call() {
         for threads in [1, 2, 7] {
             // Stopped at the first call, before anything is begun, then later and later.
             let run = BasinRun::new(map, grid(columns, rows), &known, settings).expect("few cells");
-            let (basins, stops) = in_parts(run, threads, |stops| 1 + stops * stops);
+            let (basins, stops) = in_parts(run, threads, |stops| 1 + stops);
             assert_eq!(basins, at_once, "{threads} threads");
-            assert!(stops > 3, "{stops}");
+            assert!(stops >= 3, "{stops}");
         }
     }
 }
