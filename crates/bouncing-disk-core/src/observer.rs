@@ -5,11 +5,12 @@ use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::error::Error;
 
-/// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and some ten without any
-/// optimisation, so that an observer hears of every thread far more often than every 50 ms.
+/// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and some
+/// ten without any optimisation, so that an observer hears of every thread far more often than every 50 ms.
 ///
-/// Work is counted and not timed because nothing on the way to a result looks at a clock. In lockstep the lanes of a batch count
-/// whether they are in use or not, and a batch that is compared with many known orbits counts as more flights.
+/// Work is counted and not timed because nothing on the way to a result looks at a clock. In lockstep the
+/// lanes of a batch count whether they are in use or not, and a batch that is compared with many known orbits
+/// counts as more flights.
 pub const FLIGHTS_BETWEEN_CALLS: u64 = 1 << 13;
 
 /// How far a call is: items that are finished, and all of them.
@@ -33,11 +34,12 @@ impl Progress {
 
 /// Is told how far a long call is, and may stop it.
 ///
-/// Every call that may take longer than 0.1 s has a form whose name ends in `_observed` and that takes an observer: it is
-/// called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and when all is done. Where it breaks, the
-/// call returns [`Error::Stopped`]; its last answer, when all is done, is not asked for. The calls come from the threads that do
-/// the work, several at a time and in no certain order, so that `done` of one call may be less than that of the one before. No bit
-/// of a result depends on an observer.
+/// Every call that may take longer than 0.1 s has a form whose name ends in `_observed` and that takes an
+/// observer: it is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each
+/// thread, and when all is done. Where it breaks, the call returns [`Error::Stopped`]; its last answer, when
+/// all is done, is not asked for. The calls come from the threads that do the work, several at a time and in
+/// no certain order, so that `done` of one call may be less than that of the one before. No bit of a result
+/// depends on an observer.
 ///
 /// A function or closure of this form is an observer; the core looks at no clock, but the observer may.
 ///
@@ -87,9 +89,11 @@ impl Observer for Unobserved {
     }
 }
 
-/// A call that is observed: counts the finished items of all threads, and remembers that the observer has broken.
+/// A call that is observed: counts the finished items of all threads, and remembers that the observer has
+/// broken.
 ///
-/// The long calls of this crate and of the model count with it; so may a loop of your own around single flights.
+/// The long calls of this crate and of the model count with it; so may a loop of your own around single
+/// flights.
 ///
 /// ```
 /// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration, Watch};
@@ -124,7 +128,8 @@ impl core::fmt::Debug for Watch<'_> {
 }
 
 impl<'o> Watch<'o> {
-    /// Begins a call of `total` items, of which earlier ones have finished `done`, and asks the observer for the first time.
+    /// Begins a call of `total` items, of which earlier ones have finished `done`, and asks the observer for
+    /// the first time.
     ///
     /// # Errors
     /// [`Error::Stopped`] if it breaks.
@@ -229,7 +234,8 @@ impl<'w> WorkCount<'w> {
     }
 }
 
-/// What the parts of a long call are given to count their flights with, each as they like; an error ends the call.
+/// What the parts of a long call are given to count their flights with, each as they like; an error ends the
+/// call.
 pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
 
 #[cfg(test)]

@@ -22,6 +22,7 @@
 //! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | the motor | [`transient`], [`transients`], [`ensemble()`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
+//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
 //! | vertical motion | [`mod@core`] |
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.

@@ -109,7 +109,7 @@ mod tests {
         let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal grid");
         let settings = BasinSettings { max_impacts: MAX_IMPACTS as u32, policy: ChatterPolicy::Complete };
         let basins = map
-            .basins(grid, &[KnownOrbit::new(orbit, radius).expect("legal")], settings, || ())
+            .basins(grid, &[KnownOrbit::new(orbit, radius).expect("legal")], settings)
             .expect("no failure");
         let labels = basins.labels();
         let count = |label| labels.iter().filter(|&&own| own == label).count();

@@ -364,8 +364,8 @@ impl ImpactMap {
         self.basins_observed(grid, known, settings, &Unobserved)
     }
 
-    /// [`Self::basins`] with an observer; the items are the rows. A [`BasinRun`] keeps the finished ones of a call that is
-    /// stopped.
+    /// [`Self::basins`] with an observer; the items are the rows. A [`BasinRun`] keeps the finished ones of a
+    /// call that is stopped.
     ///
     /// # Errors
     /// Those of [`Self::basins`]; [`Error::Stopped`] if the observer breaks.

@@ -45,8 +45,9 @@ pub fn follow_attractor<Forcings: IntoIterator<Item = f64>>(
 }
 
 impl<Forcings: Iterator<Item = f64>> Following<Forcings> {
-    /// The next item with an observer; the items of the observer are the impacts of the transient. Where it breaks, the item is
-    /// [`Error::Stopped`], and the next call goes on after the impacts that were followed.
+    /// The next item with an observer; the items of the observer are the impacts of the transient. Where it
+    /// breaks, the item is [`Error::Stopped`], and the next call goes on after the impacts that were
+    /// followed.
     pub fn next_observed(&mut self, observer: &dyn Observer) -> Option<Result<Followed, Error>> {
         self.advance(observer).transpose()
     }
@@ -95,7 +96,8 @@ impl Transient {
         Self { orbit: map.orbit(start, policy), state: start, impacts: 0 }
     }
 
-    /// The state so many impacts after the start; `None` if the disk comes to rest before. The tick counts impacts.
+    /// The state so many impacts after the start; `None` if the disk comes to rest before. The tick counts
+    /// impacts.
     fn follow(&mut self, impacts: usize, tick: Tick<'_>) -> Result<Option<ImpactState>, Error> {
         while self.impacts < impacts {
             let chunk = (impacts - self.impacts).min(Self::CHUNK);
@@ -149,8 +151,8 @@ impl ImpactMap {
     /// [`Self::state_after`] with an observer; the items are the impacts.
     ///
     /// # Errors
-    /// Those of [`Self::state_after`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from there advances an
-    /// [`Orbit`].
+    /// Those of [`Self::state_after`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from
+    /// there advances an [`Orbit`].
     pub fn state_after_observed(
         &self,
         start: ImpactState,

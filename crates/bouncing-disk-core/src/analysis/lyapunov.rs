@@ -98,8 +98,8 @@ pub fn lyapunov_exponents(
     lyapunov_exponents_observed(starts, transient, impacts, &Unobserved)
 }
 
-/// [`lyapunov_exponents`] with an observer; the items are the orbits. [`SweepRun::advance_lyapunov_exponents`] keeps the finished
-/// ones of a call that is stopped.
+/// [`lyapunov_exponents`] with an observer; the items are the orbits.
+/// [`SweepRun::advance_lyapunov_exponents`] keeps the finished ones of a call that is stopped.
 ///
 /// # Errors
 /// Those of [`lyapunov_exponents`]; [`Error::Stopped`] if the observer breaks.

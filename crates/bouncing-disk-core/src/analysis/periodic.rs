@@ -306,8 +306,8 @@ impl ImpactMap {
         self.settled_orbit_observed(state, transient, longest, tolerance, &Unobserved)
     }
 
-    /// [`Self::settled_orbit`] with an observer; the items are the impacts of the transient, of the search of the period and of
-    /// the refinement, as many as there are at most.
+    /// [`Self::settled_orbit`] with an observer; the items are the impacts of the transient, of the search of
+    /// the period and of the refinement, as many as there are at most.
     ///
     /// # Errors
     /// Those of [`Self::settled_orbit`]; [`Error::Stopped`] if the observer breaks.
@@ -391,7 +391,8 @@ pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoub
     period_doublings_observed(restitution, count, &Unobserved)
 }
 
-/// [`period_doublings`] with an observer; the items are the doublings. Ten of them take seconds: a call that is stopped begins anew.
+/// [`period_doublings`] with an observer; the items are the doublings. Ten of them take seconds: a call that
+/// is stopped begins anew.
 ///
 /// # Errors
 /// Those of [`period_doublings`]; [`Error::Stopped`] if the observer breaks.

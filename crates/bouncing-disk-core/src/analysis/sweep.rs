@@ -91,8 +91,8 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
 /// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
 /// change a bit.
 ///
-/// An orbit that its visitor never breaks off and that never ends is followed for ever, or until the observer of
-/// [`sweep_observed`] breaks.
+/// An orbit that its visitor never breaks off and that never ends is followed for ever, or until the observer
+/// of [`sweep_observed`] breaks.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -127,7 +127,8 @@ pub fn sweep<S: Send>(
     sweep_observed(orbits, start, visit, &Unobserved)
 }
 
-/// [`sweep`] with an observer; the items are the orbits. A [`SweepRun`] keeps the finished ones of a call that is stopped.
+/// [`sweep`] with an observer; the items are the orbits. A [`SweepRun`] keeps the finished ones of a call
+/// that is stopped.
 ///
 /// # Errors
 /// Those of [`sweep`]; [`Error::Stopped`] if the observer breaks.

@@ -180,7 +180,8 @@ impl ImpactMap {
     /// [`Self::iterate`] with an observer; the items are the impacts.
     ///
     /// # Errors
-    /// Those of [`Self::iterate`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from there iterates in parts.
+    /// Those of [`Self::iterate`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from there
+    /// iterates in parts.
     pub fn iterate_observed(
         &self,
         mut state: ImpactState,

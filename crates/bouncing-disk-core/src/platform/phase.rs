@@ -19,8 +19,8 @@ use crate::numerics::elementary::{sin_cos, wrapped_angle};
 /// of roundings of either sign. An attachment begins a new pair, so that the sequence is that of one chatter: some hundred
 /// flights at restitution 0.5.
 ///
-/// All three numbers are stored, so that an orbit goes on bit for bit from a phase that is read. One that is read has its
-/// angle in [0, 2 pi) and a pair within 1e-9 of the sine and cosine of that angle.
+/// All three numbers are stored, so that an orbit goes on bit for bit from a phase that is read. One that is
+/// read has its angle in [0, 2 pi) and a pair within 1e-9 of the sine and cosine of that angle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "UncheckedPhase")]
 pub struct Phase {
@@ -29,7 +29,8 @@ pub struct Phase {
     cos: f64,
 }
 
-/// How far a pair that is read may be from the angle's: far more than any orbit drifts, far less than another angle shows.
+/// How far a pair that is read may be from the angle's: far more than any orbit drifts, far less than another
+/// angle shows.
 const PAIR_TOLERANCE: f64 = 1.0e-9;
 
 /// What is read of a [`Phase`].

@@ -129,8 +129,8 @@ impl TryFrom<UncheckedEnsemble> for TransientEnsemble {
     }
 }
 
-/// The members of an [`ensemble`](ensemble()): `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up from
-/// `settings.seed`.
+/// The members of an [`ensemble`](ensemble()): `members` >= 1 transients with starting phases spread evenly
+/// over the cycle and seeds counted up from `settings.seed`.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
@@ -159,8 +159,8 @@ pub fn ensemble_members(
     Ok(starts)
 }
 
-/// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up from
-/// `settings.seed`. The result is the same for any number of threads.
+/// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
+/// from `settings.seed`. The result is the same for any number of threads.
 ///
 /// # Errors
 /// Those of [`ensemble_members`] and [`transient`](crate::transient()).
@@ -172,12 +172,13 @@ pub fn ensemble(
     ensemble_observed(system, settings, members, &Unobserved)
 }
 
-/// [`ensemble`](ensemble()) with an observer; the items are the members, which are fitted when all are finished. To keep the finished ones of a
-/// call that is stopped, compute the [`ensemble_members`] with a [`TransientsRun`] and give its results to
-/// [`TransientEnsemble::of_results`].
+/// [`ensemble`](ensemble()) with an observer; the items are the members, which are fitted when all are
+/// finished. To keep the finished ones of a call that is stopped, compute the [`ensemble_members`] with a
+/// [`TransientsRun`] and give its results to [`TransientEnsemble::of_results`].
 ///
 /// # Errors
-/// Those of [`ensemble`](ensemble()); an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+/// Those of [`ensemble`](ensemble()); an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped))
+/// if the observer breaks.
 pub fn ensemble_observed(
     system: &System,
     settings: &TransientSettings,
@@ -194,7 +195,8 @@ impl TransientEnsemble {
     /// The ensemble of the transients of all members: see [`TransientsRun`].
     ///
     /// # Errors
-    /// The first error of a member, in their order; [`Error::OutOfRange`] for no member; those of [`ExponentialFit::new`].
+    /// The first error of a member, in their order; [`Error::OutOfRange`] for no member; those of
+    /// [`ExponentialFit::new`].
     pub fn of_results(results: Vec<Result<SpeedCurve, Error>>) -> Result<Self, Error> {
         Self::of_results_observed(results, &Unobserved)
     }
@@ -202,7 +204,8 @@ impl TransientEnsemble {
     /// [`Self::of_results`] with an observer; the items are the fits.
     ///
     /// # Errors
-    /// Those of [`Self::of_results`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+    /// Those of [`Self::of_results`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped))
+    /// if the observer breaks.
     pub fn of_results_observed(
         results: Vec<Result<SpeedCurve, Error>>,
         observer: &dyn Observer,

@@ -196,7 +196,8 @@ pub fn transient(system: &System, phase: Phase, settings: &TransientSettings) ->
 /// [`transient`] with an observer; the items are the intervals of the curve.
 ///
 /// # Errors
-/// Those of [`transient`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+/// Those of [`transient`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
 pub fn transient_observed(
     system: &System,
     phase: Phase,
@@ -252,7 +253,8 @@ impl Run {
         self.bins.present.reached >= self.duration
     }
 
-    /// Adds the motion of some events, unless all has been added; whether there is more. The work is counted for an observer.
+    /// Adds the motion of some events, unless all has been added; whether there is more. The work is counted
+    /// for an observer.
     pub(crate) fn advance(&mut self, work: &mut WorkCount<'_>) -> Result<bool, Error> {
         let mut events = 0;
         while events < EVENTS_BETWEEN_COUNTS && !self.is_done() {

@@ -40,8 +40,9 @@ impl TransientMember {
     }
 }
 
-/// The transient of each member, or the error that [`transient`](crate::transient()) returns for it, in the order of the members; bit for bit
-/// those of [`transient`](crate::transient()), several times faster where there are many.
+/// The transient of each member, or the error that [`transient`](crate::transient()) returns for it, in the
+/// order of the members; bit for bit those of [`transient`](crate::transient()), several times faster where
+/// there are many.
 ///
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
 /// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
@@ -92,8 +93,8 @@ pub fn transients(members: &[TransientMember]) -> Vec<Result<SpeedCurve, Error>>
     }
 }
 
-/// [`transients`] with an observer; the items are the members. A [`TransientsRun`] keeps the finished ones of a call that is
-/// stopped.
+/// [`transients`] with an observer; the items are the members. A [`TransientsRun`] keeps the finished ones of
+/// a call that is stopped.
 ///
 /// # Errors
 /// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
@@ -108,9 +109,9 @@ pub fn transients_observed(
 
 /// Many transients under way: the curves of the members that are finished.
 ///
-/// A run that is stopped, written, read and gone on with gives the curves of one call of [`transients`] without a stop, bit for
-/// bit, for any number of threads. The members are not stored: whoever goes on brings the same ones. Nor are errors of
-/// members, which are found again.
+/// A run that is stopped, written, read and gone on with gives the curves of one call of [`transients`]
+/// without a stop, bit for bit, for any number of threads. The members are not stored: whoever goes on brings
+/// the same ones. Nor are errors of members, which are found again.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -153,13 +154,14 @@ impl TransientsRun {
         Self { results: PartialResults::new(members) }
     }
 
-    /// Computes the transients of the members that are not finished. What an earlier call has finished stays; so it does when this
-    /// call returns an error. The items of the observer are members; those under way are begun again by the next call.
+    /// Computes the transients of the members that are not finished. What an earlier call has finished stays;
+    /// so it does when this call returns an error. The items of the observer are members; those under way are
+    /// begun again by the next call.
     ///
     /// # Errors
     /// Errors of the core: [`Stopped`](bouncing_disk_core::Error::Stopped) if the observer breaks,
-    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another number of members than the run has. An error of a
-    /// member is its result.
+    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another number of members than the run has. An
+    /// error of a member is its result.
     pub fn advance(&mut self, members: &[TransientMember], observer: &dyn Observer) -> Result<(), Error> {
         self.advance_with(members, observer, InstructionSet::best())
     }
@@ -196,7 +198,8 @@ impl TransientsRun {
     /// The transients of all members, in their order.
     ///
     /// # Errors
-    /// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if one is not finished: [`Self::is_done`] tells before.
+    /// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if one is not finished:
+    /// [`Self::is_done`] tells before.
     pub fn into_results(self) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
         Ok(self.results.into_results()?)
     }
@@ -238,7 +241,7 @@ struct Worker<'a> {
 }
 
 impl<'a> Worker<'a> {
-    const fn new(
+    fn new(
         (members, open): (&'a [TransientMember], &'a [usize]),
         next: &'a AtomicUsize,
         lanes: usize,

@@ -133,7 +133,8 @@ pub fn multi_toss(
 /// [`multi_toss`] with an observer; the items are the impacts, of the transient and examined.
 ///
 /// # Errors
-/// Those of [`multi_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+/// Those of [`multi_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
 pub fn multi_toss_observed(
     system: impl Into<DimensionlessSystem>,
     start: InitialCondition,

@@ -12,9 +12,9 @@ use crate::observer::{Observer, Watch};
 
 /// The basins on a grid under way: the question, and the rows that are finished.
 ///
-/// A run that is stopped, written, read and gone on with ends in the labels of one call without a stop, bit for bit, for any number of
-/// threads. What is stored is the map, the grid, the known orbits, the settings and the labels of the finished rows; one that
-/// is read has been checked to fit together.
+/// A run that is stopped, written, read and gone on with ends in the labels of one call without a stop, bit
+/// for bit, for any number of threads. What is stored is the map, the grid, the known orbits, the settings
+/// and the labels of the finished rows; one that is read has been checked to fit together.
 ///
 /// [`Observer`] shows an example.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,8 +34,8 @@ impl BasinRun {
     /// A run with no row finished.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or
-    /// than there is memory for.
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than
+    /// [`MAX_CELLS`] cells or than there is memory for.
     pub fn new(
         map: ImpactMap,
         grid: Grid,
@@ -49,8 +49,9 @@ impl BasinRun {
         Ok(Self { map, grid, known: known.to_vec(), settings, labels, finished: vec![false; rows] })
     }
 
-    /// Labels the rows that are not finished. What an earlier call has finished stays; so it does when this call returns an error.
-    /// The items of the observer are rows; some thousand cells are under way on each thread and begun again by the next call.
+    /// Labels the rows that are not finished. What an earlier call has finished stays; so it does when this
+    /// call returns an error. The items of the observer are rows; some thousand cells are under way on each
+    /// thread and begun again by the next call.
     ///
     /// # Errors
     /// [`Error::Stopped`] if the observer breaks; those of [`crate::Vibration::first_impact`].

@@ -19,8 +19,8 @@ pub fn survival_times(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error
     survival_times_observed(orbits, most, &Unobserved)
 }
 
-/// [`survival_times`] with an observer; the items are the orbits. [`SweepRun::advance_survival_times`] keeps the finished ones of a
-/// call that is stopped.
+/// [`survival_times`] with an observer; the items are the orbits. [`SweepRun::advance_survival_times`] keeps
+/// the finished ones of a call that is stopped.
 ///
 /// # Errors
 /// Those of [`survival_times`]; [`Error::Stopped`] if the observer breaks.
@@ -77,8 +77,8 @@ pub fn orbit_diagram(
     orbit_diagram_observed(orbits, transient, recorded, &Unobserved)
 }
 
-/// [`orbit_diagram`] with an observer; the items are the orbits. [`SweepRun::advance_orbit_diagram`] keeps the finished ones of a
-/// call that is stopped.
+/// [`orbit_diagram`] with an observer; the items are the orbits. [`SweepRun::advance_orbit_diagram`] keeps
+/// the finished ones of a call that is stopped.
 ///
 /// # Errors
 /// Those of [`orbit_diagram`]; [`Error::Stopped`] if the observer breaks.

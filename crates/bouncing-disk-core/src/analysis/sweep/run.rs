@@ -18,7 +18,8 @@ use crate::observer::{Observer, Watch};
 #[serde(bound(deserialize = "T: Deserialize<'de>"))]
 pub struct PartialResults<T> {
     total: usize,
-    /// The finished ones by rising index. A list of pairs, so that a result may be whatever it is, also nothing.
+    /// The finished ones by rising index. A list of pairs, so that a result may be whatever it is, also
+    /// nothing.
     finished: Vec<(usize, T)>,
 }
 
@@ -98,7 +99,8 @@ impl<T> PartialResults<T> {
         Ok((0..self.total).filter(|index| finished.next_if_eq(index).is_none()).collect())
     }
 
-    /// Adds what has been finished: items that exist. Of an item that was finished before the first result stays.
+    /// Adds what has been finished: items that exist. Of an item that was finished before the first result
+    /// stays.
     pub fn extend(&mut self, results: impl IntoIterator<Item = (usize, T)>) {
         let total = self.total;
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
@@ -134,9 +136,9 @@ impl<T> PartialResults<T> {
 
 /// A sweep over a list of orbits under way: the results of those that are finished.
 ///
-/// A run that is stopped, written, read and gone on with gives the results of one [`sweep`](super::sweep) without a stop, bit for
-/// bit, for any number of threads. The orbits themselves and what is asked of them are not stored: whoever goes on brings
-/// the same ones.
+/// A run that is stopped, written, read and gone on with gives the results of one [`sweep`](super::sweep)
+/// without a stop, bit for bit, for any number of threads. The orbits themselves and what is asked of them
+/// are not stored: whoever goes on brings the same ones.
 ///
 /// ```
 /// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepRun, Unobserved, Vibration, orbit_diagram};
@@ -196,13 +198,15 @@ impl<T> SweepRun<T> {
 }
 
 impl<T: Send> SweepRun<T> {
-    /// Follows the orbits that are not finished, as [`sweep`](super::sweep) does. What an earlier call has finished stays; so it does when
-    /// this call returns an error. The items of the observer are orbits; those under way are begun again by the next call, so
-    /// that a call which is stopped before any is finished has been in vain.
+    /// Follows the orbits that are not finished, as [`sweep`](super::sweep) does. What an earlier call has
+    /// finished stays; so it does when this call returns an error. The items of the observer are orbits;
+    /// those under way are begun again by the next call, so that a call which is stopped before any is
+    /// finished has been in vain.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if the observer breaks; [`Error::Unfitting`] for another number of orbits than the run has; the error of the first
-    /// orbit, in their order, that has no next impact (see [`Orbit::advance`]): it is not finished, the others are.
+    /// [`Error::Stopped`] if the observer breaks; [`Error::Unfitting`] for another number of orbits than the
+    /// run has; the error of the first orbit, in their order, that has no next impact (see
+    /// [`Orbit::advance`]): it is not finished, the others are.
     pub fn advance(
         &mut self,
         orbits: &[Orbit],

@@ -19,7 +19,8 @@ const BATCHES: usize = 8;
 /// What became of the orbit of an index.
 type Outcome<S> = (usize, Result<S, Error>);
 
-/// Follows the orbits of the indices `open` until they are done or the observer breaks; the outcomes in the order of the indices.
+/// Follows the orbits of the indices `open` until they are done or the observer breaks; the outcomes in the
+/// order of the indices.
 pub(super) fn run<S: Send>(
     (orbits, open): (&[Orbit], &[usize]),
     start: &(impl Fn(usize) -> S + Sync),

@@ -37,7 +37,8 @@ fn stored(run: &BasinRun) -> BasinRun {
     read
 }
 
-/// Goes on until all is done, each time stopped after so many calls and stored in between; how often it was stopped.
+/// Goes on until all is done, each time stopped after so many calls and stored in between; how often it was
+/// stopped.
 fn in_parts(mut run: BasinRun, threads: usize, calls: impl Fn(u64) -> u64 + Sync) -> (Basins, u64) {
     for stops in 0.. {
         run = stored(&run);
