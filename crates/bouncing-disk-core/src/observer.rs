@@ -56,7 +56,8 @@ impl Progress {
 /// let began = Instant::now();
 /// let observer = |progress: Progress| {
 ///     eprint!("\r{} of {} rows", progress.done, progress.total);
-///     if began.elapsed() < Duration::from_secs(60) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+///     let in_time = began.elapsed() < Duration::from_secs(60);
+///     if in_time { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 /// };
 /// let mut run = BasinRun::new(map, grid, &[], BasinSettings::default())?;
 /// match run.advance(&observer) {

@@ -117,9 +117,12 @@ pub fn transients_observed(
 /// use std::ops::ControlFlow;
 ///
 /// use bouncing_disk::core::Progress;
-/// use bouncing_disk::{System, TransientSettings, TransientEnsemble, TransientsRun, ensemble, ensemble_members};
+/// use bouncing_disk::{
+///     System, TransientEnsemble, TransientSettings, TransientsRun, ensemble, ensemble_members,
+/// };
 ///
-/// let (motor, settings) = (System::motor(), TransientSettings { duration: 0.05, ..TransientSettings::default() });
+/// let motor = System::motor();
+/// let settings = TransientSettings { duration: 0.05, ..TransientSettings::default() };
 /// let members = ensemble_members(&motor, &settings, 8)?;
 /// let mut run = TransientsRun::new(members.len());
 /// run.advance(&members, &|progress: Progress| {

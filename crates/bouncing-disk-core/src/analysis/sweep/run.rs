@@ -141,7 +141,9 @@ impl<T> PartialResults<T> {
 /// are not stored: whoever goes on brings the same ones.
 ///
 /// ```
-/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepRun, Unobserved, Vibration, orbit_diagram};
+/// use bouncing_disk_core::{
+///     ChatterPolicy, ImpactMap, ImpactState, SweepRun, Unobserved, Vibration, orbit_diagram,
+/// };
 ///
 /// let start = ImpactState::from_normalised(0.8, 1.3)?;
 /// let orbits = (0..40)
