@@ -82,7 +82,7 @@ pub const MAX_MEMBERS: usize = 1_000_000;
 pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// What a point of a curve that is fitted counts as for an observer, in flights.
-const FLIGHTS_OF_POINT: u64 = 16;
+const FLIGHTS_OF_POINT: u64 = 64;
 
 /// An ensemble of transients of one motor.
 ///
@@ -172,13 +172,16 @@ pub fn ensemble(
     ensemble_observed(system, settings, members, &Unobserved)
 }
 
-/// [`ensemble`](ensemble()) with an observer; the items are the members, which are fitted when all are
-/// finished. To keep the finished ones of a call that is stopped, compute the [`ensemble_members`] with a
-/// [`TransientsRun`] and give its results to [`TransientEnsemble::of_results`].
+/// [`ensemble`](ensemble()) with an observer; the items are the members, counted once when their transients are
+/// computed, and once more when they are fitted. The fit of one curve is not interrupted: it takes some 10
+/// microseconds for each interval.
+///
+/// To keep the finished members of a call that is stopped, compute the [`ensemble_members`] with a [`TransientsRun`]
+/// and give its results to [`TransientEnsemble::of_results`].
 ///
 /// # Errors
-/// Those of [`ensemble`](ensemble()); an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped))
-/// if the observer breaks.
+/// Those of [`ensemble`](ensemble()); an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
 pub fn ensemble_observed(
     system: &System,
     settings: &TransientSettings,
