@@ -20,7 +20,7 @@ const FEWEST: usize = 26;
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// The arguments of one [`transient`].
+/// The arguments of one [`transient`](crate::transient()).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransientMember {
     /// The motor.
