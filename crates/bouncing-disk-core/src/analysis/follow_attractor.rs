@@ -99,18 +99,23 @@ impl Transient {
     /// The state so many impacts after the start; `None` if the disk comes to rest before. The tick counts
     /// impacts.
     fn follow(&mut self, impacts: usize, tick: Tick<'_>) -> Result<Option<ImpactState>, Error> {
+        // Copies, so that the next flight does not wait for what the last one has stored.
+        let (mut orbit, mut state) = (self.orbit.clone(), self.state);
         while self.impacts < impacts {
             let chunk = (impacts - self.impacts).min(Self::CHUNK);
             for _ in 0..chunk {
-                match self.orbit.advance()? {
-                    Some(OrbitEvent::Impact(impact)) => self.state = impact.into(),
+                match orbit.advance()? {
+                    Some(OrbitEvent::Impact(impact)) => state = impact.into(),
                     Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
                 }
             }
             self.impacts += chunk;
-            tick(chunk as u64)?;
+            if let Err(stopped) = tick(chunk as u64) {
+                (self.orbit, self.state) = (orbit, state);
+                return Err(stopped);
+            }
         }
-        Ok(Some(self.state))
+        Ok(Some(state))
     }
 
     fn follow_observed(
