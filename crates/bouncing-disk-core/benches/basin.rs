@@ -38,7 +38,7 @@ impl W3 {
     }
 
     fn together(&self, grid: Grid) {
-        black_box(self.map.basins(grid, &self.known, SETTINGS, || ()).expect("no failure"));
+        black_box(self.map.basins(grid, &self.known, SETTINGS).expect("no failure"));
     }
 
     fn one_by_one(&self, grid: Grid) -> u32 {

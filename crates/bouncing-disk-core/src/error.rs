@@ -77,6 +77,24 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
+    /// The observer of a long call has stopped it. What was finished is not lost where a run owns it.
+    #[error("stopped after {done} of {total} items")]
+    Stopped {
+        /// Finished items.
+        done: u64,
+        /// All items.
+        total: u64,
+    },
+    /// A stored run does not fit together, or not to what it is to go on with.
+    #[error("{what}: {found} where {expected} would be legal")]
+    Unfitting {
+        /// What does not fit.
+        what: &'static str,
+        /// The number that was found.
+        found: u64,
+        /// The only or the largest number that fits.
+        expected: u64,
+    },
     /// More was asked for than the limit allows or, where `count` is within it, than there is memory for.
     #[error("no room for {count} {what}: at most {limit}, as far as the memory goes")]
     TooLarge {

@@ -30,6 +30,7 @@
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
+//! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
 //! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
 
 mod analysis;
@@ -39,18 +40,25 @@ mod flight;
 mod lockstep;
 mod map;
 pub mod numerics;
+mod observer;
 mod platform;
 #[cfg(test)]
 mod testing;
 
 pub use analysis::basin::{
-    ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
+    ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
+    UNDECIDED,
 };
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
-pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents};
+pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
 pub use analysis::orbit_batch::OrbitBatch;
-pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings};
-pub use analysis::sweep::{MAX_RECORDED, SweepEvent, SweepImpact, orbit_diagram, survival_times, sweep};
+pub use analysis::periodic::{
+    MAX_PERIOD, Multipliers, PeriodDoubling, PeriodicOrbit, period_doublings, period_doublings_observed,
+};
+pub use analysis::sweep::{
+    MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, orbit_diagram, orbit_diagram_observed,
+    survival_times, survival_times_observed, sweep, sweep_observed,
+};
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
 pub use chatter::series::{ChatterSeries, ImpactRange, PowerSeries};
@@ -66,6 +74,7 @@ pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop};
 pub use lockstep::lanes::InstructionSet;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
 pub use numerics::elementary;
+pub use observer::{FLIGHTS_BETWEEN_CALLS, Observer, Progress, Unobserved, Watch, WorkCount};
 pub use platform::phase::Phase;
 pub use platform::vibration::Vibration;
 

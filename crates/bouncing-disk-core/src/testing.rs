@@ -1,6 +1,11 @@
 //! Numbers for tests that must meet every kind of case.
 
+use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Mutex;
+
 use crate::chatter::policy::{ChatterCut, ChatterPolicy};
+use crate::observer::{Observer, Progress};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
@@ -28,4 +33,39 @@ pub(crate) fn golden_spread(k: u64) -> f64 {
 pub(crate) fn launch_that_may_dip(vibration: &Vibration, k: u64) -> (Phase, f64) {
     let phase = Phase::new(vibration.separation_angle - 2.0 * golden_spread(k)).expect("finite");
     (phase, 1.9 + 0.8 * golden_spread(7 * k) - vibration.velocity(phase))
+}
+
+/// An observer that breaks when it is asked for the nth time and from then on.
+#[derive(Debug)]
+pub(crate) struct StopAfter {
+    calls: u64,
+    asked: AtomicU64,
+    last: Mutex<Progress>,
+}
+
+impl StopAfter {
+    pub(crate) fn calls(calls: u64) -> Self {
+        Self { calls, asked: AtomicU64::new(0), last: Mutex::default() }
+    }
+
+    /// How often it was asked.
+    pub(crate) fn asked(&self) -> u64 {
+        self.asked.load(Ordering::Relaxed)
+    }
+
+    /// What it was told last.
+    pub(crate) fn last(&self) -> Progress {
+        *self.last.lock().expect("no panic")
+    }
+}
+
+impl Observer for StopAfter {
+    fn observe(&self, progress: Progress) -> ControlFlow<()> {
+        *self.last.lock().expect("no panic") = progress;
+        if self.asked.fetch_add(1, Ordering::Relaxed) + 1 < self.calls {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    }
 }

@@ -264,6 +264,6 @@ fn basin_labels() {
     let mut digest = Digest::new();
     digest.bytes(&one_by_one);
     assert!(digest.value() == 0x7cd3_49bf_9543_3cca, "{:#018x}", digest.value());
-    let together = map.basins(grid, &known, settings, || ()).expect("no failure");
+    let together = map.basins(grid, &known, settings).expect("no failure");
     assert!(together.labels() == one_by_one, "labels in lockstep differ from those one by one");
 }

@@ -287,7 +287,7 @@ fn basins_are_the_same_for_any_number_of_threads() {
         .expect("legal");
     let labels = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-        pool.install(|| map.basins(grid, &known, BasinSettings::default(), || {})).expect("no failure")
+        pool.install(|| map.basins(grid, &known, BasinSettings::default())).expect("no failure")
     };
     let one = labels(1);
     assert!(one.fraction(FIRST_ORBIT) > 0.2 && one.fraction(ATTACHED) > 0.4);

@@ -19,7 +19,7 @@ fn main() -> Result<(), Error> {
 
     // Impact phases of one period, and the speeds that Fig. 7 shows.
     let grid = Grid::new(Axis::new(0.0, 1.0, 64)?, Axis::new(0.0, 5.0, 20)?)?;
-    let basins = map.basins(grid, &known, BasinSettings::default(), || {})?;
+    let basins = map.basins(grid, &known, BasinSettings::default())?;
     for row in (0..grid.speed().cells()).rev() {
         let text: String =
             basins.row(row).iter().map(|&label| if label == FIRST_ORBIT { '#' } else { '.' }).collect();

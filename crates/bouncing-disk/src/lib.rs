@@ -23,6 +23,7 @@
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | the motor | [`transient`], [`transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
+//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
 //! | vertical motion | [`mod@core`] |
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
@@ -39,6 +40,7 @@ mod toss;
 /// The math core: the vertical motion, its impact map and what is done with it.
 pub use bouncing_disk_core as core;
 
+pub use bouncing_disk_core::{Observer, Progress, Unobserved};
 pub use error::Error;
 pub use motion::contact::MAX_CONTACT_EVENTS;
 pub use motion::energy::EnergyLedger;
@@ -53,15 +55,17 @@ pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot}
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
 pub use motor::brake::{Braking, friction_from_braking};
-pub use motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble};
+pub use motor::ensemble::{
+    MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members, ensemble_observed,
+};
 pub use motor::fit::{ExponentialFit, RampFit};
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
 };
-pub use motor::transient::{SpeedCurve, TransientSettings, transient};
-pub use motor::transients::{TransientMember, transients};
+pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
+pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
@@ -69,7 +73,9 @@ pub use parameters::scales::Scales;
 pub use parameters::system::System;
 pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
-pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
+pub use toss::multiple::{
+    MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss, multi_toss_observed,
+};
 pub use toss::period_one::period_one_rotary_speed;
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 

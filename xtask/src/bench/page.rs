@@ -114,7 +114,7 @@ mod tests {
         let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal grid");
         let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
         let known = [KnownOrbit::new(orbit, radius).expect("legal")];
-        let basins = map.basins(grid, &known, settings, || ()).expect("no failure");
+        let basins = map.basins(grid, &known, settings).expect("no failure");
         let count = |wanted| basins.labels().iter().filter(|label| **label == wanted).count();
         assert_eq!([count(ATTACHED), count(UNDECIDED)], [58_850, 0]);
         says("58,850 are attached, all others caught".to_owned());

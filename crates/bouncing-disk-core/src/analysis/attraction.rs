@@ -6,8 +6,10 @@ use core::f64::consts::TAU;
 
 use crate::analysis::periodic::PeriodicOrbit;
 use crate::chatter::policy::ChatterPolicy;
+use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::sin_cos;
+use crate::observer::{Observer, Unobserved, Watch, WorkCount};
 use crate::platform::phase::Phase;
 
 /// Below this radius an orbit is taken not to attract.
@@ -28,6 +30,9 @@ const CAUGHT: f64 = 1.0e-6;
 const CIRCLE_SAMPLES: u32 = 32;
 const CIRCLES: [f64; 4] = [1.0, 0.7, 0.4, 0.2];
 
+/// The largest circle that is tried.
+const LARGEST_CIRCLE: f64 = 0.05;
+
 /// `samples` states on the circle about `centre`; `None` where a state is not legal (the disk below the platform).
 fn circle(
     centre: ImpactState,
@@ -43,15 +48,61 @@ fn circle(
 }
 
 /// The first of `largest`, `largest`/2, `largest`/4, ... that passes; `None` if even the smallest radius fails.
-fn first_halving(largest: f64, passes: impl Fn(f64) -> bool) -> Option<f64> {
+fn first_halving(
+    largest: f64,
+    mut passes: impl FnMut(f64) -> Result<bool, Error>,
+) -> Result<Option<f64>, Error> {
     let mut radius = largest;
     while radius > SMALLEST_RADIUS {
-        if passes(radius) {
-            return Some(radius);
+        if passes(radius)? {
+            return Ok(Some(radius));
         }
         radius *= 0.5;
     }
-    None
+    Ok(None)
+}
+
+/// How many radii there are at most from this one down.
+fn halvings(largest: f64) -> u64 {
+    core::iter::successors(Some(largest), |radius| Some(0.5 * radius))
+        .take_while(|radius| *radius > SMALLEST_RADIUS)
+        .count() as u64
+}
+
+/// How many circles there are at most beyond the first.
+fn widenings() -> u64 {
+    core::iter::successors(Some(FIRST_RADIUS), |radius| Some(WIDENING * radius))
+        .take_while(|radius| *radius < LARGEST_RADIUS)
+        .count() as u64
+}
+
+/// What the radii are found with: the map, the scale of its speeds, and the work so far.
+struct Search<'w> {
+    map: &'w ImpactMap,
+    scale: f64,
+    work: WorkCount<'w>,
+}
+
+impl Search<'_> {
+    /// Whether all starts on the circles of this radius about the impacts of the orbit pass.
+    fn all_on_circles(
+        &mut self,
+        orbit: &PeriodicOrbit,
+        radius: f64,
+        samples: u32,
+        mut passes: impl FnMut(&mut Self, ImpactState) -> Result<bool, Error>,
+    ) -> Result<bool, Error> {
+        for &centre in &orbit.states {
+            for start in circle(centre, radius, self.scale, samples) {
+                let Some(start) = start else { return Ok(false) };
+                if !passes(self, start)? {
+                    return Ok(false);
+                }
+                self.work.finish(1)?;
+            }
+        }
+        Ok(true)
+    }
 }
 
 impl PeriodicOrbit {
@@ -62,76 +113,128 @@ impl PeriodicOrbit {
     /// after long excursions: see [`Self::attraction_radius`]).
     #[must_use]
     pub fn trapping_radius(&self, map: &ImpactMap, samples: u32) -> Option<f64> {
+        // Nobody stops it, and a start that fails is not trapped: there is no error.
+        self.trapping_radius_observed(map, samples, &Unobserved).unwrap_or(None)
+    }
+
+    /// [`Self::trapping_radius`] with an observer; the items are the starts, as many as there are at most.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer breaks.
+    pub fn trapping_radius_observed(
+        &self,
+        map: &ImpactMap,
+        samples: u32,
+        observer: &dyn Observer,
+    ) -> Result<Option<f64>, Error> {
         let (scale, samples) = (map.vibration().peak_acceleration(), samples.max(1));
-        let all_on_circle = |radius: f64, samples: u32, passes: &dyn Fn(ImpactState) -> bool| {
-            self.states
-                .iter()
-                .all(|&centre| circle(centre, radius, scale, samples).all(|start| start.is_some_and(passes)))
-        };
+        let more = samples.saturating_mul(4);
+        let most = halvings(FIRST_RADIUS) * u64::from(samples) + widenings() * u64::from(more);
+        let watch = Watch::begin(observer, 0, most.saturating_mul(self.period() as u64))?;
+        let mut search = Search { map, scale, work: watch.work() };
         let inner = first_halving(FIRST_RADIUS, |radius| {
-            all_on_circle(radius, samples, &|start| self.traps(map, start, radius, scale))
+            search.all_on_circles(self, radius, samples, |search, start| self.traps(search, start, radius))
         })?;
+        let Some(inner) = inner else {
+            watch.end();
+            return Ok(None);
+        };
         let mut widest = inner;
         while inner >= FIRST_RADIUS && widest < LARGEST_RADIUS {
             let next = (WIDENING * widest).min(LARGEST_RADIUS);
-            if !all_on_circle(next, samples.saturating_mul(4), &|start| {
-                self.draws(map, start, inner, 4.0 * next, scale)
-            }) {
+            let drawn = |search: &mut Search<'_>, start| self.draws(search, start, inner, 4.0 * next);
+            if !search.all_on_circles(self, next, more, drawn)? {
                 break;
             }
             widest = next;
         }
-        Some(inner.max(SHARE_OF_WIDEST * widest))
+        watch.end();
+        Ok(Some(inner.max(SHARE_OF_WIDEST * widest)))
+    }
+
+    /// What a flight and its distance from this orbit count as for an observer.
+    fn flights_of_step(&self) -> u64 {
+        1 + self.period() as u64 / 16
     }
 
     /// Whether a start comes within `radius` of this orbit, and stays within `bound` on the way.
-    fn draws(&self, map: &ImpactMap, start: ImpactState, radius: f64, bound: f64, scale: f64) -> bool {
+    fn draws(
+        &self,
+        search: &mut Search<'_>,
+        start: ImpactState,
+        radius: f64,
+        bound: f64,
+    ) -> Result<bool, Error> {
         let mut state = start;
         for _ in 0..200 * self.period() {
-            let distance = self.distance(state, scale);
+            search.work.spend(self.flights_of_step())?;
+            let distance = self.distance(state, search.scale);
             if distance <= radius {
-                return true;
+                return Ok(true);
             }
-            match map.step(state) {
+            match search.map.step(state) {
                 Ok(impact) if distance <= bound => state = impact.into(),
-                _ => return false,
+                _ => return Ok(false),
             }
         }
-        false
+        Ok(false)
     }
 
-    fn traps(&self, map: &ImpactMap, start: ImpactState, radius: f64, scale: f64) -> bool {
+    fn traps(&self, search: &mut Search<'_>, start: ImpactState, radius: f64) -> Result<bool, Error> {
         let mut state = start;
         for _ in 0..200 * self.period() {
-            match map.step(state) {
+            search.work.spend(self.flights_of_step())?;
+            match search.map.step(state) {
                 Ok(impact) => state = impact.into(),
-                Err(_) => return false,
+                Err(_) => return Ok(false),
             }
-            if self.distance(state, scale) > 4.0 * radius {
-                return false;
+            if self.distance(state, search.scale) > 4.0 * radius {
+                return Ok(false);
             }
         }
-        self.distance(state, scale) < radius
+        Ok(self.distance(state, search.scale) < radius)
     }
 
     /// Half a radius within which starts on four circles about each impact end on this orbit, however far they
     /// stray before: for orbits with strong shear, whose basin is thin. `None` if even 1e-5 rad fails.
     #[must_use]
     pub fn attraction_radius(&self, map: &ImpactMap) -> Option<f64> {
+        // Nobody stops it, and a start that fails is not attracted: there is no error.
+        self.attraction_radius_observed(map, &Unobserved).unwrap_or(None)
+    }
+
+    /// [`Self::attraction_radius`] with an observer; the items are the starts, as many as there are at most.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer breaks.
+    pub fn attraction_radius_observed(
+        &self,
+        map: &ImpactMap,
+        observer: &dyn Observer,
+    ) -> Result<Option<f64>, Error> {
         let scale = map.vibration().peak_acceleration();
-        let ends_here = |start: ImpactState| {
-            let end = map.state_after(start, 100 * self.period(), ChatterPolicy::Complete);
-            matches!(end, Ok(Some(end)) if self.distance(end, scale) < CAUGHT)
+        let circles = halvings(LARGEST_CIRCLE) * (CIRCLES.len() * self.period()) as u64;
+        let watch = Watch::begin(observer, 0, circles.saturating_mul(CIRCLE_SAMPLES.into()))?;
+        let mut search = Search { map, scale, work: watch.work() };
+        let ends_here = |search: &mut Search<'_>, start: ImpactState| {
+            let (impacts, work) = (100 * self.period(), &mut search.work);
+            let tick = &mut |impacts| work.spend(impacts);
+            match search.map.state_after_ticked(start, impacts, ChatterPolicy::Complete, tick) {
+                Ok(end) => Ok(end.is_some_and(|end| self.distance(end, scale) < CAUGHT)),
+                Err(stopped @ Error::Stopped { .. }) => Err(stopped),
+                Err(_) => Ok(false),
+            }
         };
-        first_halving(0.05, |radius| {
-            self.states.iter().all(|&centre| {
-                CIRCLES.iter().all(|part| {
-                    circle(centre, part * radius, scale, CIRCLE_SAMPLES)
-                        .all(|start| start.is_some_and(ends_here))
-                })
-            })
-        })
-        .map(|radius| 0.5 * radius)
+        let radius = first_halving(LARGEST_CIRCLE, |radius| {
+            for part in CIRCLES {
+                if !search.all_on_circles(self, part * radius, CIRCLE_SAMPLES, ends_here)? {
+                    return Ok(false);
+                }
+            }
+            Ok(true)
+        })?;
+        watch.end();
+        Ok(radius.map(|radius| 0.5 * radius))
     }
 }
 
@@ -140,6 +243,7 @@ mod tests {
     use super::*;
     use crate::analysis::basin::{Axis, BasinSettings, Grid, KnownOrbit};
     use crate::platform::vibration::Vibration;
+    use crate::testing::StopAfter;
 
     fn map(axial_forcing: f64) -> ImpactMap {
         ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), 0.5).expect("legal")
@@ -180,9 +284,24 @@ mod tests {
             assert!(radius > 0.3, "{radius}");
             let labels = |radius| {
                 let known = [KnownOrbit::new(orbit.clone(), radius).expect("legal")];
-                map.basins(grid, &known, BasinSettings::default(), || ()).expect("no failure")
+                map.basins(grid, &known, BasinSettings::default()).expect("no failure")
             };
             assert_eq!(labels(radius), labels(0.003), "Gamma {axial_forcing}");
         }
+    }
+
+    #[test]
+    fn searches_of_a_radius_can_be_stopped_and_end_with_all_starts() {
+        let map = map(0.45);
+        let orbit = map.refine(&[map.period_one(1).expect("exists")]).expect("refines");
+        let stopped = orbit.trapping_radius_observed(&map, u32::MAX, &StopAfter::calls(3));
+        assert!(matches!(stopped, Err(Error::Stopped { done: 1..16_400, .. })), "{stopped:?}");
+        let stopped = orbit.attraction_radius_observed(&map, &StopAfter::calls(2));
+        assert!(matches!(stopped, Err(Error::Stopped { done: 1.., total: 1_664 })), "{stopped:?}");
+        let most = StopAfter::calls(u64::MAX);
+        let radius = orbit.trapping_radius_observed(&map, 64, &most).expect("nobody stops it");
+        assert_eq!(radius, orbit.trapping_radius(&map, 64));
+        // Fourteen halvings, and seventeen wider circles with four times as many starts.
+        assert_eq!((most.last().done, most.last().total), (5_248, 5_248));
     }
 }

@@ -1,6 +1,7 @@
 //! Basins of attraction of the impact map on a grid of impact phases and speeds.
 
 mod lockstep;
+mod run;
 mod screen;
 mod starts;
 
@@ -10,9 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::periodic::PeriodicOrbit;
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, room_for, within};
+use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
-use starts::Cells;
+use crate::observer::{Observer, Unobserved, Watch};
+
+pub use run::BasinRun;
 
 /// What became of a start: one byte a cell.
 pub type Label = u8;
@@ -171,10 +174,27 @@ impl TryFrom<UncheckedGrid> for Grid {
 }
 
 /// An attracting periodic orbit and how near a start must come to count as caught.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedKnownOrbit")]
 pub struct KnownOrbit {
     orbit: PeriodicOrbit,
     radius: f64,
+}
+
+/// What is read of a [`KnownOrbit`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedKnownOrbit {
+    orbit: PeriodicOrbit,
+    radius: f64,
+}
+
+impl TryFrom<UncheckedKnownOrbit> for KnownOrbit {
+    type Error = Error;
+
+    fn try_from(known: UncheckedKnownOrbit) -> Result<Self, Error> {
+        Self::new(known.orbit, known.radius)
+    }
 }
 
 impl KnownOrbit {
@@ -263,13 +283,46 @@ impl ImpactMap {
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<Label, Error> {
+        self.basin_label_observed(start, known, settings, &Unobserved)
+    }
+
+    /// [`Self::basin_label`] with an observer; the items are the impacts that are allowed.
+    ///
+    /// # Errors
+    /// Those of [`Self::basin_label`]; [`Error::Stopped`] if the observer breaks.
+    pub fn basin_label_observed(
+        &self,
+        start: ImpactState,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Label, Error> {
         check_number_of(known)?;
+        let watch = Watch::begin(observer, 0, settings.max_impacts.into())?;
+        let (mut work, flights) = (watch.work(), flights_of_label(known));
+        let label = self.label_of(start, known, settings, |impacts| {
+            watch.set_done(impacts.into());
+            work.spend(flights)
+        })?;
+        watch.end();
+        Ok(label)
+    }
+
+    /// The label of a start; `follow` is told how many impacts are behind before each flight.
+    fn label_of(
+        &self,
+        start: ImpactState,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+        mut follow: impl FnMut(u32) -> Result<(), Error>,
+    ) -> Result<Label, Error> {
         let settles = |state: ImpactState| self.settles(state, known, settings.policy);
         if let Some(label) = settles(start) {
             return Ok(label);
         }
         let mut orbit = self.orbit(start, settings.policy);
-        for _ in 0..settings.max_impacts {
+        for impacts in 0..settings.max_impacts {
+            follow(impacts)?;
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
                     if let Some(label) = settles(impact.into()) {
@@ -300,40 +353,39 @@ impl ImpactMap {
         rests.then_some(ATTACHED)
     }
 
-    /// The basins on a grid. `row_done` is called after every finished row (from any thread, in any order).
+    /// The basins on a grid.
     ///
     /// The labels are the same for any number of threads.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or
     /// than there is memory for; those of [`crate::Vibration::first_impact`].
-    pub fn basins(
+    pub fn basins(&self, grid: Grid, known: &[KnownOrbit], settings: BasinSettings) -> Result<Basins, Error> {
+        self.basins_observed(grid, known, settings, &Unobserved)
+    }
+
+    /// [`Self::basins`] with an observer; the items are the rows. A [`BasinRun`] keeps the finished ones of a
+    /// call that is stopped.
+    ///
+    /// # Errors
+    /// Those of [`Self::basins`]; [`Error::Stopped`] if the observer breaks.
+    pub fn basins_observed(
         &self,
         grid: Grid,
         known: &[KnownOrbit],
         settings: BasinSettings,
-        row_done: impl Fn() + Sync,
+        observer: &dyn Observer,
     ) -> Result<Basins, Error> {
-        check_number_of(known)?;
-        let (columns, rows) = (grid.phase.cells(), grid.speed.cells());
-        let mut labels = room_for("cells of a grid", columns as u64 * rows as u64, MAX_CELLS)?;
-        labels.resize(columns * rows, UNDECIDED);
-        #[cfg(feature = "parallel")]
-        let threads = rayon::current_num_threads();
-        #[cfg(not(feature = "parallel"))]
-        let threads = 1;
-        let cells = Cells::new(grid, &mut labels, threads, row_done)?;
-        let lanes = cells.count().div_ceil(threads);
-        let work = || self.label_cells(&cells, known, settings, lanes).inspect_err(|_| cells.give_up());
-        #[cfg(feature = "parallel")]
-        {
-            use rayon::prelude::*;
-            (0..threads).into_par_iter().with_max_len(1).try_for_each(|_| work())?;
-        }
-        #[cfg(not(feature = "parallel"))]
-        work()?;
-        Ok(Basins { labels, columns })
+        let mut run = BasinRun::new(*self, grid, known, settings)?;
+        run.advance(observer)?;
+        run.into_basins()
     }
+}
+
+/// What a flight and the comparison of its impact with the known orbits count as for an observer.
+fn flights_of_label(known: &[KnownOrbit]) -> u64 {
+    let impacts: usize = known.iter().map(|known| known.orbit.period()).sum();
+    1 + impacts as u64 / 8
 }
 
 #[cfg(test)]
@@ -417,7 +469,7 @@ mod tests {
         let fast = Grid::new(ordinary, axis(0.0, Grid::MAX_SPEED, 3)).expect("legal");
         for policy in [ChatterPolicy::Complete, crate::testing::PAPER_POLICY] {
             let settings = BasinSettings { max_impacts: 3, policy };
-            let error = map().basins(fast, &[], settings, || ()).expect_err("too fast");
+            let error = map().basins(fast, &[], settings).expect_err("too fast");
             assert!(matches!(error, Error::FlightTooLong { .. }), "{error}");
         }
     }
@@ -426,7 +478,7 @@ mod tests {
     fn a_grid_that_fills_the_memory_is_refused_with_its_size() {
         let side = axis(0.0, 1.0, 100_000);
         let grid = Grid::new(side, side).expect("legal");
-        let error = map().basins(grid, &[], BasinSettings::default(), || ()).expect_err("too large");
+        let error = map().basins(grid, &[], BasinSettings::default()).expect_err("too large");
         let expected = Error::TooLarge { what: "cells of a grid", count: 10_000_000_000, limit: MAX_CELLS };
         assert_eq!(error, expected);
     }

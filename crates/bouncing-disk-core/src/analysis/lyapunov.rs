@@ -4,11 +4,12 @@ use core::ops::ControlFlow;
 
 use glam::DMat2;
 
-use crate::analysis::sweep::{SweepEvent, SweepImpact, sweep};
+use crate::analysis::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::elementary::ln;
+use crate::observer::{Observer, Unobserved};
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
 ///
@@ -88,41 +89,73 @@ struct Followed {
 /// depend on the one before) or grazes the platform (the derivative is unbounded there).
 ///
 /// # Errors
-/// Those of [`sweep`].
+/// Those of [`sweep`](crate::sweep()).
 pub fn lyapunov_exponents(
     starts: &[(ImpactMap, ImpactState)],
     transient: usize,
     impacts: usize,
 ) -> Result<Vec<Option<f64>>, Error> {
-    let orbits: Vec<Orbit> =
-        starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-    if impacts == 0 {
-        return Ok(vec![None; orbits.len()]);
+    lyapunov_exponents_observed(starts, transient, impacts, &Unobserved)
+}
+
+/// [`lyapunov_exponents`] with an observer; the items are the orbits.
+/// [`SweepRun::advance_lyapunov_exponents`] keeps the finished ones of a call that is stopped.
+///
+/// # Errors
+/// Those of [`lyapunov_exponents`]; [`Error::Stopped`] if the observer breaks.
+pub fn lyapunov_exponents_observed(
+    starts: &[(ImpactMap, ImpactState)],
+    transient: usize,
+    impacts: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<Option<f64>>, Error> {
+    let mut run = SweepRun::new(starts.len());
+    run.advance_lyapunov_exponents(starts, transient, impacts, observer)?;
+    run.into_results()
+}
+
+impl SweepRun<Option<f64>> {
+    /// Goes on with the [`lyapunov_exponents`] of the orbits that are not finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`].
+    pub fn advance_lyapunov_exponents(
+        &mut self,
+        starts: &[(ImpactMap, ImpactState)],
+        transient: usize,
+        impacts: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        if impacts == 0 {
+            return self.finish_with(starts.len(), || None);
+        }
+        let orbits: Vec<Orbit> =
+            starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+        self.advance_with(
+            &orbits,
+            |index| {
+                let (map, state) = starts[index];
+                (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
+            },
+            |(map, followed), event| {
+                let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
+                    followed.rested = true;
+                    return ControlFlow::Break(());
+                };
+                if followed.skipped < transient {
+                    followed.skipped += 1;
+                } else {
+                    followed.growth.grow(map.derivative(followed.state, state, duration));
+                }
+                followed.state = state;
+                if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
+            },
+            |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
+            observer,
+        )
     }
-    let followed = sweep(
-        &orbits,
-        |index| {
-            let (map, state) = starts[index];
-            (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
-        },
-        |(map, followed), event| {
-            let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
-                followed.rested = true;
-                return ControlFlow::Break(());
-            };
-            if followed.skipped < transient {
-                followed.skipped += 1;
-            } else {
-                followed.growth.grow(map.derivative(followed.state, state, duration));
-            }
-            followed.state = state;
-            if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
-            }
-        },
-    )?;
-    let exponent = |of: Followed| if of.rested { None } else { of.growth.exponent() };
-    Ok(followed.into_iter().map(|(_, followed)| exponent(followed)).collect())
 }

@@ -4,13 +4,14 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 use roots::{Convergency, SearchError, find_root_brent};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::acos;
+use crate::observer::{Observer, Tick, Unobserved, Watch};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
@@ -77,7 +78,8 @@ impl core::fmt::Display for Multipliers {
 }
 
 /// A periodic orbit of the impact map.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PeriodicOrbit {
     /// The impacts of one period of the orbit, in their order.
     pub states: Vec<ImpactState>,
@@ -183,11 +185,23 @@ impl ImpactMap {
         longest: usize,
         tolerance: f64,
     ) -> Result<Option<usize>, Error> {
+        self.period_of_ticked(state, longest, tolerance, &mut |_| Ok(()))
+    }
+
+    /// [`Self::period_of`] as a part of a longer call; the tick counts impacts.
+    fn period_of_ticked(
+        &self,
+        state: ImpactState,
+        longest: usize,
+        tolerance: f64,
+        tick: Tick<'_>,
+    ) -> Result<Option<usize>, Error> {
         within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)")?;
         let mut states = vec![state];
         let mut orbit = self.orbit(state, ChatterPolicy::Complete);
         for _ in 0..2 * longest {
+            tick(1)?;
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => states.push(impact.into()),
                 Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
@@ -210,6 +224,11 @@ impl ImpactMap {
     /// iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] if it converges to a
     /// disk at rest; those of [`Vibration::first_impact`].
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine_ticked(guess, &mut |_| Ok(()))
+    }
+
+    /// [`Self::refine`] as a part of a longer call; the tick counts impacts.
+    fn refine_ticked(&self, guess: &[ImpactState], tick: Tick<'_>) -> Result<PeriodicOrbit, Error> {
         let n = guess.len();
         within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let mut states = guess.to_vec();
@@ -218,6 +237,7 @@ impl ImpactMap {
         // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
         let mut found = None;
         for iterations in 1..=MAX_NEWTON_STEPS {
+            tick(n as u64)?;
             let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
                 Ok(shooting) => shooting,
                 Err(error) => return found.map_or(Err(error), accepted),
@@ -297,15 +317,51 @@ impl ImpactMap {
         longest: usize,
         tolerance: f64,
     ) -> Result<Option<PeriodicOrbit>, Error> {
-        let Some(state) = self.state_after(state, transient, ChatterPolicy::Complete)? else {
+        self.settled_orbit_observed(state, transient, longest, tolerance, &Unobserved)
+    }
+
+    /// [`Self::settled_orbit`] with an observer; the items are the impacts of the transient, of the search of
+    /// the period and of the refinement, as many as there are at most.
+    ///
+    /// # Errors
+    /// Those of [`Self::settled_orbit`]; [`Error::Stopped`] if the observer breaks.
+    pub fn settled_orbit_observed(
+        &self,
+        state: ImpactState,
+        transient: usize,
+        longest: usize,
+        tolerance: f64,
+        observer: &dyn Observer,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        // Two periods are compared, another one is the guess.
+        let searched = (3 + u64::from(MAX_NEWTON_STEPS)).saturating_mul(longest as u64);
+        let watch = Watch::begin(observer, 0, searched.saturating_add(transient as u64))?;
+        let mut work = watch.work();
+        let orbit = self.settled_orbit_ticked(state, (transient, longest), tolerance, &mut |impacts| {
+            work.finish(impacts)
+        })?;
+        watch.end();
+        Ok(orbit)
+    }
+
+    /// [`Self::settled_orbit`] as a part of a longer call; the tick counts impacts.
+    fn settled_orbit_ticked(
+        &self,
+        state: ImpactState,
+        (transient, longest): (usize, usize),
+        tolerance: f64,
+        tick: Tick<'_>,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        let Some(state) = self.state_after_ticked(state, transient, ChatterPolicy::Complete, tick)? else {
             return Ok(None);
         };
-        let Some(period) = self.period_of(state, longest, tolerance)? else { return Ok(None) };
+        let Some(period) = self.period_of_ticked(state, longest, tolerance, tick)? else { return Ok(None) };
         let mut guess = vec![state];
         while guess.len() < period {
+            tick(1)?;
             guess.push(self.step(guess[guess.len() - 1])?.into());
         }
-        self.refine(&guess).map(Some)
+        self.refine_ticked(&guess, tick).map(Some)
     }
 }
 
@@ -346,6 +402,34 @@ impl Convergency<f64> for NeighbouringDoubles {
 /// [`Error::OutOfRange`] for the restitution or a count above 10 (rounding ends the cascade there);
 /// [`Error::NotSettled`] if a branch is lost.
 pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoubling>, Error> {
+    period_doublings_observed(restitution, count, &Unobserved)
+}
+
+/// [`period_doublings`] with an observer; the items are the doublings. Ten of them take seconds: a call that
+/// is stopped begins anew.
+///
+/// # Errors
+/// Those of [`period_doublings`]; [`Error::Stopped`] if the observer breaks.
+pub fn period_doublings_observed(
+    restitution: f64,
+    count: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<PeriodDoubling>, Error> {
+    let watch = Watch::begin(observer, 0, count as u64)?;
+    let mut work = watch.work();
+    let found =
+        doublings(restitution, count, |found| watch.set_done(found), &mut |impacts| work.spend(impacts))?;
+    watch.end();
+    Ok(found)
+}
+
+/// [`period_doublings`]; `report` is told how many are found, the tick counts impacts.
+fn doublings(
+    restitution: f64,
+    count: usize,
+    report: impl Fn(u64),
+    tick: Tick<'_>,
+) -> Result<Vec<PeriodDoubling>, Error> {
     within("restitution", restitution, f64::MIN_POSITIVE, 1.0 - f64::EPSILON, "(0, 1)")?;
     within("count", count as f64, 0.0, 10.0, "[0, 10]")?;
     let map_at = |forcing: f64| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution);
@@ -361,13 +445,13 @@ pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoub
         iterations: 0,
         residual: forcing,
     })?;
-    let mut orbit = map_at(forcing)?.refine(&[seed])?;
+    let mut orbit = map_at(forcing)?.refine_ticked(&[seed], tick)?;
     while found.len() < count {
         // Follow until the sign changes.
         let mut steps = 0;
         let (low, low_states, high) = loop {
             let next_forcing = forcing + step;
-            match map_at(next_forcing)?.refine(&orbit.states) {
+            match map_at(next_forcing)?.refine_ticked(&orbit.states, tick) {
                 Ok(next) if next.flip_function() <= 0.0 => {
                     break (forcing, orbit.states.clone(), next_forcing);
                 }
@@ -375,6 +459,7 @@ pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoub
                     forcing = next_forcing;
                     orbit = next;
                 }
+                Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
                 Err(_) => step *= 0.5,
             }
             steps += 1;
@@ -386,34 +471,41 @@ pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoub
                 });
             }
         };
-        let flip = |forcing: f64| {
-            map_at(forcing)
-                .and_then(|map| map.refine(&low_states))
-                .map_or(f64::NAN, |orbit| orbit.flip_function())
-        };
-        let at =
-            find_root_brent(low, high, flip, &mut NeighbouringDoubles).map_err(|error: SearchError| {
-                Error::NotSettled {
-                    what: match error {
-                        SearchError::NoConvergency => "search of a period doubling",
-                        SearchError::NoBracketing => "bracket of a period doubling",
-                        _ => "root of the flip function",
-                    },
-                    iterations: 200,
-                    residual: high - low,
+        let mut stopped = None;
+        let flip = |forcing: f64| match map_at(forcing).and_then(|map| map.refine_ticked(&low_states, tick)) {
+            Ok(orbit) => orbit.flip_function(),
+            Err(error) => {
+                if matches!(error, Error::Stopped { .. }) {
+                    stopped = Some(error);
                 }
-            })?;
+                f64::NAN
+            }
+        };
+        let at = find_root_brent(low, high, flip, &mut NeighbouringDoubles);
+        if let Some(stopped) = stopped {
+            return Err(stopped);
+        }
+        let at = at.map_err(|error: SearchError| Error::NotSettled {
+            what: match error {
+                SearchError::NoConvergency => "search of a period doubling",
+                SearchError::NoBracketing => "bracket of a period doubling",
+                _ => "root of the flip function",
+            },
+            iterations: 200,
+            residual: high - low,
+        })?;
         let map = map_at(at)?;
-        orbit = map.refine(&low_states)?;
+        orbit = map.refine_ticked(&low_states, tick)?;
         let period = orbit.period();
         let doubling = PeriodDoubling { axial_forcing: at, period, residual: orbit.flip_function() };
         // The next interval is about delta = 4.67 times shorter.
         let interval = found.last().map_or(at - threshold, |last| at - last.axial_forcing);
         found.push(doubling);
+        report(found.len() as u64);
         if found.len() == count {
             break;
         }
-        (forcing, orbit) = doubled_orbit(&map_at, &orbit, at, interval)?;
+        (forcing, orbit) = doubled_orbit(&map_at, &orbit, (at, interval), tick)?;
         step = interval / 60.0;
     }
     Ok(found)
@@ -423,19 +515,23 @@ pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoub
 fn doubled_orbit(
     map_at: &impl Fn(f64) -> Result<ImpactMap, Error>,
     orbit: &PeriodicOrbit,
-    at: f64,
-    interval: f64,
+    (at, interval): (f64, f64),
+    tick: Tick<'_>,
 ) -> Result<(f64, PeriodicOrbit), Error> {
     let period = orbit.period();
     // Just beyond the doubling the attractor is the doubled orbit; the iteration itself finds it.
     for fraction in [0.06, 0.03, 0.1] {
         let forcing = at + fraction * interval;
         let map = map_at(forcing)?;
-        let Ok(unstable) = map.refine(&orbit.states) else { continue };
+        let unstable = match map.refine_ticked(&orbit.states, tick) {
+            Ok(unstable) => unstable,
+            Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
+            Err(_) => continue,
+        };
         let start = unstable.states[0];
         let nudged =
             ImpactState::new(Phase::new(start.phase().angle() + 1.0e-4 * interval)?, start.velocity())?;
-        let settled = map.settled_orbit(nudged, 4_000 * period, 2 * period, 1.0e-7)?;
+        let settled = map.settled_orbit_ticked(nudged, (4_000 * period, 2 * period), 1.0e-7, tick)?;
         if let Some(doubled) = settled.filter(|doubled| doubled.period() == 2 * period) {
             return Ok((forcing, doubled));
         }
@@ -457,5 +553,36 @@ impl PeriodicOrbit {
         self.states
             .iter()
             .fold(f64::INFINITY, |least, &own| least.min(distance(state, own, peak_acceleration)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::StopAfter;
+
+    #[test]
+    fn a_settling_orbit_can_be_stopped() {
+        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
+        let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
+        let stopped = map.settled_orbit_observed(start, usize::MAX, 4, 1e-8, &StopAfter::calls(4));
+        assert_eq!(stopped, Err(Error::Stopped { done: 3 * 8_192, total: u64::MAX }));
+        let all = StopAfter::calls(u64::MAX);
+        let orbit = map.settled_orbit_observed(start, 20_000, 4, 1e-8, &all).expect("nobody stops it");
+        assert_eq!(Ok(orbit), map.settled_orbit(start, 20_000, 4, 1e-8));
+        assert_eq!((all.last().done, all.asked()), (20_212, 4));
+    }
+
+    /// Wherever it is stopped, also inside of the search of a root, it says so.
+    #[test]
+    fn a_cascade_can_be_stopped_anywhere() {
+        let all = StopAfter::calls(u64::MAX);
+        let found = period_doublings_observed(0.5, 6, &all).expect("nobody stops it");
+        assert_eq!(Ok(found), period_doublings(0.5, 6));
+        for calls in 1..all.asked() {
+            let stopped = period_doublings_observed(0.5, 6, &StopAfter::calls(calls));
+            assert!(matches!(stopped, Err(Error::Stopped { total: 6, .. })), "{calls}: {stopped:?}");
+        }
+        assert!(all.asked() > 5);
     }
 }

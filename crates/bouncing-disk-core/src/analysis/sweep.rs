@@ -1,6 +1,7 @@
 //! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed in lockstep.
 
 mod measures;
+mod run;
 mod runner;
 
 use core::f64::consts::TAU;
@@ -12,9 +13,13 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::flight::impact::Impact;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
+use crate::observer::{Observer, Unobserved};
 use crate::platform::phase::Phase;
 
-pub use measures::{MAX_RECORDED, orbit_diagram, survival_times};
+pub use measures::{
+    MAX_RECORDED, orbit_diagram, orbit_diagram_observed, survival_times, survival_times_observed,
+};
+pub use run::{PartialResults, SweepRun};
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -86,7 +91,8 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
 /// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
 /// change a bit.
 ///
-/// An orbit that its visitor never breaks off and that never ends is followed for ever.
+/// An orbit that its visitor never breaks off and that never ends is followed for ever, or until the observer
+/// of [`sweep_observed`] breaks.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -118,7 +124,23 @@ pub fn sweep<S: Send>(
     start: impl Fn(usize) -> S + Sync,
     visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
 ) -> Result<Vec<S>, Error> {
-    runner::run(orbits, &start, &visit, crate::lockstep::lanes::InstructionSet::best())
+    sweep_observed(orbits, start, visit, &Unobserved)
+}
+
+/// [`sweep`] with an observer; the items are the orbits. A [`SweepRun`] keeps the finished ones of a call
+/// that is stopped.
+///
+/// # Errors
+/// Those of [`sweep`]; [`Error::Stopped`] if the observer breaks.
+pub fn sweep_observed<S: Send>(
+    orbits: &[Orbit],
+    start: impl Fn(usize) -> S + Sync,
+    visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
+    observer: &dyn Observer,
+) -> Result<Vec<S>, Error> {
+    let mut run = SweepRun::new(orbits.len());
+    run.advance(orbits, start, visit, observer)?;
+    run.into_results()
 }
 
 #[cfg(test)]

@@ -1,18 +1,20 @@
 //! The impact map (next-collision map) of the vertical motion, and its orbits.
 
 use glam::{DMat2, DVec2};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
 use crate::error::{Error, within};
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
+use crate::observer::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedState")]
 pub struct ImpactState {
     phase: Phase,
     velocity: f64,
@@ -26,6 +28,22 @@ impl core::fmt::Display for ImpactState {
         formatter.write_str(", w = ")?;
         core::fmt::Display::fmt(&self.velocity, formatter)?;
         formatter.write_str(" g/omega")
+    }
+}
+
+/// What is read of an [`ImpactState`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedState {
+    phase: Phase,
+    velocity: f64,
+}
+
+impl TryFrom<UncheckedState> for ImpactState {
+    type Error = Error;
+
+    fn try_from(state: UncheckedState) -> Result<Self, Error> {
+        Self::new(state.phase, state.velocity)
     }
 }
 
@@ -92,7 +110,8 @@ impl From<&Impact> for ImpactState {
 }
 
 /// The vertical impact map: vibration of the platform and coefficient of restitution.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedMap")]
 pub struct ImpactMap {
     vibration: Vibration,
     restitution: f64,
@@ -102,6 +121,22 @@ pub struct ImpactMap {
 impl core::fmt::Display for ImpactMap {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(formatter, "{}, restitution {}", self.vibration, self.restitution)
+    }
+}
+
+/// What is read of an [`ImpactMap`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedMap {
+    vibration: Vibration,
+    restitution: f64,
+}
+
+impl TryFrom<UncheckedMap> for ImpactMap {
+    type Error = Error;
+
+    fn try_from(map: UncheckedMap) -> Result<Self, Error> {
+        Self::new(map.vibration, map.restitution)
     }
 }
 
@@ -157,6 +192,30 @@ impl ImpactMap {
             let speed = -self.restitution * state.velocity;
             state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
         }
+        Ok(state)
+    }
+
+    /// [`Self::iterate`] with an observer; the items are the impacts.
+    ///
+    /// # Errors
+    /// Those of [`Self::iterate`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from there
+    /// iterates in parts.
+    pub fn iterate_observed(
+        &self,
+        mut state: ImpactState,
+        impacts: u64,
+        observer: &dyn Observer,
+    ) -> Result<ImpactState, Error> {
+        let watch = Watch::begin(observer, 0, impacts)?;
+        let mut work = watch.work();
+        let mut left = impacts;
+        while left > 0 {
+            let part = left.min(FLIGHTS_BETWEEN_CALLS);
+            state = self.iterate(state, part)?;
+            left -= part;
+            work.finish(part)?;
+        }
+        watch.end();
         Ok(state)
     }
 

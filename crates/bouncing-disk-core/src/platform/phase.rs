@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::numerics::elementary::{sin_cos, wrapped_angle};
@@ -18,7 +18,11 @@ use crate::numerics::elementary::{sin_cos, wrapped_angle};
 /// flight in an unbroken sequence of short ones they may part by 7e-16 more at most. Measured are 8e-13 after 1e7 flights, as
 /// of roundings of either sign. An attachment begins a new pair, so that the sequence is that of one chatter: some hundred
 /// flights at restitution 0.5.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+///
+/// All three numbers are stored, so that an orbit goes on bit for bit from a phase that is read. One that is
+/// read has its angle in [0, 2 pi) and a pair within 1e-9 of the sine and cosine of that angle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedPhase")]
 pub struct Phase {
     angle: f64,
     sin: f64,
@@ -30,6 +34,39 @@ impl core::fmt::Display for Phase {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         core::fmt::Display::fmt(&self.angle, formatter)?;
         formatter.write_str(" rad")
+    }
+}
+
+/// How far a pair that is read may be from the angle's: far more than any orbit drifts, far less than another
+/// angle shows.
+const PAIR_TOLERANCE: f64 = 1.0e-9;
+
+/// What is read of a [`Phase`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedPhase {
+    angle: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl TryFrom<UncheckedPhase> for Phase {
+    type Error = Error;
+
+    fn try_from(UncheckedPhase { angle, sin, cos }: UncheckedPhase) -> Result<Self, Error> {
+        let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
+        if !(0.0..TAU).contains(&angle) {
+            return illegal("angle of a phase", angle, "[0, 2 pi) (rad)");
+        }
+        let own = sin_cos(angle);
+        for (field, value, own) in [("sine of a phase", sin, own.0), ("cosine of a phase", cos, own.1)] {
+            // Not a number is near nothing.
+            let near = (value - own).abs() <= PAIR_TOLERANCE;
+            if !near {
+                return illegal(field, value, "within 1e-9 of that of its angle");
+            }
+        }
+        Ok(Self { angle, sin, cos })
     }
 }
 
@@ -89,5 +126,29 @@ impl Phase {
     #[inline(always)]
     pub const fn cos(&self) -> f64 {
         self.cos
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_phase_is_read_with_all_its_bits_and_legal() {
+        let turned = Phase { sin: Phase::of_angle(0.5).sin.next_up().next_up(), ..Phase::of_angle(0.5) };
+        let text = serde_json::to_string(&turned).expect("writes");
+        let read = serde_json::from_str::<Phase>(&text).expect("legal");
+        let bits = |of: Phase| [of.angle, of.sin, of.cos].map(f64::to_bits);
+        assert_eq!(bits(read), bits(turned));
+        for (angle, sin, cos, complaint) in [
+            ("6.283185307179587", "0.0", "1.0", "angle of a phase"),
+            ("-1e-300", "0.0", "1.0", "angle of a phase"),
+            ("0.0", "1.1e-9", "1.0", "sine of a phase"),
+            ("0.0", "0.0", "-1.0", "cosine of a phase"),
+        ] {
+            let text = format!(r#"{{"angle":{angle},"sin":{sin},"cos":{cos}}}"#);
+            let error = serde_json::from_str::<Phase>(&text).expect_err(&text).to_string();
+            assert!(error.contains(complaint), "{error}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, within};
 use crate::numerics::elementary::{CREST, asin};
@@ -13,7 +13,8 @@ use crate::platform::phase::Phase;
 ///
 /// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the preload
 /// acceleration. In these units P is also its amplitude and its peak speed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedVibration")]
 pub struct Vibration {
     peak_acceleration: f64,
     /// Phase sigma at which P sin tau rises through 1 (pi/2 if it never does): a disk at rest separates, and
@@ -41,6 +42,21 @@ pub struct Vibration {
 impl core::fmt::Display for Vibration {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(formatter, "Gamma = {} (P = {})", self.axial_forcing(), self.peak_acceleration)
+    }
+}
+
+/// What is read of a [`Vibration`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedVibration {
+    peak_acceleration: f64,
+}
+
+impl TryFrom<UncheckedVibration> for Vibration {
+    type Error = Error;
+
+    fn try_from(vibration: UncheckedVibration) -> Result<Self, Error> {
+        Self::new(vibration.peak_acceleration)
     }
 }
 

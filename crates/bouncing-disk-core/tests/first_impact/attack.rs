@@ -463,7 +463,7 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
         let fastest = 4.0 / (1.0 + map.restitution());
         let speed = Axis::new(0.0, fastest * (1.0 + 1.0 / 16.0), 17).unwrap();
         let grid = Grid::new(phase, speed).unwrap();
-        let Ok(basins) = map.basins(grid, &known, settings, || ()) else {
+        let Ok(basins) = map.basins(grid, &known, settings) else {
             continue;
         };
         for row in 0..17 {

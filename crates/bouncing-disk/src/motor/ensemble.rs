@@ -7,15 +7,15 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
+use bouncing_disk_core::{Observer, Phase, Unobserved, Watch};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check, finite, not_negative, read_checked, room_for, within_limit};
 use crate::motor::fit::ExponentialFit;
 use crate::motor::transient::{SpeedCurve, TransientSettings};
-use crate::motor::transients::{TransientMember, transients};
+use crate::motor::transients::{TransientMember, TransientsRun};
 use crate::parameters::system::System;
 
 /// A mean over the members of an ensemble, with its spread.
@@ -65,6 +65,9 @@ pub const MAX_MEMBERS: usize = 1_000_000;
 /// Most speeds of all members of an ensemble together: with their times a gigabyte.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
+/// What a point of a curve that is fitted counts as for an observer, in flights.
+const FLIGHTS_OF_POINT: u64 = 64;
+
 /// An ensemble of transients of one motor.
 ///
 /// One that is read has members, and a fit for each.
@@ -100,17 +103,17 @@ impl TransientEnsemble {
     }
 }
 
-/// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up from
-/// `settings.seed`. The result is the same for any number of threads.
+/// The members of an [`ensemble`](ensemble()): `members` >= 1 transients with starting phases spread evenly
+/// over the cycle and seeds counted up from `settings.seed`.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
-/// [`MAX_SPEEDS`] speeds of all together or than there is memory for; the errors of [`transient`](crate::transient()).
-pub fn ensemble(
+/// [`MAX_SPEEDS`] speeds of all together or than there is memory for.
+pub fn ensemble_members(
     system: &System,
     settings: &TransientSettings,
     members: usize,
-) -> Result<TransientEnsemble, Error> {
+) -> Result<Vec<TransientMember>, Error> {
     settings.check_for(&system.scales())?;
     check(members > 0, "members", 0.0, "[1, 1000000]")?;
     let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
@@ -125,39 +128,103 @@ pub fn ensemble(
     for index in 0..members {
         starts.push(member(index)?);
     }
-    let runs = transients(&starts);
-    let fitted = |curve: Result<SpeedCurve, Error>| -> Result<(SpeedCurve, ExponentialFit), Error> {
-        let curve = curve?;
-        let fit = curve.fit()?;
-        Ok((curve, fit))
-    };
-    #[cfg(feature = "parallel")]
-    let results: Vec<_> = {
-        use rayon::prelude::*;
-        runs.into_par_iter().map(fitted).collect()
-    };
-    #[cfg(not(feature = "parallel"))]
-    let results: Vec<_> = runs.into_iter().map(fitted).collect();
-    let mut curves = room_for("members of an ensemble", members, MAX_MEMBERS)?;
-    let mut fits = room_for("members of an ensemble", members, MAX_MEMBERS)?;
-    for result in results {
-        let (curve, fit) = result?;
-        curves.push(curve);
-        fits.push(fit);
+    Ok(starts)
+}
+
+/// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
+/// from `settings.seed`. The result is the same for any number of threads.
+///
+/// # Errors
+/// Those of [`ensemble_members`] and [`transient`](crate::transient()).
+pub fn ensemble(
+    system: &System,
+    settings: &TransientSettings,
+    members: usize,
+) -> Result<TransientEnsemble, Error> {
+    ensemble_observed(system, settings, members, &Unobserved)
+}
+
+/// [`ensemble`](ensemble()) with an observer; the items are the members, counted once when their transients are
+/// computed, and once more when they are fitted. The fit of one curve is not interrupted: it takes some 10
+/// microseconds for each interval.
+///
+/// To keep the finished members of a call that is stopped, compute the [`ensemble_members`] with a [`TransientsRun`]
+/// and give its results to [`TransientEnsemble::of_results`].
+///
+/// # Errors
+/// Those of [`ensemble`](ensemble()); an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
+pub fn ensemble_observed(
+    system: &System,
+    settings: &TransientSettings,
+    members: usize,
+    observer: &dyn Observer,
+) -> Result<TransientEnsemble, Error> {
+    let members = ensemble_members(system, settings, members)?;
+    let mut run = TransientsRun::new(members.len());
+    run.advance(&members, observer)?;
+    TransientEnsemble::of_results_observed(run.into_results()?, observer)
+}
+
+impl TransientEnsemble {
+    /// The ensemble of the transients of all members: see [`TransientsRun`].
+    ///
+    /// # Errors
+    /// The first error of a member, in their order; [`Error::OutOfRange`] for no member; those of
+    /// [`ExponentialFit::new`].
+    pub fn of_results(results: Vec<Result<SpeedCurve, Error>>) -> Result<Self, Error> {
+        Self::of_results_observed(results, &Unobserved)
     }
-    let of = |value: fn(&ExponentialFit) -> f64| Spread::of(&fits.iter().map(value).collect::<Vec<_>>());
-    Ok(TransientEnsemble {
-        steady_speed: of(|fit| fit.steady_speed)?,
-        time_constant: of(|fit| fit.time_constant)?,
-        stall_acceleration: of(ExponentialFit::stall_acceleration)?,
-        curves,
-        fits,
-    })
+
+    /// [`Self::of_results`] with an observer; the items are the fits.
+    ///
+    /// # Errors
+    /// Those of [`Self::of_results`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped))
+    /// if the observer breaks.
+    pub fn of_results_observed(
+        results: Vec<Result<SpeedCurve, Error>>,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
+        let members = results.len();
+        let watch = Watch::begin(observer, 0, members as u64)?;
+        let fitted = |curve: Result<SpeedCurve, Error>| -> Result<(SpeedCurve, ExponentialFit), Error> {
+            let curve = curve?;
+            watch.work().spend(FLIGHTS_OF_POINT * curve.times.len() as u64)?;
+            let fit = curve.fit()?;
+            watch.finish(1);
+            Ok((curve, fit))
+        };
+        #[cfg(feature = "parallel")]
+        let results: Vec<_> = {
+            use rayon::prelude::*;
+            results.into_par_iter().map(fitted).collect()
+        };
+        #[cfg(not(feature = "parallel"))]
+        let results: Vec<_> = results.into_iter().map(fitted).collect();
+        let mut curves = room_for("members of an ensemble", members, MAX_MEMBERS)?;
+        let mut fits = room_for("members of an ensemble", members, MAX_MEMBERS)?;
+        for result in results {
+            let (curve, fit) = result?;
+            curves.push(curve);
+            fits.push(fit);
+        }
+        watch.end();
+        let of = |value: fn(&ExponentialFit) -> f64| Spread::of(&fits.iter().map(value).collect::<Vec<_>>());
+        Ok(Self {
+            steady_speed: of(|fit| fit.steady_speed)?,
+            time_constant: of(|fit| fit.time_constant)?,
+            stall_acceleration: of(ExponentialFit::stall_acceleration)?,
+            curves,
+            fits,
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::ChatterPolicy;
+    use std::ops::ControlFlow;
+
+    use bouncing_disk_core::{ChatterPolicy, Progress};
 
     use super::*;
     use crate::motor::rotor::{Rotor, RotorStep};
@@ -293,6 +360,34 @@ mod tests {
         for speed in &speeds {
             assert!((speed / speeds[1] - 1.0).abs() < 0.03, "{speeds:?}");
         }
+    }
+
+    #[test]
+    fn the_finished_members_of_an_ensemble_are_kept() {
+        let system = motor(1e-8, 0.0);
+        let settings = TransientSettings { duration: 0.2, intervals: 50, ..TransientSettings::default() };
+        let members = ensemble_members(&system, &settings, 5).expect("legal");
+        let mut run = TransientsRun::new(members.len());
+        let stop_at = |done| {
+            move |progress: Progress| {
+                if progress.done < done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            }
+        };
+        let mut stops = 0;
+        while run.advance(&members, &stop_at(stops)).is_err() {
+            stops += 1;
+        }
+        let results = run.into_results().expect("done");
+        let in_parts = TransientEnsemble::of_results(results.clone()).expect("fitted");
+        assert_eq!(Ok(in_parts), ensemble(&system, &settings, 5));
+        for stopped in [
+            TransientEnsemble::of_results_observed(results, &stop_at(0)),
+            ensemble_observed(&system, &settings, 5, &stop_at(0)),
+        ] {
+            let expected = bouncing_disk_core::Error::Stopped { done: 0, total: 5 };
+            assert_eq!(stopped, Err(Error::Core(expected)));
+        }
+        assert!(TransientEnsemble::of_results(Vec::new()).is_err());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::mean;
-use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Unobserved, Watch, WorkCount};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check, finite, moderate_not_negative, positive, read_checked, room_for};
@@ -22,6 +22,12 @@ const SHORTEST_INTERVAL: f64 = 1.0e-15;
 
 /// Most intervals of a curve.
 pub(crate) const MAX_INTERVALS: usize = 1_000_000;
+
+/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+pub(crate) const FLIGHTS_OF_EVENT: u64 = 4;
+
+/// Events after which the work is counted.
+const EVENTS_BETWEEN_COUNTS: u64 = 64;
 
 /// How a transient is computed and sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -140,10 +146,27 @@ read_checked!(SpeedCurve as UncheckedCurve {
 /// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot hold; an error of the core where there is no
 /// memory for the curve; the errors of the flights.
 pub fn transient(system: &System, phase: Phase, settings: &TransientSettings) -> Result<SpeedCurve, Error> {
+    transient_observed(system, phase, settings, &Unobserved)
+}
+
+/// [`transient`] with an observer; the items are the intervals of the curve.
+///
+/// # Errors
+/// Those of [`transient`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
+pub fn transient_observed(
+    system: &System,
+    phase: Phase,
+    settings: &TransientSettings,
+    observer: &dyn Observer,
+) -> Result<SpeedCurve, Error> {
     let mut run = Run::new(system, phase, settings)?;
-    while !run.is_done() {
-        run.step()?;
+    let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
+    let mut work = watch.work();
+    while run.advance(&mut work)? {
+        watch.set_done(run.bins.present.index as u64);
     }
+    watch.end();
     run.finished()
 }
 
@@ -184,6 +207,18 @@ impl Run {
     #[inline(always)]
     pub(crate) fn is_done(&self) -> bool {
         self.bins.present.reached >= self.duration
+    }
+
+    /// Adds the motion of some events, unless all has been added; whether there is more. The work is counted
+    /// for an observer.
+    pub(crate) fn advance(&mut self, work: &mut WorkCount<'_>) -> Result<bool, Error> {
+        let mut events = 0;
+        while events < EVENTS_BETWEEN_COUNTS && !self.is_done() {
+            self.step()?;
+            events += 1;
+        }
+        work.spend(FLIGHTS_OF_EVENT * events)?;
+        Ok(!self.is_done())
     }
 
     /// Adds the motion up to the next event.

@@ -2,11 +2,15 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::{ChatterPolicy, Flights, InstructionSet, Launch, Phase};
+use bouncing_disk_core::{
+    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Phase, Unobserved, Watch,
+    WorkCount,
+};
+use serde::{Deserialize, Serialize};
 
 use super::rotors::{Carry, Rotors};
 use crate::error::Error;
-use crate::motor::transient::{Run, SpeedCurve, TransientSettings, transient};
+use crate::motor::transient::{FLIGHTS_OF_EVENT, Run, SpeedCurve, TransientSettings};
 use crate::parameters::system::System;
 
 /// With fewer transients under way they are advanced one by one: what a step of the lanes costs however few of them are in use
@@ -16,7 +20,7 @@ const FEWEST: usize = 26;
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// The arguments of one [`transient`].
+/// The arguments of one [`transient`](crate::transient()).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransientMember {
     /// The motor.
@@ -28,13 +32,17 @@ pub struct TransientMember {
 }
 
 impl TransientMember {
-    fn alone(&self) -> Result<SpeedCurve, Error> {
-        transient(&self.system, self.phase, &self.settings)
+    /// As [`transient`](crate::transient()).
+    fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
+        let mut run = Run::new(&self.system, self.phase, &self.settings)?;
+        while run.advance(work)? {}
+        run.finished()
     }
 }
 
-/// The transient of each member, or the error that [`transient`] returns for it, in the order of the members; bit for bit
-/// those of [`transient`], several times faster where there are many.
+/// The transient of each member, or the error that [`transient`](crate::transient()) returns for it, in the
+/// order of the members; bit for bit those of [`transient`](crate::transient()), several times faster where
+/// there are many.
 ///
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
 /// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
@@ -61,18 +69,131 @@ impl TransientMember {
 /// ```
 #[must_use]
 pub fn transients(members: &[TransientMember]) -> Vec<Result<SpeedCurve, Error>> {
-    with_instruction_set(members, InstructionSet::best())
+    let mut run = TransientsRun::new(members.len());
+    // Nobody stops it, and the errors of the members are among the results: it is done.
+    match run.advance(members, &Unobserved).and_then(|()| run.into_results()) {
+        Ok(results) => results,
+        Err(error) => vec![Err(error); members.len()],
+    }
+}
+
+/// [`transients`] with an observer; the items are the members. A [`TransientsRun`] keeps the finished ones of
+/// a call that is stopped.
+///
+/// # Errors
+/// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+pub fn transients_observed(
+    members: &[TransientMember],
+    observer: &dyn Observer,
+) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
+    let mut run = TransientsRun::new(members.len());
+    run.advance(members, observer)?;
+    run.into_results()
+}
+
+/// Many transients under way: the curves of the members that are finished.
+///
+/// A run that is stopped, written, read and gone on with gives the curves of one call of [`transients`]
+/// without a stop, bit for bit, for any number of threads. The members are not stored: whoever goes on brings
+/// the same ones. Nor are errors of members, which are found again.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use bouncing_disk::core::Progress;
+/// use bouncing_disk::{
+///     System, TransientEnsemble, TransientSettings, TransientsRun, ensemble, ensemble_members,
+/// };
+///
+/// let motor = System::motor();
+/// let settings = TransientSettings { duration: 0.05, ..TransientSettings::default() };
+/// let members = ensemble_members(&motor, &settings, 8)?;
+/// let mut run = TransientsRun::new(members.len());
+/// run.advance(&members, &|progress: Progress| {
+///     eprint!("\r{} of {} members", progress.done, progress.total);
+///     ControlFlow::Continue(())
+/// })?;
+/// assert_eq!(TransientEnsemble::of_results(run.into_results()?)?, ensemble(&motor, &settings, 8)?);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "PartialResults<SpeedCurve>", into = "PartialResults<SpeedCurve>")]
+pub struct TransientsRun {
+    results: PartialResults<Result<SpeedCurve, Error>>,
+}
+
+impl From<PartialResults<SpeedCurve>> for TransientsRun {
+    fn from(curves: PartialResults<SpeedCurve>) -> Self {
+        Self { results: curves.filter_map(|curve| Some(Ok(curve))) }
+    }
+}
+
+impl From<TransientsRun> for PartialResults<SpeedCurve> {
+    fn from(run: TransientsRun) -> Self {
+        run.results.filter_map(Result::ok)
+    }
+}
+
+impl TransientsRun {
+    /// A run of so many members, none of them finished.
+    #[must_use]
+    pub const fn new(members: usize) -> Self {
+        Self { results: PartialResults::new(members) }
+    }
+
+    /// Computes the transients of the members that are not finished. What an earlier call has finished stays;
+    /// so it does when this call returns an error. The items of the observer are members; those under way are
+    /// begun again by the next call.
+    ///
+    /// # Errors
+    /// Errors of the core: [`Stopped`](bouncing_disk_core::Error::Stopped) if the observer breaks,
+    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another number of members than the run has. An
+    /// error of a member is its result.
+    pub fn advance(&mut self, members: &[TransientMember], observer: &dyn Observer) -> Result<(), Error> {
+        self.advance_with(members, observer, InstructionSet::best())
+    }
+
+    fn advance_with(
+        &mut self,
+        members: &[TransientMember],
+        observer: &dyn Observer,
+        set: InstructionSet,
+    ) -> Result<(), Error> {
+        let open = self.results.open(members.len())?;
+        let watch = Watch::begin(observer, self.results.done(), self.results.total())?;
+        let (next, queue) = (AtomicUsize::new(0), (members, &*open));
+        self.results.extend(workers(open.len(), |lanes| Worker::new(queue, &next, lanes, set, &watch).run()));
+        if !self.is_done() {
+            return Err(self.results.stopped().into());
+        }
+        watch.end();
+        Ok(())
+    }
+
+    /// The results of the members, as far as they are finished.
+    #[must_use]
+    pub const fn results(&self) -> &PartialResults<Result<SpeedCurve, Error>> {
+        &self.results
+    }
+
+    /// Whether all members are finished.
+    #[must_use]
+    pub const fn is_done(&self) -> bool {
+        self.results.is_done()
+    }
+
+    /// The transients of all members, in their order.
+    ///
+    /// # Errors
+    /// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if one is not finished:
+    /// [`Self::is_done`] tells before.
+    pub fn into_results(self) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
+        Ok(self.results.into_results()?)
+    }
 }
 
 /// What became of the member of an index.
 type Outcome = (usize, Result<SpeedCurve, Error>);
-
-fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec<Result<SpeedCurve, Error>> {
-    let next = AtomicUsize::new(0);
-    let mut outcomes = workers(members.len(), |lanes| Worker::new(members, &next, lanes, set).run());
-    outcomes.sort_unstable_by_key(|(index, _)| *index);
-    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
-}
 
 /// The outcomes of as many workers as there are threads, each told how many lanes are its share; it does not matter which of
 /// them has a member.
@@ -92,6 +213,8 @@ fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome>
 /// Advances members that nobody has begun until there are none left.
 struct Worker<'a> {
     members: &'a [TransientMember],
+    /// Indices of those that are to be computed.
+    open: &'a [usize],
     next: &'a AtomicUsize,
     /// Most lanes in use.
     lanes: usize,
@@ -101,63 +224,86 @@ struct Worker<'a> {
     /// Their curves, close together: a run is large, and seldom looked at.
     curves: Vec<Vec<f64>>,
     outcomes: Vec<Outcome>,
+    work: WorkCount<'a>,
 }
 
 impl<'a> Worker<'a> {
-    const fn new(
-        members: &'a [TransientMember],
+    fn new(
+        (members, open): (&'a [TransientMember], &'a [usize]),
         next: &'a AtomicUsize,
         lanes: usize,
         set: InstructionSet,
+        watch: &'a Watch<'a>,
     ) -> Self {
-        Self { members, next, lanes, set, runs: Vec::new(), curves: Vec::new(), outcomes: Vec::new() }
+        let (runs, curves, outcomes, work) = (Vec::new(), Vec::new(), Vec::new(), watch.work());
+        Self { members, open, next, lanes, set, runs, curves, outcomes, work }
     }
 
     fn take(&self) -> Option<(usize, &'a TransientMember)> {
-        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        let index = *self.open.get(self.next.fetch_add(1, Ordering::Relaxed))?;
         self.members.get(index).map(|member| (index, member))
     }
 
     fn run(mut self) -> Vec<Outcome> {
-        if self.lanes >= FEWEST {
-            self.in_lanes();
-        }
-        while let Some((index, member)) = self.take() {
-            self.outcomes.push((index, member.alone()));
-        }
+        // Once the observer has broken, what is under way is dropped: it is not finished.
+        let _ = self.compute_all();
         self.outcomes
     }
 
+    fn compute_all(&mut self) -> Result<(), Error> {
+        if self.lanes >= FEWEST {
+            self.in_lanes()?;
+        }
+        while let Some((index, member)) = self.take() {
+            self.work.spend(FLIGHTS_OF_EVENT)?;
+            let outcome = member.alone(&mut self.work);
+            self.finish(index, outcome)?;
+        }
+        Ok(())
+    }
+
+    /// Keeps what became of a member, unless it was stopped.
+    fn finish(&mut self, index: usize, outcome: Result<SpeedCurve, Error>) -> Result<(), Error> {
+        if let Err(stopped @ Error::Core(bouncing_disk_core::Error::Stopped { .. })) = outcome {
+            return Err(stopped);
+        }
+        self.work.watch().finish(1);
+        self.outcomes.push((index, outcome));
+        Ok(())
+    }
+
     /// The next member that waits and is not done before its first flight, about to fly.
-    fn begun(&mut self) -> Option<(usize, Run, Launch)> {
+    fn begun(&mut self) -> Result<Option<(usize, Run, Launch)>, Error> {
         loop {
-            let (index, member) = self.take()?;
-            if member.settings.policy != ChatterPolicy::Complete {
-                self.outcomes.push((index, member.alone()));
-                continue;
-            }
-            match Run::new(&member.system, member.phase, &member.settings) {
-                Ok(mut run) => match fly_next(&mut run) {
-                    Ok(Some(launch)) => return Some((index, run, launch)),
-                    Ok(None) => self.outcomes.push((index, run.finished())),
-                    Err(error) => self.outcomes.push((index, Err(error))),
-                },
-                Err(error) => self.outcomes.push((index, Err(error))),
-            }
+            self.work.spend(FLIGHTS_OF_EVENT)?;
+            let Some((index, member)) = self.take() else { return Ok(None) };
+            let outcome = if member.settings.policy == ChatterPolicy::Complete {
+                match Run::new(&member.system, member.phase, &member.settings) {
+                    Ok(mut run) => match fly_next(&mut run, &mut self.work) {
+                        Ok(Some(launch)) => return Ok(Some((index, run, launch))),
+                        Ok(None) => run.finished(),
+                        Err(error) => Err(error),
+                    },
+                    Err(error) => Err(error),
+                }
+            } else {
+                member.alone(&mut self.work)
+            };
+            self.finish(index, outcome)?;
         }
     }
 
     /// Advances members together while there are enough of them.
-    fn in_lanes(&mut self) {
+    fn in_lanes(&mut self) -> Result<(), Error> {
         let batches = self.lanes.div_ceil(Flights::LANES);
         // Without the memory for lanes they are advanced one by one.
-        let Ok(mut flights) = Flights::new(self.set, batches) else { return };
+        let Ok(mut flights) = Flights::new(self.set, batches) else { return Ok(()) };
         let mut rotors = vec![Rotors::new(); batches];
         let mut may_rest = vec![[0; Flights::LANES]; batches];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
             while self.runs.len() < self.lanes
-                && let Some((index, mut run, launch)) = self.begun()
+                && let Some((index, mut run, launch)) = self.begun()?
             {
                 let lane = self.runs.len();
                 flights.set_platform(lane, *run.rotor.system().vibration());
@@ -170,6 +316,7 @@ impl<'a> Worker<'a> {
             if self.runs.len() < FEWEST {
                 break;
             }
+            self.work.spend(self.runs.len().next_multiple_of(Flights::LANES) as u64)?;
             flights.fly(self.runs.len(), |lane, error| failures.push((lane, Error::from(error))));
             let used = self.runs.len().div_ceil(Flights::LANES);
             for (batch, (rotors, may_rest)) in rotors.iter_mut().zip(&mut may_rest).enumerate().take(used) {
@@ -194,7 +341,8 @@ impl<'a> Worker<'a> {
                         None => {
                             let may_rest = may_rest[batch][own] != 0;
                             let curve = &mut self.curves[lane];
-                            attend(lane, run, curve, &mut flights, &mut rotors[batch], may_rest)
+                            let lane_of = (&mut flights, &mut rotors[batch], &mut self.work);
+                            attend(lane, run, curve, lane_of, may_rest)
                         }
                     };
                     if matches!(done, Ok(false)) {
@@ -202,7 +350,7 @@ impl<'a> Worker<'a> {
                     }
                     let (index, run) = self.runs.swap_remove(lane);
                     self.curves.swap_remove(lane);
-                    self.outcomes.push((index, done.and_then(|_| run.finished())));
+                    self.finish(index, done.and_then(|_| run.finished()))?;
                     let last = self.runs.len();
                     if let (Some((_, moved)), Some(launch)) = (self.runs.get(lane), flights.launch(last)) {
                         flights.set_platform(lane, *moved.rotor.system().vibration());
@@ -218,19 +366,22 @@ impl<'a> Worker<'a> {
             rotors.give_back(own, &mut run, &mut curve);
             // Every run has a lane.
             if let Some(launch) = flights.launch(lane) {
-                self.outcomes.push((index, finished_alone(run, launch, rotors.motion(own))));
+                let outcome = finished_alone(run, launch, rotors.motion(own), &mut self.work);
+                self.finish(index, outcome)?;
             }
         }
+        Ok(())
     }
 }
 
 /// Takes a transient to its next flight; `None` if it is done before.
-fn fly_next(run: &mut Run) -> Result<Option<Launch>, Error> {
+fn fly_next(run: &mut Run, work: &mut WorkCount<'_>) -> Result<Option<Launch>, Error> {
     while !run.is_done() {
         if let Some(launch) = run.rotor.launch() {
             return Ok(Some(launch));
         }
         run.step()?;
+        work.spend(FLIGHTS_OF_EVENT)?;
     }
     Ok(None)
 }
@@ -240,8 +391,7 @@ fn attend(
     lane: usize,
     run: &mut Run,
     curve: &mut Vec<f64>,
-    flights: &mut Flights,
-    rotors: &mut Rotors,
+    (flights, rotors, work): (&mut Flights, &mut Rotors, &mut WorkCount<'_>),
     may_rest: bool,
 ) -> Result<bool, Error> {
     let own = lane % Flights::LANES;
@@ -261,18 +411,21 @@ fn attend(
     let (periods, speed) = rotors.motion(own);
     run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
     rotors.give_back(own, run, curve);
-    let Some(launch) = fly_next(run)? else { return Ok(true) };
+    let Some(launch) = fly_next(run, work)? else { return Ok(true) };
     flights.set_launch(lane, launch);
     rotors.take(own, run, curve);
     Ok(false)
 }
 
 /// The curve of a transient that leaves its lane at a launch.
-fn finished_alone(mut run: Run, launch: Launch, (periods, speed): (u64, f64)) -> Result<SpeedCurve, Error> {
+fn finished_alone(
+    mut run: Run,
+    launch: Launch,
+    (periods, speed): (u64, f64),
+    work: &mut WorkCount<'_>,
+) -> Result<SpeedCurve, Error> {
     run.rotor.go_on_with(launch, ChatterPolicy::Complete, periods, speed)?;
-    while !run.is_done() {
-        run.step()?;
-    }
+    while run.advance(work)? {}
     run.finished()
 }
 

@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, TangentGrowth};
+use bouncing_disk_core::{
+    ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, Observer, TangentGrowth, Unobserved,
+    Watch, WorkCount,
+};
 use serde::Serialize;
 
 use crate::error::{Error, check, not_negative, room_for};
@@ -14,6 +17,9 @@ use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 
 /// Most impacts that [`multi_toss`] looks at.
 pub const MAX_EXAMINED: usize = 10_000_000;
+
+/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// How long a motion is followed, and when it counts as periodic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -109,19 +115,39 @@ pub fn multi_toss(
     start: InitialCondition,
     settings: MultiTossSettings,
 ) -> Result<TossOrbit, Error> {
+    multi_toss_observed(system, start, settings, &Unobserved)
+}
+
+/// [`multi_toss`] with an observer; the items are the impacts, of the transient and examined.
+///
+/// # Errors
+/// Those of [`multi_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
+pub fn multi_toss_observed(
+    system: impl Into<DimensionlessSystem>,
+    start: InitialCondition,
+    settings: MultiTossSettings,
+    observer: &dyn Observer,
+) -> Result<TossOrbit, Error> {
     settings.check()?;
     let system = system.into();
     let mut collisions = Collisions::new(system, start, settings.policy)?;
     let mut skipped = 0;
     let collided = room_for("examined impacts", settings.examined_impacts, MAX_EXAMINED)?;
     let mut window = Window { collisions: collided, ..Window::default() };
+    let impacts = settings.transient_impacts.saturating_add(settings.examined_impacts);
+    let watch = Watch::begin(observer, 0, impacts as u64)?;
+    let mut work = watch.work();
     while window.collisions.len() < settings.examined_impacts {
+        watch.set_done((skipped + window.collisions.len()) as u64);
+        work.spend(FLIGHTS_OF_EVENT)?;
         match collisions.advance()? {
             Some(event) if skipped < settings.transient_impacts => {
                 skipped += usize::from(matches!(event, CollisionEvent::Collision(_)));
             }
             Some(event) => window.push(&event),
             None => {
+                watch.end();
                 return Ok(TossOrbit {
                     class: OrbitClass::AtRest,
                     collisions: Vec::new(),
@@ -131,7 +157,9 @@ pub fn multi_toss(
             }
         }
     }
-    Ok(window.classified(&system, &settings))
+    let orbit = window.classified(&system, &settings, &mut work)?;
+    watch.end();
+    Ok(orbit)
 }
 
 /// A separation, and how many collisions of the window came before it.
@@ -161,12 +189,17 @@ impl Window {
         }
     }
 
-    fn classified(self, system: &DimensionlessSystem, settings: &MultiTossSettings) -> TossOrbit {
+    fn classified(
+        self,
+        system: &DimensionlessSystem,
+        settings: &MultiTossSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<TossOrbit, Error> {
         if let [.., from, to] = self.leavings[..] {
-            return self.chattering(system, settings, from, to);
+            return Ok(self.chattering(system, settings, from, to));
         }
         let periodic = if self.attached { None } else { self.periodic(system, settings) };
-        periodic.unwrap_or_else(|| self.chaotic(system))
+        periodic.map_or_else(|| self.chaotic(system, work), Ok)
     }
 
     fn chattering(
@@ -234,17 +267,17 @@ impl Window {
         })
     }
 
-    fn chaotic(self, system: &DimensionlessSystem) -> TossOrbit {
+    fn chaotic(self, system: &DimensionlessSystem, work: &mut WorkCount<'_>) -> Result<TossOrbit, Error> {
         let (first, last) = (&self.collisions[0], &self.collisions[self.collisions.len() - 1]);
         let mean = mean_speed((first.time, first.angle), (last.time, last.angle));
         let lyapunov_exponent =
-            if self.attached { None } else { growth_rate(system.map(), &self.collisions) };
-        TossOrbit {
+            if self.attached { None } else { growth_rate(system.map(), &self.collisions, work)? };
+        Ok(TossOrbit {
             class: OrbitClass::ChaoticOrLong { impacts: self.collisions.len(), lyapunov_exponent },
             mean_angular_speed: mean,
             rotation_repeats: None,
             collisions: self.collisions,
-        }
+        })
     }
 }
 
@@ -255,20 +288,28 @@ fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
 }
 
 /// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is unbounded.
-fn growth_rate(map: &ImpactMap, collisions: &[Collision]) -> Option<f64> {
+fn growth_rate(
+    map: &ImpactMap,
+    collisions: &[Collision],
+    work: &mut WorkCount<'_>,
+) -> Result<Option<f64>, Error> {
     let mut growth = TangentGrowth::default();
-    for collision in collisions.split_last()?.1 {
-        let (_, derivative) = map.step_with_derivative(collision.state.vertical().ok()?).ok()?;
+    let Some((_, followed)) = collisions.split_last() else { return Ok(None) };
+    for collision in followed {
+        work.spend(1)?;
+        let step = collision.state.vertical().ok().and_then(|state| map.step_with_derivative(state).ok());
+        let Some((_, derivative)) = step else { return Ok(None) };
         growth.grow(derivative);
     }
-    growth.exponent()
+    Ok(growth.exponent())
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
+    use std::ops::ControlFlow;
 
-    use bouncing_disk_core::{Phase, Vibration};
+    use bouncing_disk_core::{Phase, Progress, Vibration};
     use proptest::prelude::*;
 
     use super::*;
@@ -345,6 +386,40 @@ mod tests {
         assert_eq!(orbit.class, OrbitClass::AtRest);
         let orbit = multi_toss(gentle, start, MultiTossSettings::default()).unwrap();
         assert_eq!(orbit.class, OrbitClass::AtRest);
+    }
+
+    #[test]
+    fn a_long_motion_can_be_stopped_also_while_it_is_classified() {
+        let system = system(0.55, 1.0, 0.0);
+        let start = period_one(&system, 0.0);
+        let settings =
+            MultiTossSettings { transient_impacts: 10_000, examined_impacts: 20_000, ..Default::default() };
+        let stopped = |at: usize| {
+            let calls = std::sync::atomic::AtomicUsize::new(0);
+            let observer = |_: Progress| {
+                let early = calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < at;
+                if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            multi_toss_observed(system, start, settings, &observer)
+        };
+        let whole = multi_toss(system, start, settings).unwrap();
+        assert!(matches!(whole.class, OrbitClass::ChaoticOrLong { lyapunov_exponent: Some(_), .. }));
+        for at in 0..100 {
+            match stopped(at) {
+                Ok(orbit) => {
+                    assert!(orbit == whole && at > 15, "{at}");
+                    return;
+                }
+                Err(error) => {
+                    let Error::Core(bouncing_disk_core::Error::Stopped { done, total: 30_000 }) = error
+                    else {
+                        panic!("{error}")
+                    };
+                    assert!(done <= 30_000, "{done}");
+                }
+            }
+        }
+        panic!("never done");
     }
 
     #[test]
@@ -431,7 +506,8 @@ mod tests {
             angle: 0.0,
             capped: true,
         };
-        let rate = growth_rate(&map, &vec![collision; 20_001]).unwrap();
+        let watch = Watch::begin(&Unobserved, 0, 1).unwrap();
+        let rate = growth_rate(&map, &vec![collision; 20_001], &mut watch.work()).unwrap().unwrap();
         let radius = Multipliers::of(map.refine(&[state]).unwrap().monodromy).spectral_radius();
         let expected = bouncing_disk_core::elementary::ln(radius);
         assert!((rate - expected).abs() < 1e-3, "{rate} {expected}");

@@ -8,7 +8,7 @@ use bouncing_disk::core::{
 use super::data::{Other, Panel, Shares, Spot};
 use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
 use crate::experiment::ExperimentError;
-use crate::progress::Progress;
+use crate::progress::{Progress, advancing};
 
 /// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
 /// both fractions that it prints come out (see [`super::windows`]).
@@ -77,7 +77,7 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
     let mut known = vec![first.clone()];
     'search: while known.len() < 4 {
-        let basins = map.basins(grid, &known, settings, || ()).map_err(ExperimentError::model)?;
+        let basins = map.basins(grid, &known, settings).map_err(ExperimentError::model)?;
         for (index, _) in basins.labels().iter().enumerate().filter(|(_, label)| **label == UNDECIDED) {
             let from = start(&grid, index / COARSE, index % COARSE)?;
             let settled =
@@ -137,7 +137,7 @@ pub(super) fn panel(
     };
     let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
     let basins = map
-        .basins(grid(top, side, side)?, &known, settings, || progress.advance(1))
+        .basins_observed(grid(top, side, side)?, &known, settings, &advancing(progress))
         .map_err(ExperimentError::model)?;
     let kinds: Vec<u8> = basins.labels().iter().map(|label| kind(*label, open)).collect();
     let share = |kind: u8| kinds.iter().filter(|own| **own == kind).count() as f64 / kinds.len() as f64;

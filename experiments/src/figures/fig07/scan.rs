@@ -57,7 +57,7 @@ pub(super) fn along_window(
             let highest = TOPS[TOPS.len() - 1];
             let settings = BasinSettings { max_impacts: LONGEST_ALONG, policy: ChatterPolicy::Complete };
             let basins = map
-                .basins(grid(highest as f64, rows, columns)?, &known, settings, || ())
+                .basins(grid(highest as f64, rows, columns)?, &known, settings)
                 .map_err(ExperimentError::model)?;
             let shares = TOPS
                 .iter()
@@ -93,7 +93,7 @@ pub(super) fn beyond(
             let map = map(axial_forcing, section.restitution)?;
             let grid = grid(top, side, side)?;
             let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
-            let basins = map.basins(grid, &[], settings, || ()).map_err(ExperimentError::model)?;
+            let basins = map.basins(grid, &[], settings).map_err(ExperimentError::model)?;
             let open = |label: &u8| *label == UNDECIDED;
             let mut period = None;
             if let Some(index) = basins.labels().iter().position(open) {

@@ -7,7 +7,7 @@ use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
 use super::panels::{grid, map, others};
 use crate::experiment::ExperimentError;
 use crate::paper::SectionFour;
-use crate::progress::Progress;
+use crate::progress::{Progress, advancing};
 
 /// Top of the largest window.
 const LARGEST_TOP: f64 = 8.0;
@@ -42,7 +42,7 @@ impl Cells {
         }
         let settings = BasinSettings { max_impacts: 20_000, policy: ChatterPolicy::Complete };
         let basins = map
-            .basins(grid(LARGEST_TOP, rows, columns)?, &known, settings, || progress.advance(1))
+            .basins_observed(grid(LARGEST_TOP, rows, columns)?, &known, settings, &advancing(progress))
             .map_err(ExperimentError::model)?;
         let kinds = basins.labels().iter().map(|label| kind(*label, STILL_OPEN)).collect();
         Ok(Self { kinds, columns })

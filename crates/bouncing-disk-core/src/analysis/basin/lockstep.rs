@@ -2,7 +2,7 @@
 
 use super::screen::{Judge, Verdicts};
 use super::starts::{Cell, Cells, Starts};
-use super::{BasinSettings, KnownOrbit, Label, UNDECIDED};
+use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
@@ -14,9 +14,9 @@ const BATCHES: usize = 24;
 
 impl ImpactMap {
     /// Labels cells until there are none left to take, at most `lanes` of them at a time.
-    pub(super) fn label_cells<Done: Fn()>(
+    pub(super) fn label_cells(
         &self,
-        cells: &Cells<'_, Done>,
+        cells: &Cells<'_>,
         known: &[KnownOrbit],
         settings: BasinSettings,
         lanes: usize,
@@ -35,24 +35,28 @@ impl ImpactMap {
             lockstep.fly()?;
             // From the last lane, so that a lane moved into a gap has been judged.
             for number in (0..lockstep.lanes.div_ceil(LANES)).rev() {
+                starts.spend(&lockstep.judge)?;
                 lockstep.judge(number, &mut starts, &mut verdicts);
             }
             lockstep.give_up(&mut starts);
         }
-        Ok(())
+        // Lanes run empty when the call is stopped, too.
+        if cells.watch.is_stopped() { cells.watch.ask() } else { Ok(()) }
     }
 
-    fn label_one_by_one<Done: Fn()>(
+    fn label_one_by_one(
         &self,
-        cells: &Cells<'_, Done>,
+        cells: &Cells<'_>,
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<(), Error> {
+        let (mut work, flights) = (cells.watch.work(), flights_of_label(known));
         while let Some(share) = cells.take() {
             let rows = cells.speeds[share.first_row..].iter();
             for (row, speed) in share.labels.chunks_mut(cells.phases.len()).zip(rows) {
                 for (label, phase) in row.iter_mut().zip(&cells.phases) {
-                    *label = self.basin_label(ImpactState::new(*phase, -speed)?, known, settings)?;
+                    let start = ImpactState::new(*phase, -speed)?;
+                    *label = self.label_of(start, known, settings, |_| work.spend(flights))?;
                 }
             }
             cells.rows_done(&share);
@@ -103,12 +107,7 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
-    fn judge<Done: Fn()>(
-        &mut self,
-        number: usize,
-        starts: &mut Starts<'_, '_, Done>,
-        verdicts: &mut Verdicts,
-    ) {
+    fn judge(&mut self, number: usize, starts: &mut Starts<'_, '_>, verdicts: &mut Verdicts) {
         self.judge.screen(self.batches[number].impacts(), verdicts);
         let first = number * LANES;
         let settled = verdicts.settled & Lanes::first((self.lanes - first).min(LANES));
@@ -120,7 +119,7 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Labels the lanes that have spent their impacts.
-    fn give_up<Done: Fn()>(&mut self, starts: &mut Starts<'_, '_, Done>) {
+    fn give_up(&mut self, starts: &mut Starts<'_, '_>) {
         if self.round < self.deadline {
             return;
         }
@@ -134,7 +133,7 @@ impl<'a> Lockstep<'a> {
         self.deadline = first.map_or(u64::MAX, |begun| begun + allowed);
     }
 
-    fn finish<Done: Fn()>(&mut self, lane: usize, label: Label, starts: &mut Starts<'_, '_, Done>) {
+    fn finish(&mut self, lane: usize, label: Label, starts: &mut Starts<'_, '_>) {
         starts.settle(self.cell[lane], label);
         if !self.load(lane, starts) {
             // The last lane in use fills the gap.
@@ -147,7 +146,7 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Begins the next start in `lane`; false if there is none.
-    fn load<Done: Fn()>(&mut self, lane: usize, starts: &mut Starts<'_, '_, Done>) -> bool {
+    fn load(&mut self, lane: usize, starts: &mut Starts<'_, '_>) -> bool {
         let Some((cell, from)) = starts.next(&self.judge) else { return false };
         self.batches[lane / LANES].take_impact(lane % LANES, starts.batch(), from);
         self.cell[lane] = cell;
@@ -186,7 +185,7 @@ mod tests {
         let grid =
             Grid::new(Axis::new(0.0, 1.0, cells).expect("legal"), Axis::new(0.0, 3.0, cells).expect("legal"))
                 .expect("legal");
-        let basins = map.basins(grid, &known, settings, || ()).expect("no failure");
+        let basins = map.basins(grid, &known, settings).expect("no failure");
         let mut counts = [0; 4];
         for row in 0..cells {
             for (column, &label) in basins.row(row).iter().enumerate() {
@@ -223,26 +222,6 @@ mod tests {
         for max_impacts in [0, 1, 2, 7] {
             let counts = compared(0.5, 0.5, 120, max_impacts);
             assert!(counts[usize::from(UNDECIDED)] > 0, "{max_impacts}: {counts:?}");
-        }
-    }
-
-    #[test]
-    fn every_row_is_reported_once() {
-        use core::sync::atomic::{AtomicUsize, Ordering};
-        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
-        for (columns, rows) in [(1, 1), (3, 50), (70, 131), (3_000, 2)] {
-            for threads in [1, 2, 7] {
-                let axis = |high, cells| Axis::new(0.0, high, cells).expect("legal");
-                let grid = Grid::new(axis(1.0, columns), axis(2.0, rows)).expect("legal");
-                let done = AtomicUsize::new(0);
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts");
-                let labels = pool.install(|| {
-                    let settings = BasinSettings { max_impacts: 50, ..BasinSettings::default() };
-                    map.basins(grid, &[], settings, || _ = done.fetch_add(1, Ordering::Relaxed))
-                });
-                assert_eq!(labels.expect("no failure").labels().len(), columns * rows);
-                assert_eq!(done.into_inner(), rows, "{columns} by {rows}, {threads} threads");
-            }
         }
     }
 }

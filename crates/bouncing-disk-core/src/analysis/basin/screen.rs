@@ -67,6 +67,12 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// What a batch counts as for an observer: its flights, and the comparisons with the targets.
+    #[inline(always)]
+    pub(super) fn work_of_batch(&self) -> u64 {
+        (LANES + 2 * self.targets.len()) as u64
+    }
+
     pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
         self.dispatch.run(Screen {
             impacts,

@@ -6,6 +6,7 @@ use super::screen::{Judge, Verdicts};
 use super::{Grid, Label};
 use crate::error::Error;
 use crate::lockstep::lanes::{Batch, LANES, Lanes};
+use crate::observer::{Watch, WorkCount};
 use crate::platform::phase::Phase;
 
 use core::f64::consts::PI;
@@ -19,44 +20,67 @@ pub(super) struct Share<'l> {
     pub(super) labels: &'l mut [Label],
 }
 
-/// All cells of a grid, whose labels are written share by share.
-pub(super) struct Cells<'l, Done> {
+/// The cells of a grid in rows that are not finished, whose labels are written share by share.
+pub(super) struct Cells<'l> {
     pub(super) phases: Vec<Phase>,
     /// Impact speeds of the rows.
     pub(super) speeds: Vec<f64>,
-    shares: Mutex<std::iter::Enumerate<std::slice::ChunksMut<'l, Label>>>,
-    rows_of_share: usize,
-    row_done: Done,
+    shares: Mutex<std::vec::IntoIter<Share<'l>>>,
+    finished: Mutex<&'l mut [bool]>,
+    count: usize,
+    pub(super) watch: &'l Watch<'l>,
 }
 
-impl<'l, Done: Fn()> Cells<'l, Done> {
+/// The rows that are not finished, in shares of neighbours.
+fn shares<'l>(
+    mut labels: &'l mut [Label],
+    finished: &[bool],
+    columns: usize,
+    rows_of_share: usize,
+) -> Vec<Share<'l>> {
+    let (mut shares, mut row) = (Vec::new(), 0);
+    while row < finished.len() {
+        let open = finished[row..].iter().take(rows_of_share).take_while(|finished| !**finished).count();
+        let (own, rest) = labels.split_at_mut(open.max(1) * columns);
+        if open > 0 {
+            shares.push(Share { first_row: row, labels: own });
+        }
+        labels = rest;
+        row += open.max(1);
+    }
+    shares
+}
+
+impl<'l> Cells<'l> {
     pub(super) fn new(
         grid: Grid,
         labels: &'l mut [Label],
+        finished: &'l mut [bool],
         threads: usize,
-        row_done: Done,
+        watch: &'l Watch<'l>,
     ) -> Result<Self, Error> {
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
         let phases = (0..columns).map(|column| Phase::new(grid.impact_angle(column)));
-        let share = SHARE.min(labels.len().div_ceil(threads));
-        let rows_of_share = (share / columns).max(1);
+        let count = columns * finished.iter().filter(|finished| !**finished).count();
+        let share = SHARE.min(count.div_ceil(threads));
+        let shares = shares(labels, finished, columns, (share / columns).max(1));
         Ok(Self {
             phases: phases.collect::<Result<_, _>>()?,
             speeds: (0..rows).map(|row| grid.speed().centre(row) * PI).collect(),
-            shares: Mutex::new(labels.chunks_mut(rows_of_share * columns).enumerate()),
-            rows_of_share,
-            row_done,
+            shares: Mutex::new(shares.into_iter()),
+            finished: Mutex::new(finished),
+            count,
+            watch,
         })
     }
 
-    pub(super) fn count(&self) -> usize {
-        self.phases.len() * self.speeds.len()
+    pub(super) const fn count(&self) -> usize {
+        self.count
     }
 
     /// The next share that no thread has taken.
     pub(super) fn take(&self) -> Option<Share<'l>> {
-        let (index, labels) = self.shares.lock().unwrap_or_else(PoisonError::into_inner).next()?;
-        Some(Share { first_row: index * self.rows_of_share, labels })
+        self.shares.lock().unwrap_or_else(PoisonError::into_inner).next()
     }
 
     /// Leaves nothing to take: after a failure.
@@ -64,8 +88,12 @@ impl<'l, Done: Fn()> Cells<'l, Done> {
         while self.take().is_some() {}
     }
 
+    /// Notes that all cells of a share have their labels.
     pub(super) fn rows_done(&self, share: &Share<'_>) {
-        (0..share.labels.len() / self.phases.len()).for_each(|_| (self.row_done)());
+        let rows = share.labels.len() / self.phases.len();
+        let mut finished = self.finished.lock().unwrap_or_else(PoisonError::into_inner);
+        finished[share.first_row..][..rows].fill(true);
+        self.watch.finish(rows as u64);
     }
 }
 
@@ -81,8 +109,8 @@ impl Cell {
 }
 
 /// Starts that have been screened and are not decided yet, a batch at a time.
-pub(super) struct Starts<'c, 'l, Done> {
-    cells: &'c Cells<'l, Done>,
+pub(super) struct Starts<'c, 'l> {
+    cells: &'c Cells<'l>,
     /// The shares taken, and how many of their cells have no label yet; those with none make room for others.
     shares: Vec<(Share<'l>, usize)>,
     finished: Vec<usize>,
@@ -96,10 +124,11 @@ pub(super) struct Starts<'c, 'l, Done> {
     verdicts: Verdicts,
     /// Lanes of the batch not taken yet.
     open: Lanes,
+    work: WorkCount<'c>,
 }
 
-impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
-    pub(super) fn new(cells: &'c Cells<'l, Done>, batch: Batch) -> Self {
+impl<'c, 'l> Starts<'c, 'l> {
+    pub(super) fn new(cells: &'c Cells<'l>, batch: Batch) -> Self {
         Self {
             cells,
             shares: Vec::new(),
@@ -112,7 +141,14 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
             batch_cells: [Cell::NONE; LANES],
             verdicts: Verdicts::new(),
             open: Lanes::NONE,
+            work: cells.watch.work(),
         }
+    }
+
+    /// Counts the work of a batch that is compared with what is known.
+    #[inline(always)]
+    pub(super) fn spend(&mut self, judge: &Judge<'_>) -> Result<(), Error> {
+        self.work.spend(judge.work_of_batch())
     }
 
     /// Labels a cell.
@@ -128,12 +164,15 @@ impl<'c, 'l, Done: Fn()> Starts<'c, 'l, Done> {
     }
 
     /// The next start that is not decided at once: its cell, and its lane of [`Self::batch`]. The cells of the others get
-    /// their labels.
+    /// their labels. None once the call is stopped.
     #[inline(always)]
     pub(super) fn next(&mut self, judge: &Judge<'_>) -> Option<(Cell, usize)> {
         let lane = loop {
             if let Some(lane) = self.open.next() {
                 break lane;
+            }
+            if self.spend(judge).is_err() || self.cells.watch.is_stopped() {
+                return None;
             }
             let count = self.fill();
             if count == 0 {

@@ -2,9 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::{SweepEvent, sweep};
+use super::{SweepEvent, SweepRun};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactState, Orbit};
+use crate::observer::{Observer, Unobserved};
 
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
@@ -13,22 +14,53 @@ pub const MAX_RECORDED: u64 = 1 << 31;
 /// for as many.
 ///
 /// # Errors
-/// Those of [`sweep`].
+/// Those of [`sweep`](super::sweep).
 pub fn survival_times(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
-    if most == 0 {
-        return Ok(vec![0; orbits.len()]);
+    survival_times_observed(orbits, most, &Unobserved)
+}
+
+/// [`survival_times`] with an observer; the items are the orbits. [`SweepRun::advance_survival_times`] keeps
+/// the finished ones of a call that is stopped.
+///
+/// # Errors
+/// Those of [`survival_times`]; [`Error::Stopped`] if the observer breaks.
+pub fn survival_times_observed(
+    orbits: &[Orbit],
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<usize>, Error> {
+    let mut run = SweepRun::new(orbits.len());
+    run.advance_survival_times(orbits, most, observer)?;
+    run.into_results()
+}
+
+impl SweepRun<usize> {
+    /// Goes on with the [`survival_times`] of the orbits that are not finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`].
+    pub fn advance_survival_times(
+        &mut self,
+        orbits: &[Orbit],
+        most: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        if most == 0 {
+            return self.finish_with(orbits.len(), || 0);
+        }
+        self.advance(
+            orbits,
+            |_| 0,
+            |lived, event| match event {
+                SweepEvent::Impact(_) => {
+                    *lived += 1;
+                    if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                }
+                SweepEvent::Attachment(_) => ControlFlow::Break(()),
+            },
+            observer,
+        )
     }
-    sweep(
-        orbits,
-        |_| 0,
-        |lived, event| match event {
-            SweepEvent::Impact(_) => {
-                *lived += 1;
-                if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            }
-            SweepEvent::Attachment(_) => ControlFlow::Break(()),
-        },
-    )
 }
 
 /// The columns of a bifurcation diagram: of each orbit the `recorded` impacts that follow the first `transient` ones. A disk
@@ -36,39 +68,72 @@ pub fn survival_times(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error
 ///
 /// # Errors
 /// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory for; those of
-/// [`sweep`].
+/// [`sweep`](super::sweep).
 pub fn orbit_diagram(
     orbits: &[Orbit],
     transient: usize,
     recorded: usize,
 ) -> Result<Vec<Vec<ImpactState>>, Error> {
-    if recorded == 0 {
-        return Ok(vec![Vec::new(); orbits.len()]);
-    }
-    let count = (orbits.len() as u64).saturating_mul(recorded as u64);
-    let refusal = Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED };
-    if count > MAX_RECORDED {
-        return Err(refusal);
-    }
-    let columns = sweep(
-        orbits,
-        |_| (0, Some(Vec::new())),
-        |(skipped, column), event| {
-            let Some(states) = column else { return ControlFlow::Break(()) };
-            match event {
-                SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
-                SweepEvent::Impact(landing) => {
-                    // Not all at once: a disk that rests for ever needs little.
-                    if states.try_reserve(1).is_err() {
-                        *column = None;
-                        return ControlFlow::Break(());
+    orbit_diagram_observed(orbits, transient, recorded, &Unobserved)
+}
+
+/// [`orbit_diagram`] with an observer; the items are the orbits. [`SweepRun::advance_orbit_diagram`] keeps
+/// the finished ones of a call that is stopped.
+///
+/// # Errors
+/// Those of [`orbit_diagram`]; [`Error::Stopped`] if the observer breaks.
+pub fn orbit_diagram_observed(
+    orbits: &[Orbit],
+    transient: usize,
+    recorded: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<Vec<ImpactState>>, Error> {
+    let mut run = SweepRun::new(orbits.len());
+    run.advance_orbit_diagram(orbits, transient, recorded, observer)?;
+    run.into_results()
+}
+
+impl SweepRun<Vec<ImpactState>> {
+    /// Goes on with the [`orbit_diagram`] of the orbits that are not finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`], and [`Error::TooLarge`] as for [`orbit_diagram`].
+    pub fn advance_orbit_diagram(
+        &mut self,
+        orbits: &[Orbit],
+        transient: usize,
+        recorded: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        if recorded == 0 {
+            return self.finish_with(orbits.len(), Vec::new);
+        }
+        let count = (orbits.len() as u64).saturating_mul(recorded as u64);
+        let refusal = Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED };
+        if count > MAX_RECORDED {
+            return Err(refusal);
+        }
+        self.advance_with(
+            orbits,
+            |_| (0, Some(Vec::new())),
+            |(skipped, column), event| {
+                let Some(states) = column else { return ControlFlow::Break(()) };
+                match event {
+                    SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
+                    SweepEvent::Impact(landing) => {
+                        // Not all at once: a disk that rests for ever needs little.
+                        if states.try_reserve(1).is_err() {
+                            *column = None;
+                            return ControlFlow::Break(());
+                        }
+                        states.push(landing.state);
                     }
-                    states.push(landing.state);
+                    SweepEvent::Attachment(_) => {}
                 }
-                SweepEvent::Attachment(_) => {}
-            }
-            if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        },
-    )?;
-    columns.into_iter().map(|(_, states)| states.ok_or(refusal)).collect()
+                if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+            |(_, states)| states.ok_or(refusal),
+            observer,
+        )
+    }
 }

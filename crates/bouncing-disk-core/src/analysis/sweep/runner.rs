@@ -7,6 +7,7 @@ use super::{SweepEvent, SweepImpact, advance};
 use crate::error::Error;
 use crate::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 use crate::map::impact_map::Orbit;
+use crate::observer::{Watch, WorkCount};
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
 /// them are in use, as much as about this many single flights (docs/numerics/lockstep.md, "Sweeps").
@@ -18,22 +19,27 @@ const BATCHES: usize = 8;
 /// What became of the orbit of an index.
 type Outcome<S> = (usize, Result<S, Error>);
 
+/// Follows the orbits of the indices `open` until they are done or the observer breaks; the outcomes in the
+/// order of the indices.
 pub(super) fn run<S: Send>(
-    orbits: &[Orbit],
+    (orbits, open): (&[Orbit], &[usize]),
     start: &(impl Fn(usize) -> S + Sync),
     visit: &(impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync),
     set: InstructionSet,
-) -> Result<Vec<S>, Error> {
-    let queue = Queue { orbits, next: AtomicUsize::new(0) };
-    let threads = threads().min(orbits.len());
+    watch: &Watch<'_>,
+) -> Vec<Outcome<S>> {
+    let queue = Queue { orbits, open, next: AtomicUsize::new(0) };
+    let threads = threads().min(open.len());
     // As many lanes as give every thread its share.
-    let share = orbits.len().div_ceil(threads.max(1));
+    let share = open.len().div_ceil(threads.max(1));
     let lanes = share.next_multiple_of(LANES).clamp(LANES, BATCHES * LANES);
-    let work =
-        || Worker { queue: &queue, start, visit, lanes, runs: Vec::new(), outcomes: Vec::new() }.run(set);
+    let work = || {
+        let (queue, work) = (&queue, watch.work());
+        Worker { queue, start, visit, lanes, runs: Vec::new(), outcomes: Vec::new(), work }.run(set)
+    };
     let mut outcomes = workers(threads, work);
     outcomes.sort_unstable_by_key(|(index, _)| *index);
-    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+    outcomes
 }
 
 #[cfg(feature = "parallel")]
@@ -61,12 +67,14 @@ fn workers<S>(_: usize, work: impl Fn() -> Vec<Outcome<S>>) -> Vec<Outcome<S>> {
 /// The orbits that nobody has begun.
 struct Queue<'a> {
     orbits: &'a [Orbit],
+    /// Indices of those that are to be followed.
+    open: &'a [usize],
     next: AtomicUsize,
 }
 
 impl Queue<'_> {
     fn take(&self) -> Option<(usize, Orbit)> {
-        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        let index = *self.open.get(self.next.fetch_add(1, Ordering::Relaxed))?;
         self.orbits.get(index).map(|orbit| (index, orbit.clone()))
     }
 }
@@ -90,6 +98,7 @@ struct Worker<'a, S, Start, Visit> {
     /// The orbits of the first lanes.
     runs: Vec<Run<S>>,
     outcomes: Vec<Outcome<S>>,
+    work: WorkCount<'a>,
 }
 
 impl<S, Start, Visit> Worker<'_, S, Start, Visit>
@@ -98,54 +107,71 @@ where
     Visit: Fn(&mut S, &SweepEvent) -> ControlFlow<()>,
 {
     fn run(mut self, set: InstructionSet) -> Vec<Outcome<S>> {
-        if self.queue.orbits.len() >= FEWEST {
-            self.in_lanes(set);
+        // Once the observer has broken, what is under way is dropped: it is not finished.
+        let _ = self.follow_all(set);
+        self.outcomes
+    }
+
+    fn follow_all(&mut self, set: InstructionSet) -> Result<(), Error> {
+        if self.queue.open.len() >= FEWEST {
+            self.in_lanes(set)?;
         }
-        while let Some(mut run) = self.runs.pop().or_else(|| self.begun()) {
+        loop {
+            let run = match self.runs.pop() {
+                Some(run) => Some(run),
+                None => self.begun()?,
+            };
+            let Some(mut run) = run else { return Ok(()) };
             let done = loop {
+                self.work.spend(1)?;
                 if let Some(done) = run.event(self.visit) {
                     break done;
                 }
             };
             self.finish(run, done);
         }
-        self.outcomes
     }
 
     fn finish(&mut self, run: Run<S>, done: Result<(), Error>) {
+        // An orbit that has failed is not finished.
+        if done.is_ok() {
+            self.work.watch().finish(1);
+        }
         self.outcomes.push((run.index, done.map(|()| run.value)));
     }
 
     /// The next orbit that waits and is not done before its first launch.
-    fn begun(&mut self) -> Option<Run<S>> {
+    fn begun(&mut self) -> Result<Option<Run<S>>, Error> {
         loop {
-            let (index, orbit) = self.queue.take()?;
+            self.work.spend(1)?;
+            let Some((index, orbit)) = self.queue.take() else { return Ok(None) };
             let mut run = Run { index, orbit, value: (self.start)(index) };
             match run.show_until_launch(self.visit) {
-                None => return Some(run),
+                None => return Ok(Some(run)),
                 Some(done) => self.finish(run, done),
             }
         }
     }
 
     /// Advances orbits together while there are enough of them.
-    fn in_lanes(&mut self, set: InstructionSet) {
+    fn in_lanes(&mut self, set: InstructionSet) -> Result<(), Error> {
         // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates from rest has no
         // impact that leads to it.
-        let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return };
+        let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return Ok(()) };
         let mut scheduler = Box::new(FlightScheduler::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
         let mut failures: Vec<(usize, Error)> = Vec::new();
         loop {
             while self.runs.len() < self.lanes
-                && let Some(run) = self.begun()
+                && let Some(run) = self.begun()?
             {
                 place(&mut batches, self.runs.len(), &run.orbit);
                 self.runs.push(run);
             }
             if self.runs.len() < FEWEST {
-                return;
+                return Ok(());
             }
+            self.work.spend(self.runs.len().next_multiple_of(LANES) as u64)?;
             let used = &mut batches[..self.runs.len().div_ceil(LANES)];
             for batch in &mut *used {
                 let rows = batch.rebounding();

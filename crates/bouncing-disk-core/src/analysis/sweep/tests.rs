@@ -8,6 +8,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::flight::launch::Launch;
 use crate::lockstep::lanes::InstructionSet;
 use crate::map::impact_map::ImpactMap;
+use crate::observer::Watch;
 use crate::platform::vibration::Vibration;
 use crate::testing::{PAPER_POLICY, golden_spread};
 
@@ -74,17 +75,23 @@ fn a_sweep_shows_the_events_of_single_orbits() {
         let sticks = expected.iter().flatten().filter(|bits| bits.len() == 5).count();
         assert!(count < 4_000 || sticks > 2_000, "{sticks}");
         for set in InstructionSet::available() {
+            let (open, watch) = (
+                (0..count as usize).collect::<Vec<_>>(),
+                Watch::begin(&Unobserved, 0, count).expect("goes on"),
+            );
             let got = runner::run(
-                &orbits,
+                (&orbits, &open),
                 &|index| (most(index), Vec::new()),
                 &|(most, events), event| {
                     events.push(bits(event));
                     if events.len() < *most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
                 },
                 set,
-            )
-            .expect("no failure");
-            for (index, ((_, got), expected)) in got.iter().zip(&expected).enumerate() {
+                &watch,
+            );
+            assert_eq!(got.len(), orbits.len());
+            for (got, expected) in got.iter().zip(&expected) {
+                let (index, (_, got)) = (got.0, got.1.as_ref().expect("no failure"));
                 assert_eq!(got, expected, "{set:?}, orbit {index} of {count}: {:?}", orbits[index]);
             }
         }

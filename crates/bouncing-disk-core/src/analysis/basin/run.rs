@@ -1,0 +1,217 @@
+//! Basins that may be stopped, stored and gone on with.
+
+use serde::{Deserialize, Serialize};
+
+use super::starts::Cells;
+use super::{
+    BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, check_number_of,
+};
+use crate::error::{Error, room_for};
+use crate::map::impact_map::ImpactMap;
+use crate::observer::{Observer, Watch};
+
+/// The basins on a grid under way: the question, and the rows that are finished.
+///
+/// A run that is stopped, written, read and gone on with ends in the labels of one call without a stop, bit
+/// for bit, for any number of threads. What is stored is the map, the grid, the known orbits, the settings
+/// and the labels of the finished rows; one that is read has been checked to fit together.
+///
+/// [`Observer`] shows an example.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "StoredRun", into = "StoredRun")]
+pub struct BasinRun {
+    map: ImpactMap,
+    grid: Grid,
+    known: Vec<KnownOrbit>,
+    settings: BasinSettings,
+    /// Labels of all cells; [`UNDECIDED`] in rows that are not finished.
+    labels: Vec<Label>,
+    /// Which rows are finished.
+    finished: Vec<bool>,
+}
+
+impl BasinRun {
+    /// A run with no row finished.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than
+    /// [`MAX_CELLS`] cells or than there is memory for.
+    pub fn new(
+        map: ImpactMap,
+        grid: Grid,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+    ) -> Result<Self, Error> {
+        check_number_of(known)?;
+        let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
+        let mut labels = room_for("cells of a grid", columns as u64 * rows as u64, MAX_CELLS)?;
+        labels.resize(columns * rows, UNDECIDED);
+        Ok(Self { map, grid, known: known.to_vec(), settings, labels, finished: vec![false; rows] })
+    }
+
+    /// Labels the rows that are not finished. What an earlier call has finished stays; so it does when this
+    /// call returns an error. The items of the observer are rows; some thousand cells are under way on each
+    /// thread and begun again by the next call.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer breaks; those of [`crate::Vibration::first_impact`].
+    pub fn advance(&mut self, observer: &dyn Observer) -> Result<(), Error> {
+        let watch = Watch::begin(observer, self.done(), self.total())?;
+        let outcome = self.label_rows(&watch);
+        let rows = self.labels.chunks_exact_mut(self.grid.phase().cells());
+        for (row, _) in rows.zip(&self.finished).filter(|(_, finished)| !**finished) {
+            row.fill(UNDECIDED);
+        }
+        match outcome {
+            // Other threads may have finished rows after the one that was told to stop, or even all.
+            Err(Error::Stopped { .. }) if !self.is_done() => {
+                Err(Error::Stopped { done: self.done(), total: self.total() })
+            }
+            Ok(()) | Err(Error::Stopped { .. }) => {
+                watch.end();
+                Ok(())
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn label_rows(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
+        #[cfg(feature = "parallel")]
+        let threads = rayon::current_num_threads();
+        #[cfg(not(feature = "parallel"))]
+        let threads = 1;
+        let cells = Cells::new(self.grid, &mut self.labels, &mut self.finished, threads, watch)?;
+        let lanes = cells.count().div_ceil(threads);
+        let (map, known, settings) = (&self.map, &self.known, self.settings);
+        let work = || map.label_cells(&cells, known, settings, lanes).inspect_err(|_| cells.give_up());
+        #[cfg(feature = "parallel")]
+        {
+            use rayon::prelude::*;
+            (0..threads).into_par_iter().with_max_len(1).try_for_each(|_| work())
+        }
+        #[cfg(not(feature = "parallel"))]
+        work()
+    }
+
+    /// The map.
+    #[must_use]
+    pub const fn map(&self) -> &ImpactMap {
+        &self.map
+    }
+
+    /// The grid.
+    #[must_use]
+    pub const fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The known orbits.
+    #[must_use]
+    pub fn known(&self) -> &[KnownOrbit] {
+        &self.known
+    }
+
+    /// The settings.
+    #[must_use]
+    pub const fn settings(&self) -> BasinSettings {
+        self.settings
+    }
+
+    /// The labels of a row, by phase; `None` if it is not finished or does not exist.
+    #[must_use]
+    pub fn row(&self, index: usize) -> Option<&[Label]> {
+        let finished = self.finished.get(index).is_some_and(|finished| *finished);
+        finished.then(|| self.labels.chunks_exact(self.grid.phase().cells()).nth(index)).flatten()
+    }
+
+    /// Number of finished rows.
+    #[must_use]
+    pub fn done(&self) -> u64 {
+        self.finished.iter().filter(|finished| **finished).count() as u64
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn total(&self) -> u64 {
+        self.finished.len() as u64
+    }
+
+    /// Whether all rows are finished.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.done() == self.total()
+    }
+
+    /// The basins.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if a row is not finished: [`Self::is_done`] tells before.
+    pub fn into_basins(self) -> Result<Basins, Error> {
+        if !self.is_done() {
+            return Err(Error::Stopped { done: self.done(), total: self.total() });
+        }
+        Ok(Basins { columns: self.grid.phase().cells(), labels: self.labels })
+    }
+}
+
+/// A [`BasinRun`] as it is stored: of the labels those of the finished rows, one row after the other.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StoredRun {
+    map: ImpactMap,
+    grid: Grid,
+    known: Vec<KnownOrbit>,
+    settings: BasinSettings,
+    finished_rows: Vec<usize>,
+    labels: Vec<Label>,
+}
+
+impl From<BasinRun> for StoredRun {
+    fn from(run: BasinRun) -> Self {
+        let rows = run.labels.chunks_exact(run.grid.phase().cells()).zip(&run.finished).enumerate();
+        let (finished_rows, labels): (Vec<_>, Vec<_>) =
+            rows.filter(|(_, (_, finished))| **finished).map(|(index, (row, _))| (index, row)).unzip();
+        Self {
+            map: run.map,
+            grid: run.grid,
+            finished_rows,
+            labels: labels.concat(),
+            known: run.known,
+            settings: run.settings,
+        }
+    }
+}
+
+impl TryFrom<StoredRun> for BasinRun {
+    type Error = Error;
+
+    fn try_from(stored: StoredRun) -> Result<Self, Error> {
+        let StoredRun { map, grid, known, settings, finished_rows, labels } = stored;
+        let columns = grid.phase().cells();
+        let unfitting = |what, found, expected| Err(Error::Unfitting { what, found, expected });
+        check_number_of(&known)?;
+        if let Some(&row) = finished_rows.iter().find(|row| **row >= grid.speed().cells()) {
+            return unfitting("finished row of a basin run", row as u64, grid.speed().cells() as u64 - 1);
+        }
+        if let Some(pair) = finished_rows.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return unfitting("finished row of a basin run, out of order", pair[0] as u64, pair[1] as u64);
+        }
+        if labels.len() != finished_rows.len() * columns {
+            let expected = (finished_rows.len() * columns) as u64;
+            return unfitting("labels of a basin run", labels.len() as u64, expected);
+        }
+        let most = usize::from(FIRST_ORBIT) + known.len() - 1;
+        if let Some(&label) = labels.iter().find(|label| usize::from(**label) > most) {
+            return unfitting("label of a basin run", label.into(), most as u64);
+        }
+        let mut run = Self::new(map, grid, &known, settings)?;
+        for (&row, own) in finished_rows.iter().zip(labels.chunks_exact(columns)) {
+            run.finished[row] = true;
+            run.labels[row * columns..][..columns].copy_from_slice(own);
+        }
+        Ok(run)
+    }
+}
+
+#[cfg(test)]
+mod tests;
