@@ -240,7 +240,7 @@ mod tests {
         fs::write(folder.path().join("demo2.json"), b"of another figure").expect("writable");
         let files = [("demo.json".to_owned(), b"{}".to_vec()), ("demo.svg".to_owned(), b"<svg/>".to_vec())];
         folder.write_set("demo", Quality::Draft, "", 0.1, &files).expect("writable");
-        assert_eq!(names(&folder), ["demo.json", "demo.cache-key", "demo.svg", "demo.txt", "demo2.json"]);
+        assert_eq!(names(&folder), ["demo.cache-key", "demo.json", "demo.svg", "demo.txt", "demo2.json"]);
         assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
         fs::write(folder.path().join("demo.svg"), b"edited").expect("writable");
         let name = "demo.svg".to_owned();
@@ -290,7 +290,7 @@ mod tests {
         set(b"new", "none/demo.svg").expect_err("refused");
         assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
         assert_eq!(folder.read("demo.json").expect("readable").as_deref(), Some(b"old".as_slice()));
-        assert_eq!(names(&folder), ["demo.json", "demo.cache-key", "demo.svg"]);
+        assert_eq!(names(&folder), ["demo.cache-key", "demo.json", "demo.svg"]);
         fs::remove_dir_all(folder.path()).expect("removable");
     }
 
