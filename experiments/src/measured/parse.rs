@@ -56,6 +56,7 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
 /// The lines of a file that are neither blank nor a remark.
 struct Records<'a> {
     file: &'static str,
+    text: &'a str,
     reader: csv::Reader<io::Chain<&'a [u8], &'static [u8]>>,
     record: StringRecord,
 }
@@ -69,30 +70,39 @@ impl<'a> Records<'a> {
             .terminator(Terminator::Any(b'\n'))
             // The last line may lack its end; of two ends in a row the second makes a blank line.
             .from_reader(text.as_bytes().chain(b"\n".as_slice()));
-        Self { file, reader, record: StringRecord::new() }
+        Self { file, text, reader, record: StringRecord::new() }
     }
 
     /// Goes to the next record and says on which line it is; `None` at the end.
     fn advance(&mut self) -> Result<Option<usize>, MeasuredError> {
-        let Self { file, reader, record } = self;
+        let Self { file, text, reader, record } = self;
         let unreadable = |error: csv::Error| {
             let source = Arc::new(io::Error::from(error));
             MeasuredError::Unreadable { file: (*file).to_owned(), source }
         };
         while reader.read_record(record).map_err(unreadable)? {
-            // The position of a record itself is that of the blank lines and remarks before it.
-            let line_ends = record.as_slice().matches('\n').count() + 1;
-            let line = (reader.position().line() as usize).saturating_sub(line_ends);
             if let Some(place) = record.iter().position(|field| field.contains('\n')) {
-                return Err(MeasuredError::OpenQuote { file, line, column: place + 1 });
+                return Err(MeasuredError::OpenQuote {
+                    file,
+                    line: first_line(record, text),
+                    column: place + 1,
+                });
             }
             let first = record.get(0).unwrap_or_default().trim();
             if !first.starts_with('#') && (record.len() > 1 || !first.is_empty()) {
-                return Ok(Some(line));
+                // The record, which is one line, has just been read with its end.
+                return Ok(Some((reader.position().line() as usize).saturating_sub(1)));
             }
         }
         Ok(None)
     }
+}
+
+/// The line on which a record begins. Its own position is that of the empty lines and remarks before it.
+fn first_line(record: &StringRecord, text: &str) -> usize {
+    let line = record.position().map_or(1, |position| position.line() as usize);
+    let before = text.split('\n').skip(line.saturating_sub(1));
+    line + before.take_while(|line| line.is_empty() || line.starts_with('#')).count()
 }
 
 fn text<'a>(layout: &Layout, bytes: &'a [u8]) -> Result<&'a str, MeasuredError> {
