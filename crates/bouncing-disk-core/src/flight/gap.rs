@@ -287,7 +287,7 @@ impl CrestForm {
 
     /// Gap and derivatives at `t`, where the phase has this pair.
     #[inline(always)]
-    pub(crate) fn jet_of_pair(&self, t: f64, sin: f64, cos: f64) -> GapTaylor {
+    pub(crate) fn taylor_of_pair(&self, t: f64, sin: f64, cos: f64) -> GapTaylor {
         let platform = self.peak * sin;
         let third = self.peak * cos;
         GapTaylor {
@@ -304,7 +304,7 @@ impl GapForm for CrestForm {
     #[inline(always)]
     fn taylor(&self, t: f64) -> (GapTaylor, (f64, f64)) {
         let (sin, cos) = sin_cos_bounded(self.angle + t);
-        (self.jet_of_pair(t, sin, cos), (sin, cos))
+        (self.taylor_of_pair(t, sin, cos), (sin, cos))
     }
 
     #[inline(always)]
@@ -367,7 +367,7 @@ impl LaunchForm {
 
     /// Gap and derivatives at `t`, with the pair of the phase there, and 1 - cos t and sin t, known.
     #[inline(always)]
-    pub(crate) fn jet_of_pairs(&self, t: f64, (sin, cos): (f64, f64), of_time: (f64, f64)) -> GapTaylor {
+    pub(crate) fn taylor_of_pairs(&self, t: f64, (sin, cos): (f64, f64), of_time: (f64, f64)) -> GapTaylor {
         let platform = self.peak * sin;
         GapTaylor {
             gap: self.gap_of(t, of_time),
@@ -383,7 +383,7 @@ impl GapForm for LaunchForm {
     #[inline(always)]
     fn taylor(&self, t: f64) -> (GapTaylor, (f64, f64)) {
         let pair = sin_cos_bounded(self.angle + t);
-        (self.jet_of_pairs(t, pair, Self::versine_and_sine(t)), pair)
+        (self.taylor_of_pairs(t, pair, Self::versine_and_sine(t)), pair)
     }
 
     fn velocity(&self, t: f64, _cos: f64) -> f64 {

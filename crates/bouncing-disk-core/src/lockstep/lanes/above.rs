@@ -122,7 +122,7 @@ impl<P: PlatformLanes, W: Width> WithSimd for Fly<'_, P, W> {
 /// Gap and derivatives at the height of the crests, with the pair there known: [`jet`] at the time zero, where products
 /// with the time vanish.
 #[inline(always)]
-fn first_jet<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
+fn first_taylor<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
     let (platform, third) = (work.platform[k], work.third[k]);
     GapTaylor {
         gap: platforms.lane(k).peak - platform,
@@ -136,7 +136,7 @@ fn first_jet<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize)
 /// Gap and derivatives at the time reached.
 #[inline(always)]
 fn taylor<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
-    form(platforms, arcs, k).jet_of_pair(work.time[k], work.sin[k], work.cos[k])
+    form(platforms, arcs, k).taylor_of_pair(work.time[k], work.sin[k], work.cos[k])
 }
 
 #[inline(always)]
@@ -168,7 +168,7 @@ fn model_step(width: impl Width, work: &mut Work, taylor: impl Fn(&Work, usize) 
 #[inline(always)]
 fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     for k in 0..width.lanes() {
-        let taylor = first_jet(platforms, arcs, work, k);
+        let taylor = first_taylor(platforms, arcs, work, k);
         let one_window = !two_windows(platforms, arcs, &taylor, k);
         let radicand = taylor.radicand();
         let usable = one_window & mask(taylor.slope < 0.0) & mask(radicand > 0.0);
@@ -176,7 +176,7 @@ fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, wo
         // Not a number where the model is of no use: nor is the step then, and no comparison with it holds.
         work.root[k] = f64::from_bits(radicand.sqrt().to_bits() | !usable);
     }
-    model_step(width, work, |work, k| first_jet(platforms, arcs, work, k));
+    model_step(width, work, |work, k| first_taylor(platforms, arcs, work, k));
     let mut all = u64::MAX;
     for k in 0..width.lanes() {
         let (start, step) = (arcs.start[k], work.step[k]);
@@ -203,7 +203,7 @@ fn two_windows<P: PlatformLanes>(platforms: P, arcs: &Arcs, taylor: &GapTaylor, 
 fn other_first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     let (time, followed) = (work.time, work.followed);
     for k in 0..width.lanes() {
-        let taylor = first_jet(platforms, arcs, work, k);
+        let taylor = first_taylor(platforms, arcs, work, k);
         let (turned, _) = nearby_wrapped_of_lane(arcs.start[k]);
         let crest = (CREST - turned) + kept(mask(turned >= CREST), TAU);
         let model = mask(work.root[k] > 0.0);

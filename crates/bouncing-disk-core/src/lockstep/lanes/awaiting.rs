@@ -30,7 +30,7 @@ impl Forms for AwaitingSearch {
         for k in 0..width.lanes() {
             let form =
                 CrestForm { peak: times.peak[k], angle: self.start[k], speed: self.speed[k], depth: 0.0 };
-            let taylor = form.jet_of_pair(times.time[k], times.sin[k], times.cos[k]);
+            let taylor = form.taylor_of_pair(times.time[k], times.sin[k], times.cos[k]);
             times.gap[k] = taylor.gap;
             times.slope[k] = taylor.slope;
         }
