@@ -119,7 +119,7 @@ impl<P: PlatformLanes, W: Width> WithSimd for Fly<'_, P, W> {
     }
 }
 
-/// Gap and derivatives at the height of the crests, with the pair there known: [`jet`] at the time zero, where products
+/// Gap and derivatives at the height of the crests, with the pair there known: [`taylor`] at the time zero, where products
 /// with the time vanish.
 #[inline(always)]
 fn first_taylor<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
