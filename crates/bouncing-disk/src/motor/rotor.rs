@@ -4,7 +4,7 @@
 //! chattering sequence is shorter where every impact of it slides the same way: then the summed impulse is
 //! known in closed form.
 
-use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactState, Launch, Orbit, OrbitEvent, Phase};
+use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
@@ -108,16 +108,10 @@ impl Rotor {
         self.orbit.as_ref().and_then(Orbit::launch)
     }
 
-    /// Goes on with what follows an impact that was computed elsewhere, after which the angular speed is `speed`.
-    pub(crate) fn go_on_after(
-        &mut self,
-        impact: ImpactState,
-        policy: ChatterPolicy,
-        periods: u64,
-        speed: f64,
-    ) {
-        self.orbit = Some(self.system.map().orbit(impact, policy));
-        self.now = PhaseTime { periods, phase: impact.phase() };
+    /// Goes on with an orbit that follows an impact at `phase`, computed elsewhere, after which the angular speed is `speed`.
+    pub(crate) fn go_on_after(&mut self, phase: Phase, orbit: Orbit, periods: u64, speed: f64) {
+        self.orbit = Some(orbit);
+        self.now = PhaseTime { periods, phase };
         self.speed = speed;
     }
 

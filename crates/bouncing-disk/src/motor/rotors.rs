@@ -112,31 +112,59 @@ impl Rotors {
 
     /// Moves a transient into another lane, counted through all batches.
     pub(super) fn move_lane(batches: &mut [Self], from: usize, to: usize) {
-        let (source, own) = (batches[from / LANES].clone(), from % LANES);
+        let (source, own) = (&batches[from / LANES], from % LANES);
+        let (impacts, index) = (source.impacts[own], source.index[own]);
+        // Its own numbers, not a copy of the batch: that is of 10 kB.
+        let moved = source.rows().map(|row| row[own]);
         let (target, to) = (&mut batches[to / LANES], to % LANES);
-        let rows: [(&mut Row, &Row); 16] = [
-            (&mut target.restitution, &source.restitution),
-            (&mut target.friction, &source.friction),
-            (&mut target.load, &source.load),
-            (&mut target.twist_cosine, &source.twist_cosine),
-            (&mut target.twist_sine, &source.twist_sine),
-            (&mut target.unit, &source.unit),
-            (&mut target.start, &source.start),
-            (&mut target.duration, &source.duration),
-            (&mut target.speed, &source.speed),
-            (&mut target.periods, &source.periods),
-            (&mut target.turned, &source.turned),
-            (&mut target.end, &source.end),
-            (&mut target.sum, &source.sum),
-            (&mut target.width, &source.width),
-            (&mut target.reached, &source.reached),
-            (&mut target.before, &source.before),
-        ];
-        for (row, source) in rows {
-            row[to] = source[own];
+        for (row, value) in target.rows_mut().into_iter().zip(moved) {
+            row[to] = value;
         }
-        target.impacts[to] = source.impacts[own];
-        target.index[to] = source.index[own];
+        target.impacts[to] = impacts;
+        target.index[to] = index;
+    }
+
+    /// All rows of numbers, in the order of [`Self::rows_mut`].
+    const fn rows(&self) -> [&Row; 16] {
+        [
+            &self.restitution,
+            &self.friction,
+            &self.load,
+            &self.twist_cosine,
+            &self.twist_sine,
+            &self.unit,
+            &self.start,
+            &self.duration,
+            &self.speed,
+            &self.periods,
+            &self.turned,
+            &self.end,
+            &self.sum,
+            &self.width,
+            &self.reached,
+            &self.before,
+        ]
+    }
+
+    const fn rows_mut(&mut self) -> [&mut Row; 16] {
+        [
+            &mut self.restitution,
+            &mut self.friction,
+            &mut self.load,
+            &mut self.twist_cosine,
+            &mut self.twist_sine,
+            &mut self.unit,
+            &mut self.start,
+            &mut self.duration,
+            &mut self.speed,
+            &mut self.periods,
+            &mut self.turned,
+            &mut self.end,
+            &mut self.sum,
+            &mut self.width,
+            &mut self.reached,
+            &mut self.before,
+        ]
     }
 
     /// Gives the curve back to its transient, up to the last impact.

@@ -404,12 +404,13 @@ fn attend(
         return Ok(false);
     }
     let Some(state) = flights.state(lane) else { return Ok(false) };
-    let map = run.rotor.system().map();
-    if map.accumulation(map.rebound(state)).is_none() {
+    let orbit = run.rotor.system().map().orbit(state, ChatterPolicy::Complete);
+    // It bounces on, with the launch that the lane has.
+    if orbit.launch().is_some() {
         return Ok(false);
     }
     let (periods, speed) = rotors.motion(own);
-    run.rotor.go_on_after(state, ChatterPolicy::Complete, periods, speed);
+    run.rotor.go_on_after(state.phase(), orbit, periods, speed);
     rotors.give_back(own, run, curve);
     let Some(launch) = fly_next(run, work)? else { return Ok(true) };
     flights.set_launch(lane, launch);

@@ -164,7 +164,6 @@ impl FlightScheduler {
             Ground::Own(platforms) => classify(*dispatch, platforms.as_ref(), rows, kinds, timed),
         }
         let all = Lanes::first(lanes);
-        let who = |lane| Who { batch: number as u32, lane: lane as u32 };
         if !self.kinds.special {
             let (ground, Rows { arcs, impacts, .. }) = batches[number].parts();
             match ground {
@@ -184,31 +183,93 @@ impl FlightScheduler {
             }
             if !self.work.all {
                 for lane in all.without(self.work.landed()) {
-                    self.keep_falling(batches, who(lane), self.work.reached(lane));
+                    let who = Who { batch: number as u32, lane: lane as u32 };
+                    self.keep_falling(batches, who, self.work.reached(lane));
                 }
             }
             return;
         }
         let (slow, low) = (lanes_of(&self.kinds.slow) & all, lanes_of(&self.kinds.low) & all);
-        for lane in slow {
-            self.go_slow(batches, who(lane), shared, low.has(lane));
-        }
-        for lane in low.without(slow) {
-            self.go_low(batches, who(lane), shared);
-        }
-        for lane in all.without(slow | low) {
-            self.go_above(batches, who(lane), shared);
+        self.queue_slow(batches, number, shared, slow, low);
+        self.queue_low(batches, number, shared, low.without(slow));
+        self.queue_above(batches, number, shared, all.without(slow | low));
+    }
+
+    /// Adds slow lanes of a batch to their queue, some of which are `low`, too.
+    #[inline(always)]
+    fn queue_slow(
+        &mut self,
+        batches: &mut [Batch],
+        number: usize,
+        shared: Option<Platform>,
+        mut lanes: Lanes,
+        low: Lanes,
+    ) {
+        while !lanes.is_none() {
+            let (batch, queue) = (&batches[number], &mut self.slow);
+            queue.fill(number, &mut lanes, |rows, k, lane| {
+                let platform = shared.unwrap_or_else(|| batch.platform(lane));
+                rows.set(k, &platform, batch.launches(), lane, low.has(lane));
+            });
+            if queue.len == LANES {
+                self.fly_slow(batches, shared);
+            }
         }
     }
 
+    /// Adds lanes of a batch that may be hit before the first crest to their queue.
     #[inline(always)]
-    fn go_slow(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>, low: bool) {
-        let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
-        let k = self.slow.place(who);
-        let platform = shared.unwrap_or_else(|| batch.platform(lane));
-        self.slow.rows.set(k, &platform, batch.launches(), lane, low);
-        if self.slow.len == LANES {
-            self.fly_slow(batches, shared);
+    fn queue_low(
+        &mut self,
+        batches: &mut [Batch],
+        number: usize,
+        shared: Option<Platform>,
+        mut lanes: Lanes,
+    ) {
+        while !lanes.is_none() {
+            let (batch, queue, platforms) = (&batches[number], &mut self.low, &mut self.low_platforms);
+            queue.fill(number, &mut lanes, |rows, k, lane| {
+                let platform = shared.unwrap_or_else(|| batch.platform(lane));
+                rows.set(k, &platform, batch.launches(), lane);
+                if shared.is_none() {
+                    platforms.set(k, platform);
+                }
+            });
+            if queue.len == LANES {
+                self.fly_low(batches, shared);
+            }
+        }
+    }
+
+    /// Adds lanes of a batch that rise above the crests to their queue; those that do not come down within the longest
+    /// flight are hard.
+    #[inline(always)]
+    fn queue_above(
+        &mut self,
+        batches: &mut [Batch],
+        number: usize,
+        shared: Option<Platform>,
+        mut lanes: Lanes,
+    ) {
+        let speeds = &batches[number].arcs.speed;
+        for lane in lanes {
+            let comes_down = speeds[lane] >= FASTEST_ARC;
+            if !comes_down {
+                self.hard.push(Who { batch: number as u32, lane: lane as u32 });
+                lanes.remove(lane);
+            }
+        }
+        while !lanes.is_none() {
+            let (batch, queue, platforms) = (&batches[number], &mut self.above, &mut self.above_platforms);
+            queue.fill(number, &mut lanes, |rows, k, lane| {
+                rows.take(k, &batch.arcs, lane);
+                if shared.is_none() {
+                    platforms.set(k, batch.platform(lane));
+                }
+            });
+            if queue.len == LANES {
+                self.fly_above(batches, shared);
+            }
         }
     }
 

@@ -29,6 +29,8 @@ pub(super) struct Short {
     angle: Row,
     /// P.
     peak: Row,
+    /// Where the platform begins to fall away (rad).
+    separation: Row,
     /// Where the piece of constant curvature that the launch lies in ends.
     end: Row,
     time: Row,
@@ -48,7 +50,7 @@ pub(super) struct Short {
     /// Launches that may be hit before the first crest if they do not land soon.
     low: [bool; LANES],
     /// Launches where the platform falls away.
-    away: [bool; LANES],
+    away: Mask,
 }
 
 /// Newton's iteration on gap/h of the first `count` flights, and their impacts.
@@ -65,6 +67,7 @@ impl WithSimd for Solve<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { short, count, impacts } = self;
         let width = Sixteens::holding(count);
+        begin(width, short);
         for k in 0..width.lanes() {
             short.time[k] = form(short, k).expected();
             // What lies behind the launches only adds to the work.
@@ -89,6 +92,27 @@ fn form(short: &Short, k: usize) -> ShortForm {
         sine: short.sine[k],
         cosine: short.cosine[k],
         pull: 1.0 - short.sine[k],
+    }
+}
+
+/// Where the launches lie and what pulls them.
+#[inline(always)]
+fn begin(width: impl Width, short: &mut Short) {
+    for k in 0..width.lanes() {
+        let (angle, peak, separation) = (short.angle[k], short.peak[k], short.separation[k]);
+        let retention = PI - separation;
+        let away = mask(angle >= separation) & mask(angle < retention);
+        let ahead = separation - angle;
+        let to_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
+        let end = if away != 0 { retention - angle } else { to_separation };
+        let next = if away != 0 { 2.0 * separation } else { -2.0 * separation };
+        short.away[k] = away;
+        short.sine[k] = peak * short.sin[k];
+        short.cosine[k] = peak * short.cos[k];
+        short.end[k] = end;
+        short.next_end[k] = end + (PI + next);
+        // Launches that may be brief are left to the solver of one flight.
+        short.pulled[k] = !away & mask(short.speed[k] > FASTEST_BRIEF);
     }
 }
 
@@ -159,6 +183,7 @@ impl Short {
             cos: ROW,
             angle: ROW,
             peak: ROW,
+            separation: ROW,
             end: ROW,
             time: ROW,
             ratio: ROW,
@@ -171,7 +196,7 @@ impl Short {
             inside: MASK,
             landed: MASK,
             low: [false; LANES],
-            away: [false; LANES],
+            away: MASK,
         }
     }
 
@@ -185,25 +210,13 @@ impl Short {
         lane: usize,
         low: bool,
     ) {
-        let (angle, peak, separation) = (launches.from.angle[lane], platform.peak, platform.separation_angle);
-        let retention = PI - separation;
-        let away = angle >= separation && angle < retention;
-        let ahead = separation - angle;
-        let to_separation = if ahead > 0.0 { ahead } else { ahead + TAU };
         self.low[k] = low;
-        self.away[k] = away;
         self.speed[k] = launches.speed[lane];
         self.sin[k] = launches.from.sin[lane];
         self.cos[k] = launches.from.cos[lane];
-        self.sine[k] = peak * launches.from.sin[lane];
-        self.cosine[k] = peak * launches.from.cos[lane];
-        self.angle[k] = angle;
-        self.peak[k] = peak;
-        self.end[k] = if away { retention - angle } else { to_separation };
-        let next = if away { 2.0 * separation } else { -2.0 * separation };
-        self.next_end[k] = self.end[k] + (PI + next);
-        // Launches that may be brief are left to the solver of one flight.
-        self.pulled[k] = mask(!away && launches.speed[lane] > FASTEST_BRIEF);
+        self.angle[k] = launches.from.angle[lane];
+        self.peak[k] = platform.peak;
+        self.separation[k] = platform.separation_angle;
     }
 
     /// What became of the flight of number `k`.
@@ -232,7 +245,7 @@ impl Short {
         let second_piece = end_ratio > 0.0 && self.next_end[k] >= SHORT_FLIGHT + 1.0e-9 && !dips;
         let flies_on = last_ratio > 0.0
             && (self.end[k] >= SHORT_FLIGHT || second_piece)
-            && (self.speed[k] > FASTEST_BRIEF || self.away[k]);
+            && (self.speed[k] > FASTEST_BRIEF || self.away[k] != 0);
         match (flies_on, self.low[k]) {
             (true, true) => Fate::GoesLow,
             (true, false) => Fate::GoesAbove,

@@ -33,6 +33,10 @@ impl Lanes {
         Self(u64::MAX >> ((LANES - count) % LANES))
     }
 
+    pub(super) const fn is_none(self) -> bool {
+        self.0 == 0
+    }
+
     pub(super) const fn count(self) -> usize {
         self.0.count_ones() as usize
     }

@@ -1,3 +1,4 @@
+use bouncing_disk_core::ImpactState;
 use bouncing_disk_core::elementary::pow;
 
 use super::*;
@@ -37,7 +38,7 @@ fn a_long_chatter_ends_as_in_the_engine() {
             }
             let mut rotor = Rotor::at_rest(&system, phase, spin, ChatterPolicy::Complete).unwrap();
             rotor.contact = None;
-            rotor.go_on_after(impact, ChatterPolicy::Complete, 0, spin);
+            rotor.go_on_after(phase, orbit.clone(), 0, spin);
             assert_eq!(rotor.advance().unwrap(), RotorStep::Contact);
             let start = InitialCondition::Launch { phase, relative_speed: speed, angular_speed: spin };
             let engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();

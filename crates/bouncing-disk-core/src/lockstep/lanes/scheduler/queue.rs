@@ -1,6 +1,6 @@
 //! Flights of one kind that wait for others.
 
-use crate::lockstep::lanes::{LANES, Who};
+use crate::lockstep::lanes::{LANES, Lanes, Who};
 
 /// Flights of one kind, until there are enough of them.
 #[derive(Debug, Clone)]
@@ -22,5 +22,24 @@ impl<Rows> Queue<Rows> {
         self.who[k] = who;
         self.len = k + 1;
         k
+    }
+
+    /// Takes flights of a batch from `lanes` until there are none or no more room; `set` is given the place of each.
+    #[inline(always)]
+    pub(super) fn fill(
+        &mut self,
+        batch: usize,
+        lanes: &mut Lanes,
+        mut set: impl FnMut(&mut Rows, usize, usize),
+    ) {
+        let mut k = self.len;
+        while k < LANES
+            && let Some(lane) = lanes.next()
+        {
+            self.who[k] = Who { batch: batch as u32, lane: lane as u32 };
+            set(&mut self.rows, k, lane);
+            k += 1;
+        }
+        self.len = k;
     }
 }
