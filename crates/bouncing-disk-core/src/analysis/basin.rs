@@ -382,10 +382,13 @@ impl ImpactMap {
     }
 }
 
+/// Impacts of known orbits that a state is compared with in about the time of a flight.
+const TARGETS_OF_FLIGHT: usize = 8;
+
 /// What a flight and the comparison of its impact with the known orbits count as for an observer.
 fn flights_of_label(known: &[KnownOrbit]) -> u64 {
     let impacts: usize = known.iter().map(|known| known.orbit.period()).sum();
-    1 + impacts as u64 / 8
+    1 + (impacts / TARGETS_OF_FLIGHT) as u64
 }
 
 #[cfg(test)]

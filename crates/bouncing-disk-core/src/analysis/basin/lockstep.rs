@@ -35,8 +35,7 @@ impl ImpactMap {
             lockstep.fly()?;
             // From the last lane, so that a lane moved into a gap has been judged.
             for number in (0..lockstep.lanes.div_ceil(LANES)).rev() {
-                starts.spend(&lockstep.judge)?;
-                lockstep.judge(number, &mut starts, &mut verdicts);
+                lockstep.judge(number, &mut starts, &mut verdicts)?;
             }
             lockstep.give_up(&mut starts);
         }
@@ -107,15 +106,24 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
-    fn judge(&mut self, number: usize, starts: &mut Starts<'_, '_>, verdicts: &mut Verdicts) {
-        self.judge.screen(self.batches[number].impacts(), verdicts);
+    fn judge(
+        &mut self,
+        number: usize,
+        starts: &mut Starts<'_, '_>,
+        verdicts: &mut Verdicts,
+    ) -> Result<(), Error> {
+        self.judge.screen(self.batches[number].impacts(), verdicts, |flights| starts.spend(flights))?;
         let first = number * LANES;
         let settled = verdicts.settled & Lanes::first((self.lanes - first).min(LANES));
         for lane in settled.rev() {
+            if verdicts.doubtful[lane] != 0 {
+                starts.spend(self.judge.work_of_doubt())?;
+            }
             if let Some(label) = self.judge.label(verdicts, &self.batches[number], lane) {
                 self.finish(first + lane, label, starts);
             }
         }
+        Ok(())
     }
 
     /// Labels the lanes that have spent their impacts.

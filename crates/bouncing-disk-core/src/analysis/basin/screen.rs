@@ -4,13 +4,20 @@ use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label};
+use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, TARGETS_OF_FLIGHT};
 use crate::chatter::rest_proof::RestProof;
+use crate::error::Error;
 use crate::lockstep::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Mask, lanes_of, mask};
 use crate::map::impact_map::ImpactMap;
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
+
+/// Targets that a batch is compared with between two looks at an observer.
+const TARGETS_AT_ONCE: usize = 1 << 12;
+
+/// What the comparison of a batch with a target counts as, in flights.
+const FLIGHTS_OF_TARGET: u64 = 2;
 
 /// An impact of a known orbit.
 #[derive(Debug, Clone, Copy)]
@@ -67,21 +74,40 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What a batch counts as for an observer: its flights, and the comparisons with the targets.
+    /// Finds the lanes whose impacts decide their labels. `spend` is told what this counts as for an observer:
+    /// the flights of a batch, and the comparisons with the targets.
     #[inline(always)]
-    pub(super) fn work_of_batch(&self) -> u64 {
-        (LANES + 2 * self.targets.len()) as u64
+    pub(super) fn screen(
+        &self,
+        impacts: &Impacts,
+        verdicts: &mut Verdicts,
+        mut spend: impl FnMut(u64) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        spend(LANES as u64)?;
+        let (mut left, mut begins) = (self.targets.as_slice(), true);
+        loop {
+            // From the last one: the first known orbit that catches a state has it.
+            let (others, targets) = left.split_at(left.len().saturating_sub(TARGETS_AT_ONCE));
+            spend(FLIGHTS_OF_TARGET * targets.len() as u64)?;
+            self.dispatch.run(Screen {
+                impacts,
+                targets,
+                begins,
+                proof: self.proof,
+                peak: self.map.vibration().peak_acceleration(),
+                restitution: self.map.restitution(),
+                verdicts,
+            });
+            if others.is_empty() {
+                return Ok(());
+            }
+            (left, begins) = (others, false);
+        }
     }
 
-    pub(super) fn screen(&self, impacts: &Impacts, verdicts: &mut Verdicts) {
-        self.dispatch.run(Screen {
-            impacts,
-            targets: &self.targets,
-            proof: self.proof,
-            peak: self.map.vibration().peak_acceleration(),
-            restitution: self.map.restitution(),
-            verdicts,
-        });
+    /// What the resolution of a doubt counts as for an observer.
+    pub(super) const fn work_of_doubt(&self) -> u64 {
+        (self.targets.len() / TARGETS_OF_FLIGHT) as u64
     }
 
     /// The label of a lane that was found settled, if the doubt is resolved so.
@@ -97,6 +123,8 @@ impl<'a> Judge<'a> {
 struct Screen<'a> {
     impacts: &'a Impacts,
     targets: &'a [Target],
+    /// Whether no targets have been compared yet.
+    begins: bool,
     proof: RestProof,
     peak: f64,
     restitution: f64,
@@ -108,9 +136,10 @@ impl WithSimd for Screen<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { impacts, targets, proof, peak, restitution, verdicts } = self;
-        find_rest(impacts, proof, restitution, verdicts);
-        // From the last one: the first known orbit that catches a state has it.
+        let Self { impacts, targets, begins, proof, peak, restitution, verdicts } = self;
+        if begins {
+            find_rest(impacts, proof, restitution, verdicts);
+        }
         for target in targets.iter().rev() {
             find_caught(impacts, *target, 1.0 / peak, verdicts);
         }

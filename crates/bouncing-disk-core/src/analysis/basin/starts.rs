@@ -145,10 +145,10 @@ impl<'c, 'l> Starts<'c, 'l> {
         }
     }
 
-    /// Counts the work of a batch that is compared with what is known.
+    /// Counts work for the observer.
     #[inline(always)]
-    pub(super) fn spend(&mut self, judge: &Judge<'_>) -> Result<(), Error> {
-        self.work.spend(judge.work_of_batch())
+    pub(super) fn spend(&mut self, flights: u64) -> Result<(), Error> {
+        self.work.spend(flights)
     }
 
     /// Labels a cell.
@@ -171,14 +171,18 @@ impl<'c, 'l> Starts<'c, 'l> {
             if let Some(lane) = self.open.next() {
                 break lane;
             }
-            if self.spend(judge).is_err() || self.cells.watch.is_stopped() {
+            if self.cells.watch.is_stopped() {
                 return None;
             }
             let count = self.fill();
             if count == 0 {
                 return None;
             }
-            self.screen(judge, count);
+            if self.screen(judge, count).is_err() {
+                // No start goes on whose first state has not been judged to the end.
+                self.open = Lanes::NONE;
+                return None;
+            }
         };
         Some((self.batch_cells[lane], lane))
     }
@@ -213,14 +217,19 @@ impl<'c, 'l> Starts<'c, 'l> {
     }
 
     /// Labels those of the first `count` lanes of the batch that are decided at once, and opens the others.
-    fn screen(&mut self, judge: &Judge<'_>, count: usize) {
-        judge.screen(self.batch.impacts(), &mut self.verdicts);
+    fn screen(&mut self, judge: &Judge<'_>, count: usize) -> Result<(), Error> {
+        let work = &mut self.work;
+        judge.screen(self.batch.impacts(), &mut self.verdicts, |flights| work.spend(flights))?;
         self.open = Lanes::first(count);
         for lane in self.verdicts.settled & self.open {
+            if self.verdicts.doubtful[lane] != 0 {
+                self.work.spend(judge.work_of_doubt())?;
+            }
             if let Some(label) = judge.label(&self.verdicts, &self.batch, lane) {
                 self.settle(self.batch_cells[lane], label);
                 self.open.remove(lane);
             }
         }
+        Ok(())
     }
 }

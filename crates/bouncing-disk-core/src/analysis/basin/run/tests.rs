@@ -109,6 +109,35 @@ fn observers_hear_of_all_rows_and_often() {
     }
 }
 
+/// More known impacts than a batch is compared with at once: the first orbit that catches a start has it, and an
+/// observer is asked in between. Stopped at each of the calls, a run comes to the same labels.
+#[test]
+fn many_known_orbits_are_compared_in_parts() {
+    let (map, settings) = (map(), BasinSettings { max_impacts: 60, ..BasinSettings::default() });
+    let orbit = known()[0].orbit().clone();
+    let some = KnownOrbit::new(orbit.clone(), 0.02).expect("legal");
+    let more = KnownOrbit::new(orbit.clone(), 0.05).expect("legal");
+    for last in [9_001, 4_096] {
+        // One orbit of many impacts, for labels are bytes; it catches nothing.
+        let mut impacts = orbit.clone();
+        impacts.states = orbit.states.repeat(last);
+        let known = [KnownOrbit::new(impacts, f64::MIN_POSITIVE).expect("legal"), some.clone(), more.clone()];
+        let observer = StopAfter::calls(u64::MAX);
+        let at_once = map.basins_observed(grid(20, 15), &known, settings, &observer).expect("no failure");
+        let caught = (at_once.fraction(FIRST_ORBIT + 1), at_once.fraction(FIRST_ORBIT + 2));
+        assert!(caught.0 > 0.01 && caught.1 > 0.01, "{caught:?}");
+        let single = map.basins(grid(20, 15), &[known[1].clone(), known[2].clone()], settings);
+        let single: Vec<_> =
+            single.expect("no failure").labels().iter().map(|&l| l + Label::from(l >= FIRST_ORBIT)).collect();
+        assert_eq!(at_once.labels(), single);
+        assert!(observer.asked() > last as u64 / 4_096, "{}", observer.asked());
+        let run = BasinRun::new(map, grid(20, 15), &known, settings).expect("few cells");
+        let (basins, stops) = in_parts(run, 1, |stops| 1 + 20 * stops);
+        assert_eq!(basins, at_once);
+        assert!(stops > 3, "{stops}");
+    }
+}
+
 /// A start that is followed for ever, by itself and in lockstep.
 #[test]
 fn one_endless_start_can_be_stopped() {
