@@ -1,9 +1,8 @@
-//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability, period doubling.
+//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability.
 
 use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
-use roots::{Convergency, SearchError, find_root_brent};
 use serde::{Deserialize, Serialize};
 
 use crate::chatter::policy::ChatterPolicy;
@@ -13,7 +12,6 @@ use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::acos;
 use crate::observer::{Observer, Tick, Unobserved, Watch};
 use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
 
 /// Newton steps of the multiple shooting before it gives up.
 const MAX_NEWTON_STEPS: u32 = 50;
@@ -228,7 +226,11 @@ impl ImpactMap {
     }
 
     /// [`Self::refine`] as a part of a longer call; the tick counts impacts.
-    fn refine_ticked(&self, guess: &[ImpactState], tick: Tick<'_>) -> Result<PeriodicOrbit, Error> {
+    pub(super) fn refine_ticked(
+        &self,
+        guess: &[ImpactState],
+        tick: Tick<'_>,
+    ) -> Result<PeriodicOrbit, Error> {
         let n = guess.len();
         within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let mut states = guess.to_vec();
@@ -345,7 +347,7 @@ impl ImpactMap {
     }
 
     /// [`Self::settled_orbit`] as a part of a longer call; the tick counts impacts.
-    fn settled_orbit_ticked(
+    pub(super) fn settled_orbit_ticked(
         &self,
         state: ImpactState,
         (transient, longest): (usize, usize),
@@ -363,180 +365,6 @@ impl ImpactMap {
         }
         self.refine_ticked(&guess, tick).map(Some)
     }
-}
-
-/// A period doubling of the cascade that starts from the period-1 orbit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct PeriodDoubling {
-    /// The forcing Gamma_n.
-    pub axial_forcing: f64,
-    /// Period (in impacts) of the orbit that loses its stability.
-    pub period: usize,
-    /// det(1 + monodromy) at the forcing found: what the search left.
-    pub residual: f64,
-}
-
-/// Root only where the function is exactly zero or the bracket a few neighbouring doubles.
-struct NeighbouringDoubles;
-
-impl Convergency<f64> for NeighbouringDoubles {
-    fn is_root_found(&mut self, y: f64) -> bool {
-        y == 0.0
-    }
-
-    fn is_converged(&mut self, x1: f64, x2: f64) -> bool {
-        (x1 - x2).abs() <= 4.0 * f64::EPSILON * x1.abs().max(x2.abs())
-    }
-
-    fn is_iteration_limit_reached(&mut self, iterations: usize) -> bool {
-        iterations > 200
-    }
-}
-
-/// The first `count` period doublings of the orbit with one impact per period, for `restitution` in (0, 1).
-///
-/// Each orbit is followed in the forcing, corrected by multiple shooting, until (1 + m1)(1 + m2) changes sign; the
-/// change of sign is refined by Brent's method. The doubled orbit is started along the direction that flips.
-///
-/// # Errors
-/// [`Error::OutOfRange`] for the restitution or a count above 10 (rounding ends the cascade there);
-/// [`Error::NotSettled`] if a branch is lost.
-pub fn period_doublings(restitution: f64, count: usize) -> Result<Vec<PeriodDoubling>, Error> {
-    period_doublings_observed(restitution, count, &Unobserved)
-}
-
-/// [`period_doublings`] with an observer; the items are the doublings. Ten of them take seconds: a call that
-/// is stopped begins anew.
-///
-/// # Errors
-/// Those of [`period_doublings`]; [`Error::Stopped`] if the observer breaks.
-pub fn period_doublings_observed(
-    restitution: f64,
-    count: usize,
-    observer: &dyn Observer,
-) -> Result<Vec<PeriodDoubling>, Error> {
-    let watch = Watch::begin(observer, 0, count as u64)?;
-    let mut work = watch.work();
-    let found =
-        doublings(restitution, count, |found| watch.set_done(found), &mut |impacts| work.spend(impacts))?;
-    watch.end();
-    Ok(found)
-}
-
-/// [`period_doublings`]; `report` is told how many are found, the tick counts impacts.
-fn doublings(
-    restitution: f64,
-    count: usize,
-    report: impl Fn(u64),
-    tick: Tick<'_>,
-) -> Result<Vec<PeriodDoubling>, Error> {
-    within("restitution", restitution, f64::MIN_POSITIVE, 1.0 - f64::EPSILON, "(0, 1)")?;
-    within("count", count as f64, 0.0, 10.0, "[0, 10]")?;
-    let map_at = |forcing: f64| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution);
-    let mut found: Vec<PeriodDoubling> = Vec::new();
-    let first = ImpactMap::first_doubling_forcing(restitution);
-    let threshold = (1.0 - restitution) / (1.0 + restitution);
-    // Where to start following, and the first step in the forcing.
-    let mut forcing = 0.5 * (first + threshold);
-    // Not a simple fraction: a step onto the doubling itself would have no sign to read.
-    let mut step = 0.27 * (first - threshold);
-    let seed = map_at(forcing)?.period_one(1).ok_or(Error::NotSettled {
-        what: "period-1 orbit",
-        iterations: 0,
-        residual: forcing,
-    })?;
-    let mut orbit = map_at(forcing)?.refine_ticked(&[seed], tick)?;
-    while found.len() < count {
-        // Follow until the sign changes.
-        let mut steps = 0;
-        let (low, low_states, high) = loop {
-            let next_forcing = forcing + step;
-            match map_at(next_forcing)?.refine_ticked(&orbit.states, tick) {
-                Ok(next) if next.flip_function() <= 0.0 => {
-                    break (forcing, orbit.states.clone(), next_forcing);
-                }
-                Ok(next) => {
-                    forcing = next_forcing;
-                    orbit = next;
-                }
-                Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
-                Err(_) => step *= 0.5,
-            }
-            steps += 1;
-            if steps > 400 {
-                return Err(Error::NotSettled {
-                    what: "period-doubling branch",
-                    iterations: steps,
-                    residual: step,
-                });
-            }
-        };
-        let mut stopped = None;
-        let flip = |forcing: f64| match map_at(forcing).and_then(|map| map.refine_ticked(&low_states, tick)) {
-            Ok(orbit) => orbit.flip_function(),
-            Err(error) => {
-                if matches!(error, Error::Stopped { .. }) {
-                    stopped = Some(error);
-                }
-                f64::NAN
-            }
-        };
-        let at = find_root_brent(low, high, flip, &mut NeighbouringDoubles);
-        if let Some(stopped) = stopped {
-            return Err(stopped);
-        }
-        let at = at.map_err(|error: SearchError| Error::NotSettled {
-            what: match error {
-                SearchError::NoConvergency => "search of a period doubling",
-                SearchError::NoBracketing => "bracket of a period doubling",
-                _ => "root of the flip function",
-            },
-            iterations: 200,
-            residual: high - low,
-        })?;
-        let map = map_at(at)?;
-        orbit = map.refine_ticked(&low_states, tick)?;
-        let period = orbit.period();
-        let doubling = PeriodDoubling { axial_forcing: at, period, residual: orbit.flip_function() };
-        // The next interval is about delta = 4.67 times shorter.
-        let interval = found.last().map_or(at - threshold, |last| at - last.axial_forcing);
-        found.push(doubling);
-        report(found.len() as u64);
-        if found.len() == count {
-            break;
-        }
-        (forcing, orbit) = doubled_orbit(&map_at, &orbit, (at, interval), tick)?;
-        step = interval / 60.0;
-    }
-    Ok(found)
-}
-
-/// The orbit of twice the period a little beyond its birth at `at`, with its forcing.
-fn doubled_orbit(
-    map_at: &impl Fn(f64) -> Result<ImpactMap, Error>,
-    orbit: &PeriodicOrbit,
-    (at, interval): (f64, f64),
-    tick: Tick<'_>,
-) -> Result<(f64, PeriodicOrbit), Error> {
-    let period = orbit.period();
-    // Just beyond the doubling the attractor is the doubled orbit; the iteration itself finds it.
-    for fraction in [0.06, 0.03, 0.1] {
-        let forcing = at + fraction * interval;
-        let map = map_at(forcing)?;
-        let unstable = match map.refine_ticked(&orbit.states, tick) {
-            Ok(unstable) => unstable,
-            Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
-            Err(_) => continue,
-        };
-        let start = unstable.states[0];
-        let nudged =
-            ImpactState::new(Phase::new(start.phase().angle() + 1.0e-4 * interval)?, start.velocity())?;
-        let settled = map.settled_orbit_ticked(nudged, (4_000 * period, 2 * period), 1.0e-7, tick)?;
-        if let Some(doubled) = settled.filter(|doubled| doubled.period() == 2 * period) {
-            return Ok((forcing, doubled));
-        }
-    }
-    Err(Error::NotSettled { what: "doubled orbit", iterations: period as u32, residual: interval })
 }
 
 /// The distance of two impacts, in units where a radian and the speed `speed_scale` count alike.
@@ -559,6 +387,7 @@ impl PeriodicOrbit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::platform::vibration::Vibration;
     use crate::testing::StopAfter;
 
     #[test]
@@ -571,18 +400,5 @@ mod tests {
         let orbit = map.settled_orbit_observed(start, 20_000, 4, 1e-8, &all).expect("nobody stops it");
         assert_eq!(Ok(orbit), map.settled_orbit(start, 20_000, 4, 1e-8));
         assert_eq!((all.last().done, all.asked()), (20_212, 4));
-    }
-
-    /// Wherever it is stopped, also inside of the search of a root, it says so.
-    #[test]
-    fn a_cascade_can_be_stopped_anywhere() {
-        let all = StopAfter::calls(u64::MAX);
-        let found = period_doublings_observed(0.5, 6, &all).expect("nobody stops it");
-        assert_eq!(Ok(found), period_doublings(0.5, 6));
-        for calls in 1..all.asked() {
-            let stopped = period_doublings_observed(0.5, 6, &StopAfter::calls(calls));
-            assert!(matches!(stopped, Err(Error::Stopped { total: 6, .. })), "{calls}: {stopped:?}");
-        }
-        assert!(all.asked() > 5);
     }
 }

@@ -65,9 +65,6 @@ pub const MAX_MEMBERS: usize = 1_000_000;
 /// Most speeds of all members of an ensemble together: with their times a gigabyte.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
-/// What a point of a curve that is fitted counts as for an observer, in flights.
-const FLIGHTS_OF_POINT: u64 = 64;
-
 /// An ensemble of transients of one motor.
 ///
 /// One that is read has members, and a fit for each.
@@ -189,8 +186,7 @@ impl TransientEnsemble {
         let watch = Watch::begin(observer, 0, members as u64)?;
         let fitted = |curve: Result<SpeedCurve, Error>| -> Result<(SpeedCurve, ExponentialFit), Error> {
             let curve = curve?;
-            watch.work().spend(FLIGHTS_OF_POINT * curve.times.len() as u64)?;
-            let fit = curve.fit()?;
+            let fit = ExponentialFit::counted(&curve.times, &curve.speeds, &mut watch.work())?;
             watch.finish(1);
             Ok((curve, fit))
         };

@@ -1,10 +1,9 @@
 //! Least-squares fits of measured or computed curves.
 
-use std::convert::Infallible;
-
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::numerics::minimum::golden_section;
 use bouncing_disk_core::numerics::statistics::summing_scale;
+use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check, finite, not_negative, positive, read_checked};
@@ -15,6 +14,9 @@ const GOLDEN_STEPS: u32 = 80;
 /// Trial time constants that bracket the best one: at least so many, and no two further apart than by this ratio's logarithm.
 const TRIALS: u32 = 60;
 const WIDEST_STEP: f64 = 1.0;
+
+/// Points of a curve that a trial compares with in about the time of a flight.
+const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,7 +53,21 @@ impl ExponentialFit {
     /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise or
     /// numbers that are not finite; for a result that a double cannot hold.
     pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
-        let (time_constant, steady_speed, residual) = saturating_fit(times, speeds, exponential)?;
+        Self::new_observed(times, speeds, &Unobserved)
+    }
+
+    /// [`Self::new`] with an observer: a fit to a million points takes seconds. The one item is the fit.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
+    /// breaks.
+    pub fn new_observed(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
+        observed(observer, |work| Self::counted(times, speeds, work))
+    }
+
+    /// [`Self::new`] as a part of a longer call.
+    pub(crate) fn counted(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<Self, Error> {
+        let (time_constant, steady_speed, residual) = saturating_fit(times, speeds, exponential, work)?;
         Ok(Self { steady_speed, time_constant, residual })
     }
 
@@ -105,8 +121,18 @@ impl RampFit {
     /// # Errors
     /// As [`ExponentialFit::new`].
     pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
-        let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0))?;
-        Ok(Self { steady_speed, rise_time, residual })
+        Self::new_observed(times, speeds, &Unobserved)
+    }
+
+    /// As [`ExponentialFit::new_observed`].
+    ///
+    /// # Errors
+    /// As [`ExponentialFit::new_observed`].
+    pub fn new_observed(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
+        observed(observer, |work| {
+            let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0), work)?;
+            Ok(Self { steady_speed, rise_time, residual })
+        })
     }
 
     /// The fitted speed (rad/s) at `time` (s).
@@ -114,6 +140,18 @@ impl RampFit {
     pub fn speed(&self, time: f64) -> f64 {
         self.steady_speed * (time / self.rise_time).min(1.0)
     }
+}
+
+/// A fit that is a call of its own.
+fn observed<Fit>(
+    observer: &dyn Observer,
+    fit: impl FnOnce(&mut WorkCount<'_>) -> Result<Fit, Error>,
+) -> Result<Fit, Error> {
+    let watch = Watch::begin(observer, 0, 1)?;
+    let fit = fit(&mut watch.work())?;
+    watch.finish(1);
+    watch.end();
+    Ok(fit)
 }
 
 /// 1 - exp(-x).
@@ -143,12 +181,13 @@ fn saturating_fit(
     times: &[f64],
     speeds: &[f64],
     shape: impl Fn(f64) -> f64,
+    work: &mut WorkCount<'_>,
 ) -> Result<(f64, f64, f64), Error> {
     check_curve(times, speeds)?;
     let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
     let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
     let (constant, steady, residual) =
-        scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape);
+        scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape, work)?;
     Ok((
         positive("fitted time (s)", constant / time_scale)?,
         finite("fitted steady speed (rad/s)", steady / speed_scale)?,
@@ -157,7 +196,12 @@ fn saturating_fit(
 }
 
 /// [`saturating_fit`] of numbers whose squares neither overflow nor vanish.
-fn scaled_fit(times: &[f64], speeds: &[f64], shape: impl Fn(f64) -> f64) -> (f64, f64, f64) {
+fn scaled_fit(
+    times: &[f64],
+    speeds: &[f64],
+    shape: impl Fn(f64) -> f64,
+    work: &mut WorkCount<'_>,
+) -> Result<(f64, f64, f64), Error> {
     let n = times.len();
     // The best steady speed for a given constant, and the residual that it leaves.
     let at = |constant: f64| {
@@ -177,20 +221,22 @@ fn scaled_fit(times: &[f64], speeds: &[f64], shape: impl Fn(f64) -> f64) -> (f64
     let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
     // Next to the longest time a tenth of a denormal one is as good as the smallest normal one.
     let (low, high) = (ln((0.1 * first).max(f64::MIN_POSITIVE)), ln(100.0 * times[n - 1]));
-    let cost = |log: f64| at(exp(log)).2;
+    let mut cost = |log: f64| {
+        work.spend(1 + (n / POINTS_OF_FLIGHT) as u64)?;
+        Ok::<_, Error>(at(exp(log)).2)
+    };
     let trials = TRIALS.max(((high - low) / WIDEST_STEP) as u32);
     let step = (high - low) / f64::from(trials);
     let mut best = (f64::INFINITY, 0);
     for trial in 0..=trials {
-        let value = cost(low + step * f64::from(trial));
+        let value = cost(low + step * f64::from(trial))?;
         if value < best.0 {
             best = (value, trial);
         }
     }
     let centre = low + step * f64::from(best.1);
-    let cost = |log: f64| Ok::<_, Infallible>(cost(log));
-    let Ok(log) = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost);
-    at(exp(log))
+    let log = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost)?;
+    Ok(at(exp(log)))
 }
 
 #[cfg(test)]
@@ -267,6 +313,35 @@ mod tests {
         // A disk that does not turn.
         let still = ExponentialFit::new(&times[..3], &[0.0; 3]).expect("three points are enough");
         assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
+    }
+
+    /// A fit to many points is asked about every trial and may be stopped at each; that changes nothing of it.
+    #[test]
+    fn a_long_fit_can_be_stopped() {
+        use std::ops::ControlFlow;
+        use std::sync::atomic::{AtomicU64, Ordering};
+
+        let times: Vec<f64> = (1..=20_000).map(|i| f64::from(i) * 0.02).collect();
+        let speeds = curve(20.0, 0.6, &times);
+        let fits = |calls: u64| {
+            let asked = AtomicU64::new(0);
+            let observer = |progress: bouncing_disk_core::Progress| {
+                assert_eq!(progress.total, 1);
+                let go_on = asked.fetch_add(1, Ordering::Relaxed) + 1 < calls;
+                if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            let exponential = ExponentialFit::new_observed(&times, &speeds, &observer);
+            let ramp = RampFit::new_observed(&times, &speeds, &|_| ControlFlow::Continue(()));
+            assert_eq!(ramp, RampFit::new(&times, &speeds));
+            (exponential, asked.into_inner())
+        };
+        let (whole, asked) = fits(u64::MAX);
+        assert_eq!(whole, ExponentialFit::new(&times, &speeds));
+        assert!(asked > 100, "{asked}");
+        for calls in [1, 2, 50, asked - 1] {
+            let stopped = Error::Core(bouncing_disk_core::Error::Stopped { done: 0, total: 1 });
+            assert_eq!(fits(calls), (Err(stopped), calls));
+        }
     }
 
     #[test]

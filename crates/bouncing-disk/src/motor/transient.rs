@@ -120,6 +120,14 @@ impl SpeedCurve {
         ExponentialFit::new(&self.times, &self.speeds)
     }
 
+    /// [`Self::fit`] with an observer.
+    ///
+    /// # Errors
+    /// Those of [`ExponentialFit::new_observed`].
+    pub fn fit_observed(&self, observer: &dyn Observer) -> Result<ExponentialFit, Error> {
+        ExponentialFit::new_observed(&self.times, &self.speeds, observer)
+    }
+
     /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve, at least over its last point.
     ///
     /// # Errors
