@@ -377,7 +377,7 @@ fn orbits_at_their_birth_take_whole_periods() {
             for forcing in [birth.next_down(), birth, birth.next_up(), birth * (1.0 + 1.0e-12)] {
                 let map =
                     ImpactMap::new(Vibration::from_axial_forcing(forcing).unwrap(), restitution).unwrap();
-                let Some(state) = map.period_one(k) else { continue };
+                let Some(state) = map.period_one(k.into()) else { continue };
                 let impact = map.step(state).unwrap();
                 let duration = impact.duration();
                 if impact.velocity > 0.9 * state.velocity() {
@@ -526,4 +526,53 @@ fn what_is_printed_has_its_units() {
     assert_eq!(format!("{state:.2}"), "impact at 1.00 rad, w = -2.50 g/omega");
     assert_eq!(Multipliers::Real(0.5, -0.25).to_string(), "0.5, -0.25");
     assert_eq!(format!("{:.1}", Multipliers::Complex { real: 0.0, imaginary: 1.0 }), "0.0 +- 1.0 i");
+}
+
+/// Refined at the thresholds of existence and stability and next to them, and next to restitution 0 and 1, an orbit is one
+/// by the map itself and by its clock, or there is an error with a name.
+#[test]
+fn orbits_refined_on_seams_are_orbits() {
+    let (mut found, mut refused) = (0, 0);
+    for restitution in
+        [0.0, f64::MIN_POSITIVE, 1e-9, 0.5, 0.8, 1.0 - 1e-6, 1.0 - 1e-12, 1.0 - f64::EPSILON / 2.0]
+    {
+        for k in 1..=3_u32 {
+            let birth = f64::from(k) * (1.0 - restitution) / (1.0 + restitution);
+            let doubling = ImpactMap::first_doubling_forcing(restitution);
+            for forcing in [birth, doubling, 1.5 * birth, 2.0 * doubling, 0.55] {
+                for ulps in [-2_i64, -1, 0, 1, 2] {
+                    let forcing = f64::from_bits((forcing.to_bits() as i64 + ulps) as u64);
+                    let Ok(vibration) = Vibration::from_axial_forcing(forcing) else { continue };
+                    let map = ImpactMap::new(vibration, restitution).expect("legal");
+                    let Some(seed) = map.period_one(k.into()) else { continue };
+                    match map.refine(&[seed]) {
+                        Ok(orbit) => {
+                            let (state, case) = (orbit.states[0], (restitution, k, forcing));
+                            assert_eq!(orbit.platform_periods, u64::from(k), "{case:?}");
+                            let impact = map.step(state).expect("flies");
+                            let off = (impact.duration() - TAU * f64::from(k)).abs();
+                            let scale = 1.0 + state.velocity().abs();
+                            assert!(off <= 1e-11 * scale, "{case:?}: {off:e}");
+                            assert!((impact.velocity - state.velocity()).abs() <= 1e-11 * scale, "{case:?}");
+                            // Areas shrink by the square of the restitution at every impact.
+                            let determinant = orbit.monodromy.determinant();
+                            let size = orbit.monodromy.x_axis.length() * orbit.monodromy.y_axis.length();
+                            let lost = (determinant - restitution * restitution).abs();
+                            assert!(lost <= 1e-13 * (1.0 + size), "{case:?}: {determinant}");
+                            found += 1;
+                        }
+                        Err(
+                            // A plastic disk leaves only where the platform falls away.
+                            Error::NoLiftOff { .. }
+                            | Error::NotSettled { .. }
+                            | Error::ImpactWithoutSpeed { .. }
+                            | Error::NoPlatformPeriods { .. },
+                        ) => refused += 1,
+                        Err(error) => panic!("{restitution} {k} {forcing}: {error}"),
+                    }
+                }
+            }
+        }
+    }
+    assert!(found > 200, "{found} found, {refused} refused");
 }

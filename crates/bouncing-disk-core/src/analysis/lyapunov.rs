@@ -8,7 +8,7 @@ use crate::analysis::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
-use crate::numerics::elementary::ln;
+use crate::numerics::elementary::{hypot, ln};
 use crate::observer::{Observer, Unobserved};
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
@@ -49,7 +49,9 @@ impl TangentGrowth {
         let (by_phase, by_velocity) = (derivative.x_axis, derivative.y_axis);
         let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;
         let y = by_phase.y * self.tangent.0 + by_velocity.y * self.tangent.1;
-        let length = (x * x + y * y).sqrt();
+        let square = x * x + y * y;
+        // Next to a graze the derivative is large and yet bounded: its squares may overflow, or vanish.
+        let length = if (1.0e-280..1.0e280).contains(&square) { square.sqrt() } else { hypot(x, y) };
         self.bounded &= length > 0.0 && length.is_finite();
         self.sum += ln(length);
         self.tangent = (x / length, y / length);
@@ -157,5 +159,28 @@ impl SweepRun<Option<f64>> {
             |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
             observer,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The logarithm of a growth of 1e200 or 1e-200 is a number; without bound, or without effect, it is none.
+    #[test]
+    fn growth_of_any_size_has_an_exponent() {
+        for size in [5.0e-324, 1.0e-310, 1.0e-200, 1.0e-140, 1.0, 1.0e139, 1.0e150, 1.0e200, 1.0e300] {
+            let mut growth = TangentGrowth::default();
+            growth.grow(DMat2::from_cols_array(&[0.0, size, size, 0.0]));
+            growth.grow(DMat2::from_cols_array(&[0.0, 1.0, 1.0, 0.0]));
+            let exponent = growth.exponent().expect("bounded");
+            assert!((exponent - 0.5 * ln(size)).abs() <= 1e-13 * ln(size).abs(), "{size:e}: {exponent}");
+        }
+        for size in [0.0, f64::INFINITY, f64::NAN] {
+            let mut growth = TangentGrowth::default();
+            growth.grow(DMat2::from_cols_array(&[size; 4]));
+            growth.grow(DMat2::IDENTITY);
+            assert_eq!((growth.exponent(), growth.is_bounded(), growth.impacts()), (None, false, 2));
+        }
     }
 }

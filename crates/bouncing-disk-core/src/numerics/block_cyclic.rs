@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn the_equations_hold_for_stable_and_unstable_sequences() {
         for n in [1, 2, 3, 7, 100, 4_096] {
-            for size in [1e-3, 0.5, 1.0, 3.0, 1e4] {
+            for size in [5e-324, 1e-310, 1e-160, 1e-3, 0.5, 1.0, 3.0, 1e4, 1e70] {
                 for seed in 0..20 {
                     let (blocks, right) = random_system(n, size, seed);
                     let x = solve_block_cyclic(&blocks, &right);
