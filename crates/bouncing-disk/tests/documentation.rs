@@ -7,6 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Vibration, orbit_diagram, survival_times};
+
 /// Pages that nobody writes by hand.
 const GENERATED: [&str; 3] = ["docs/results.md", "docs/errata.md", "docs/performance.md"];
 
@@ -197,6 +199,46 @@ fn the_examples_print_what_the_tutorial_says() {
         assert_eq!(output, *printed, "{name}");
     }
     assert_eq!(blocks("rust").len(), blocks("text").len());
+}
+
+/// The crises and the coexisting attractors that the tutorial warns of: each is looked for a hundredth of a forcing to
+/// either side.
+#[test]
+fn what_the_tutorial_says_of_crises_and_attractors_is_so() {
+    let map = |forcing: f64, restitution: f64| {
+        ImpactMap::new(Vibration::from_axial_forcing(forcing).expect("legal"), restitution).expect("legal")
+    };
+    let start = |map: &ImpactMap, share: f64| {
+        let orbit = map.period_one(1).expect("exists");
+        let off = ImpactState::new(orbit.phase(), (1.0 + share) * orbit.velocity()).expect("legal");
+        map.orbit(off, ChatterPolicy::Complete)
+    };
+    let lifetimes = |forcing: f64, restitution: f64| {
+        let map = map(forcing, restitution);
+        let starts: Vec<_> = (1..=20).map(|k| start(&map, 5e-4 * f64::from(k))).collect();
+        survival_times(&starts, 100_000).expect("no failure")
+    };
+    let tutorial = read("docs/tutorial.md");
+    assert!(tutorial.contains("beyond the crisis (0.56 at restitution 0.5, 0.40 at 0.8)"));
+    for (crisis, restitution) in [(0.56, 0.5), (0.40, 0.8)] {
+        let below = lifetimes(crisis - 0.01, restitution);
+        assert!(below.contains(&100_000), "{restitution}: {below:?}");
+        let beyond = lifetimes(crisis + 0.01, restitution);
+        assert!(beyond.iter().all(|&impacts| impacts < 100_000), "{restitution}: {beyond:?}");
+    }
+    let page = tutorial.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = "At restitution 0.8 and Γ = 0.3835 a start 1 % off the period-1 orbit ends on six phases, one 0.1 % off on two.";
+    assert!(page.contains(said));
+    let map = map(0.3835, 0.8);
+    let columns = orbit_diagram(&[start(&map, 0.01), start(&map, 0.001)], 20_000, 512).expect("no failure");
+    let phases = columns.iter().map(|column| {
+        column
+            .iter()
+            .map(|impact| (1e6 * impact.phase().cycles()).round() as i64)
+            .collect::<BTreeSet<_>>()
+            .len()
+    });
+    assert_eq!(phases.collect::<Vec<_>>(), [6, 2]);
 }
 
 #[test]
