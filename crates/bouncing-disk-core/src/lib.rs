@@ -42,6 +42,9 @@ mod map;
 pub mod numerics;
 mod observer;
 mod platform;
+// The model reads as the core does.
+#[doc(hidden)]
+pub mod stored;
 #[cfg(test)]
 mod testing;
 

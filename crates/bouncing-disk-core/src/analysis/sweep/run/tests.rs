@@ -1,7 +1,5 @@
 //! Runs that are stopped, stored, read and gone on with against one call.
 
-use serde::de::DeserializeOwned;
-
 use super::*;
 use crate::analysis::lyapunov::lyapunov_exponents;
 use crate::analysis::sweep::{orbit_diagram, survival_times, sweep};
