@@ -392,6 +392,7 @@ mod tests {
         assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn an_axis_that_is_read_is_as_legal_as_one_that_is_made() {
         let own = axis(-1.0, 3.0, 5);
@@ -408,6 +409,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_grid_that_is_read_is_as_legal_as_one_that_is_made() {
         let own = Grid::new(axis(0.0, 1.0, 5), axis(0.0, 2.0, 6)).expect("legal");
@@ -420,6 +422,7 @@ mod tests {
         assert!(serde_json::from_str::<Grid>(&misspelt).expect_err("misspelt").to_string().contains("sped"));
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn settings_with_a_misspelt_key_are_refused() {
         let text = r#"{"max_impacts":7,"policy":"Complete","polcy":"Complete"}"#;

@@ -2,7 +2,9 @@
 
 use std::cmp::Ordering;
 
-use crate::error::Error;
+use bouncing_disk_core::read_checked;
+
+use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::EventRecord;
@@ -11,14 +13,37 @@ use crate::motion::state::Snapshot;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// The events of a motion up to some point, and the motion between them.
+///
+/// The times of one that is read do not run back.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedTrajectory"))]
 pub struct Trajectory {
     system: DimensionlessSystem,
     start: PhaseTime,
     records: Vec<EventRecord>,
 }
 
+read_checked!(Trajectory as UncheckedTrajectory {
+    system: DimensionlessSystem,
+    start: PhaseTime,
+    records: Vec<EventRecord>,
+});
+
 impl Trajectory {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let mut last = self.start;
+        for EventRecord { time, segment, .. } in &self.records {
+            for time in [segment.start, *time] {
+                let later = time.order(&last) != Ordering::Less;
+                check(later, "time of an event (periods)", time.cycles(), "not before the event before")?;
+                last = time;
+            }
+        }
+        Ok(())
+    }
+
     /// Runs `engine` on until `last` is true of an event, which is still recorded, or until it ends.
     ///
     /// A disk that bounces or slips for ever needs a `last` that becomes true.

@@ -454,6 +454,7 @@ mod tests {
         assert!(Spread::of(&[f64::MAX, -f64::MAX]).is_err(), "no double holds the deviation");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn an_ensemble_that_is_read_is_whole() {
         let settings = TransientSettings { duration: 0.01, intervals: 3, ..TransientSettings::default() };

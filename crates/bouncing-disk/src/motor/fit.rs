@@ -374,6 +374,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_fit_that_is_read_is_legal() {
         let fit = ExponentialFit { steady_speed: -3.0, time_constant: 0.5, residual: 0.1 };

@@ -460,6 +460,7 @@ mod tests {
         assert!(short.speeds.iter().all(|speed| speed.is_finite()));
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn settings_that_are_read_are_legal() {
         let text = serde_json::to_string(&TransientSettings::default()).expect("writes");
@@ -499,6 +500,7 @@ mod tests {
         assert_eq!(huge, Ok(1.7e308), "its sum is more than a double holds");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_curve_that_is_read_can_be_fitted() {
         let own = curve(&[1.0, 1.5, 1.75]);

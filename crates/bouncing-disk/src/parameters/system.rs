@@ -264,6 +264,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn misspelt_keys_are_refused() {
         let refused =
@@ -293,6 +294,7 @@ mod tests {
         refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn parameters_survive_json_and_illegal_json_is_refused() {
         let text = serde_json::to_string(&system()).unwrap();
