@@ -2,82 +2,21 @@
 
 #![cfg(feature = "serde")]
 
+mod round_trip;
+
 use std::f64::consts::TAU;
 use std::fmt::Debug;
+use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::circular::Concentration;
+use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::reference::first_impact_by_advancement;
 use bouncing_disk_core::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+use serde_json::json;
 
-/// Writes and reads a value; then reads it with a key too many or one too few in each object, and with each of the
-/// `illegal` values at its place (a JSON pointer), where the error must contain the text.
-fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T, illegal: &[(&str, Value, &str)]) {
-    let text = serde_json::to_string(value).expect("writes");
-    let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-    assert_eq!(&read, value);
-    assert_eq!(serde_json::to_string(&read).expect("writes"), text, "the same bits");
-    let mut binary = Vec::new();
-    ciborium::into_writer(value, &mut binary).expect("writes");
-    assert_eq!(&ciborium::from_reader::<T, _>(&*binary).expect("legal"), value);
-
-    let refusal = |changed: &Value| {
-        let error = serde_json::from_value::<T>(changed.clone()).expect_err(&changed.to_string());
-        error.to_string()
-    };
-    let whole = serde_json::to_value(value).expect("writes");
-    for place in objects(&whole) {
-        let mut changed = whole.clone();
-        let object = |changed: &mut Value| changed.pointer_mut(&place).expect("is there").take();
-        let Value::Object(own) = object(&mut changed) else { unreachable!("{place}") };
-        let mut more = own.clone();
-        more.insert("unheard_of".to_owned(), json!(1));
-        *changed.pointer_mut(&place).expect("is there") = Value::Object(more);
-        refusal(&changed);
-        for (key, entry) in own.iter().filter(|(_, entry)| !entry.is_null()) {
-            // An optional number may be absent.
-            if OPTIONAL.contains(&key.as_str()) {
-                continue;
-            }
-            let mut less = own.clone();
-            less.remove(key);
-            *changed.pointer_mut(&place).expect("is there") = Value::Object(less);
-            let error = refusal(&changed);
-            assert!(!error.is_empty(), "{key} {entry}");
-        }
-    }
-    for (place, bad, complaint) in illegal {
-        let mut changed = whole.clone();
-        *changed.pointer_mut(place).unwrap_or_else(|| panic!("{place} in {whole}")) = bad.clone();
-        let error = refusal(&changed);
-        assert!(error.contains(complaint), "{place}: {error}");
-    }
-}
-
-const OPTIONAL: [&str; 1] = ["separation"];
-
-/// The places of all objects in a value.
-fn objects(value: &Value) -> Vec<String> {
-    let within = |key: &str, entry: &Value| {
-        objects(entry).into_iter().map(|place| format!("/{key}{place}")).collect::<Vec<_>>()
-    };
-    match value {
-        Value::Object(map) => {
-            let inner = map.iter().flat_map(|(key, entry)| within(key, entry));
-            std::iter::once(String::new()).chain(inner).collect()
-        }
-        // The elements are alike.
-        Value::Array(list) => list
-            .iter()
-            .enumerate()
-            .take(2)
-            .flat_map(|(index, entry)| within(&index.to_string(), entry))
-            .collect(),
-        _ => Vec::new(),
-    }
-}
+use round_trip::{check, refused};
 
 fn map(axial_forcing: f64) -> ImpactMap {
     ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), 0.5).expect("legal")
@@ -215,11 +154,7 @@ fn every_event_of_an_orbit() {
             |_| Vec::new(),
             |events, event| {
                 events.push(*event);
-                if events.len() < 200 {
-                    std::ops::ControlFlow::Continue(())
-                } else {
-                    std::ops::ControlFlow::Break(())
-                }
+                if events.len() < 200 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );
         for event in &events.expect("no failure")[0] {
@@ -305,6 +240,41 @@ fn basins_and_runs() {
     );
 }
 
+/// Of any platform, disk and policy: what is made is never refused.
+#[test]
+fn whatever_happens_can_be_read() {
+    fn read<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
+        let text = serde_json::to_string(value).expect("writes");
+        let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        assert_eq!(&read, value);
+    }
+    let mut random = SplitMix64::new(7);
+    let mut attachments = 0;
+    for k in 0..600 {
+        // From a platform that hardly moves to one that moves violently.
+        let peak = elementary::exp(elementary::ln(10.0) * (12.0 * random.unit() - 4.0));
+        let peak = if k % 3 == 0 { 1.0 + random.unit() } else { peak };
+        let restitution = if k % 7 == 0 { 0.0 } else { 0.95 * random.unit() };
+        let map = ImpactMap::new(Vibration::new(peak).expect("legal"), restitution).expect("legal");
+        let policy = if k % 2 == 0 { ChatterPolicy::Complete } else { ChatterPolicy::Cut(cut()) };
+        let state =
+            ImpactState::new(Phase::new(TAU * random.unit()).expect("finite"), -2.0 * peak * random.unit());
+        let orbit = map.orbit(state.expect("legal"), policy);
+        for event in orbit.clone().take(60).map_while(Result::ok) {
+            attachments += usize::from(matches!(event, OrbitEvent::Attachment(_)));
+            read(&event);
+        }
+        let visit = |events: &mut u32, event: &SweepEvent| {
+            read(event);
+            *events += 1;
+            if *events < 60 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        // A flight that is too long ends an orbit.
+        let _ = sweep(&[orbit], |_| 0, visit);
+    }
+    assert!(attachments > 100, "{attachments}");
+}
+
 /// JSON holds no such number; a binary format does.
 #[test]
 fn what_is_no_number_is_not_read() {
@@ -320,11 +290,4 @@ fn what_is_no_number_is_not_read() {
         refused(&PeriodDoubling { axial_forcing: 0.5, period: 1, residual: number }, "residual");
         refused(&Multipliers::Real(number, 0.0), "multiplier");
     }
-}
-
-fn refused<T: Serialize + DeserializeOwned + Debug>(value: &T, complaint: &str) {
-    let mut binary = Vec::new();
-    ciborium::into_writer(value, &mut binary).expect("writes");
-    let error = ciborium::from_reader::<T, _>(&*binary).expect_err(complaint).to_string();
-    assert!(error.contains(complaint), "{error}");
 }

@@ -58,7 +58,7 @@ read_checked!(EnergyLedger as UncheckedLedger {
 
 impl EnergyLedger {
     /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         not_negative("axial_magnitude", self.axial_magnitude)?;
         not_negative("rotary_magnitude", self.rotary_magnitude)?;
         all_finite([

@@ -2,7 +2,7 @@
 
 use bouncing_disk_core::read_checked;
 
-use crate::error::{Error, check, finite, not_negative, not_positive};
+use crate::error::{Error, all_finite, check, finite, not_positive};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
@@ -56,7 +56,7 @@ read_checked!(enum Event as UncheckedEvent {
 
 impl Event {
     /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         match *self {
             Self::Impact { axial_impact_velocity, tangential_impact_velocity, .. } => {
                 not_positive("axial_impact_velocity", axial_impact_velocity)?;
@@ -109,11 +109,9 @@ read_checked!(EventRecord as UncheckedRecord {
 });
 
 impl EventRecord {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        not_negative("axial_impulse", self.axial_impulse)?;
-        finite("angular_impulse", self.angular_impulse)?;
-        Ok(())
+    /// Checks what is read. A cut may pull: it gives the disk the platform's velocity, whichever is greater.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        all_finite([("axial_impulse", self.axial_impulse), ("angular_impulse", self.angular_impulse)])
     }
 
     /// Disk and platform during the segment, `fraction` of it in [0, 1] after its start.

@@ -82,7 +82,7 @@ read_checked!(PhaseSpan as UncheckedSpan { periods: u64, remainder: f64 });
 
 impl PhaseSpan {
     /// Checks that what is read is [normalised](Self::normalised).
-    fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         check((0.0..=TAU).contains(&self.remainder), "remainder", self.remainder, "[0, 2 pi] (rad)")?;
         Ok(())
     }

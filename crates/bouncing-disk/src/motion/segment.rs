@@ -30,7 +30,7 @@ read_checked!(Segment as UncheckedSegment {
 
 impl Segment {
     /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         not_negative("chatter_speed", self.chatter_speed.unwrap_or_default()).map(|_| ())
     }
 

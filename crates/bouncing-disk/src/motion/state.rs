@@ -88,7 +88,7 @@ read_checked!(DiskState as UncheckedDisk {
 
 impl DiskState {
     /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let Self { mode: _, height, axial_velocity, angle, angular_speed } = *self;
         check_state(height, axial_velocity, angle, angular_speed)
     }

@@ -130,11 +130,14 @@ impl Trajectory {
 mod tests {
     use bouncing_disk_core::{ChatterPolicy, Phase};
 
+    use proptest::prelude::*;
+
     use super::*;
     use crate::motion::event::Event;
     use crate::motion::initial_condition::InitialCondition;
     use crate::motion::state::Mode;
     use crate::parameters::dimensionless::ForcingParameters;
+    use crate::testing;
 
     fn recorded() -> Trajectory {
         let system =
@@ -182,5 +185,28 @@ mod tests {
         let early = PhaseTime::in_first_period(Phase::new(3.9).unwrap());
         assert!(trajectory.at(late).is_none() && trajectory.at(early).is_none());
         assert_eq!(trajectory.sample([early, trajectory.start(), late]).count(), 1);
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_is_recorded_can_be_read((system, start, policy) in testing::motion()) {
+            let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(()) };
+            let start = engine.time();
+            let mut trajectory = Trajectory { system, start, records: Vec::new() };
+            while let Ok(Some(record)) = engine.advance() {
+                prop_assert_eq!(record.check(), Ok(()));
+                prop_assert_eq!(record.event.check(), Ok(()));
+                prop_assert_eq!(record.before.check(), Ok(()));
+                prop_assert_eq!(record.after.check(), Ok(()));
+                prop_assert_eq!(record.ledger.check(), Ok(()));
+                prop_assert_eq!(record.segment.check(), Ok(()));
+                prop_assert_eq!(record.span.check(), Ok(()));
+                trajectory.records.push(record);
+                if trajectory.records.len() == 200 {
+                    break;
+                }
+            }
+            prop_assert_eq!(trajectory.check(), Ok(()));
+        }
     }
 }
