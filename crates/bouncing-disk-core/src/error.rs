@@ -118,6 +118,16 @@ pub(crate) fn within(
     if value >= low && value <= high { Ok(value) } else { Err(Error::OutOfRange { field, value, legal }) }
 }
 
+/// Checks that `value` is finite.
+pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
+    within(field, value, f64::MIN, f64::MAX, "finite")
+}
+
+/// Checks that `value` is finite and not negative.
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error> {
+    within(field, value, 0.0, f64::MAX, "[0, inf)")
+}
+
 /// An empty vector with room for `count` <= `limit` items. The memory is asked for, so that its lack is an error; the limit is
 /// there because some systems promise memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<Vec<T>, Error> {

@@ -32,6 +32,14 @@
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
 //! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
+//!
+//! | feature | default | what it does |
+//! | --- | --- | --- |
+//! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
+//! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//!
+//! What is read passes the checks of what is made: a value outside its range, a key that is missing and one that is
+//! unknown are errors. An infinite error bound is `null` in JSON, which has no such number.
 
 mod analysis;
 mod chatter;
@@ -42,6 +50,9 @@ mod map;
 pub mod numerics;
 mod observer;
 mod platform;
+// The model reads as the core does.
+#[doc(hidden)]
+pub mod stored;
 #[cfg(test)]
 mod testing;
 

@@ -1,5 +1,6 @@
 //! Numbers for tests that must meet every kind of case.
 
+use core::fmt::Debug;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicU64, Ordering};
 use std::sync::Mutex;
@@ -33,6 +34,33 @@ pub(crate) fn golden_spread(k: u64) -> f64 {
 pub(crate) fn launch_that_may_dip(vibration: &Vibration, k: u64) -> (Phase, f64) {
     let phase = Phase::new(vibration.separation_angle - 2.0 * golden_spread(k)).expect("finite");
     (phase, 1.9 + 0.8 * golden_spread(7 * k) - vibration.velocity(phase))
+}
+
+/// What can be stored, if anything can.
+#[cfg(feature = "serde")]
+pub(crate) trait Storable:
+    Clone + PartialEq + Debug + serde::Serialize + serde::de::DeserializeOwned
+{
+}
+
+#[cfg(feature = "serde")]
+impl<T: Clone + PartialEq + Debug + serde::Serialize + serde::de::DeserializeOwned> Storable for T {}
+
+/// What can be stored, if anything can.
+#[cfg(not(feature = "serde"))]
+pub(crate) trait Storable: Clone + PartialEq + Debug {}
+
+#[cfg(not(feature = "serde"))]
+impl<T: Clone + PartialEq + Debug> Storable for T {}
+
+/// What is read of a value that was written; the value itself where nothing is.
+pub(crate) fn stored<T: Storable>(value: &T) -> T {
+    #[cfg(feature = "serde")]
+    let read = serde_json::from_str(&serde_json::to_string(value).expect("writes")).expect("legal");
+    #[cfg(not(feature = "serde"))]
+    let read = value.clone();
+    assert_eq!(*value, read);
+    read
 }
 
 /// An observer that breaks when it is asked for the nth time and from then on.

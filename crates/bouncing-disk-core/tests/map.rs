@@ -377,7 +377,7 @@ fn orbits_at_their_birth_take_whole_periods() {
             for forcing in [birth.next_down(), birth, birth.next_up(), birth * (1.0 + 1.0e-12)] {
                 let map =
                     ImpactMap::new(Vibration::from_axial_forcing(forcing).unwrap(), restitution).unwrap();
-                let Some(state) = map.period_one(k.into()) else { continue };
+                let Some(state) = map.period_one(k) else { continue };
                 let impact = map.step(state).unwrap();
                 let duration = impact.duration();
                 if impact.velocity > 0.9 * state.velocity() {

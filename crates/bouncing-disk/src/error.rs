@@ -1,5 +1,7 @@
 //! The errors of this crate.
 
+use std::f64::consts::TAU;
+
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -53,6 +55,21 @@ pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.is_finite(), field, value, "finite")
 }
 
+/// Checks that an angle (rad) is that of a phase.
+pub(crate) fn phase_angle(field: &'static str, value: f64) -> Result<f64, Error> {
+    check((0.0..TAU).contains(&value), field, value, "[0, 2 pi) (rad)")
+}
+
+/// Checks that `value` is finite and not positive.
+pub(crate) fn not_positive(field: &'static str, value: f64) -> Result<f64, Error> {
+    check(value <= 0.0 && value.is_finite(), field, value, "(-inf, 0]")
+}
+
+/// Checks that all of these are finite.
+pub(crate) fn all_finite<const N: usize>(values: [(&'static str, f64); N]) -> Result<(), Error> {
+    values.into_iter().try_for_each(|(field, value)| finite(field, value).map(|_| ()))
+}
+
 /// Checks that a coefficient of restitution lies in [0, 1).
 pub(crate) fn restitution(value: f64) -> Result<f64, Error> {
     check((0.0..1.0).contains(&value), "restitution", value, "[0, 1)")
@@ -92,26 +109,3 @@ fn too_large(what: &'static str, count: usize, limit: usize) -> Error {
 pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
     if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
 }
-
-/// Reads a type through its checks: a mirror of its fields, each of which must be there and no other, then
-/// `check` on the whole.
-macro_rules! read_checked {
-    ($type:ident as $mirror:ident { $($field:ident: $kind:ty),+ $(,)? }) => {
-        #[derive(serde::Deserialize)]
-        #[serde(deny_unknown_fields)]
-        struct $mirror {
-            $($field: $kind,)+
-        }
-
-        impl TryFrom<$mirror> for $type {
-            type Error = $crate::error::Error;
-
-            fn try_from(read: $mirror) -> Result<Self, Self::Error> {
-                let value = Self { $($field: read.$field,)+ };
-                value.check()?;
-                Ok(value)
-            }
-        }
-    };
-}
-pub(crate) use read_checked;

@@ -7,13 +7,12 @@ mod starts;
 
 use core::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
-
 use crate::analysis::periodic::PeriodicOrbit;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::observer::{Observer, Unobserved, Watch};
+use crate::read_checked;
 
 pub use run::BasinRun;
 
@@ -33,8 +32,9 @@ pub const MAX_CELLS: u64 = 1 << 31;
 const MAX_KNOWN: f64 = 250.0;
 
 /// One axis of a grid: `cells` cells of equal width from `low` to `high`, each stood for by its centre.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedAxis")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedAxis"))]
 pub struct Axis {
     low: f64,
     high: f64,
@@ -85,26 +85,12 @@ impl Axis {
     }
 }
 
-/// What is read of an [`Axis`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedAxis {
-    low: f64,
-    high: f64,
-    cells: usize,
-}
-
-impl TryFrom<UncheckedAxis> for Axis {
-    type Error = Error;
-
-    fn try_from(axis: UncheckedAxis) -> Result<Self, Error> {
-        Self::new(axis.low, axis.high, axis.cells)
-    }
-}
+read_checked!(Axis as UncheckedAxis { low: f64, high: f64, cells: usize } => Axis::new);
 
 /// A grid of starts: impact phase in periods (tau_imp/2 pi) and normalised impact speed |w_A Gamma/(omega A)|.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedGrid")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedGrid"))]
 pub struct Grid {
     phase: Axis,
     speed: Axis,
@@ -157,45 +143,18 @@ impl Grid {
     }
 }
 
-/// What is read of a [`Grid`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedGrid {
-    phase: Axis,
-    speed: Axis,
-}
-
-impl TryFrom<UncheckedGrid> for Grid {
-    type Error = Error;
-
-    fn try_from(grid: UncheckedGrid) -> Result<Self, Error> {
-        Self::new(grid.phase, grid.speed)
-    }
-}
+read_checked!(Grid as UncheckedGrid { phase: Axis, speed: Axis } => Grid::new);
 
 /// An attracting periodic orbit and how near a start must come to count as caught.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedKnownOrbit")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedKnownOrbit"))]
 pub struct KnownOrbit {
     orbit: PeriodicOrbit,
     radius: f64,
 }
 
-/// What is read of a [`KnownOrbit`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedKnownOrbit {
-    orbit: PeriodicOrbit,
-    radius: f64,
-}
-
-impl TryFrom<UncheckedKnownOrbit> for KnownOrbit {
-    type Error = Error;
-
-    fn try_from(known: UncheckedKnownOrbit) -> Result<Self, Error> {
-        Self::new(known.orbit, known.radius)
-    }
-}
+read_checked!(KnownOrbit as UncheckedKnownOrbit { orbit: PeriodicOrbit, radius: f64 } => KnownOrbit::new);
 
 impl KnownOrbit {
     /// An orbit with the `radius` in radians (a radian counts as much as the speed P) within which it catches: see
@@ -228,8 +187,9 @@ fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
 }
 
 /// How long a start is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct BasinSettings {
     /// Impacts after which a start is left [`UNDECIDED`].
     pub max_impacts: u32,
@@ -245,12 +205,34 @@ impl Default for BasinSettings {
 
 /// Labels of a grid, row by row (speed), lowest speed first; in a row by phase.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedBasins"))]
 pub struct Basins {
     labels: Vec<Label>,
     columns: usize,
 }
 
+read_checked!(Basins as UncheckedBasins {
+    labels: Vec<Label>,
+    columns: usize,
+});
+
 impl Basins {
+    /// Checks what is read: whole rows, one at least, of labels that orbits may have.
+    fn check(&self) -> Result<(), Error> {
+        let Self { labels, columns } = self;
+        within("columns of basins", *columns as f64, 1.0, 100_000.0, "[1, 100000]")?;
+        let rows = labels.len().div_ceil(*columns).max(1);
+        if labels.len() != rows * columns {
+            let (found, expected) = (labels.len() as u64, (rows * columns) as u64);
+            return Err(Error::Unfitting { what: "labels of basins", found, expected });
+        }
+        let most = f64::from(FIRST_ORBIT) + MAX_KNOWN - 1.0;
+        let largest = labels.iter().max().copied().unwrap_or(UNDECIDED);
+        within("label of basins", largest.into(), 0.0, most, "[0, 251]")?;
+        Ok(())
+    }
+
     /// All labels: `phase.cells()` per row, rows by rising speed.
     #[must_use]
     pub fn labels(&self) -> &[Label] {
@@ -413,6 +395,7 @@ mod tests {
         assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn an_axis_that_is_read_is_as_legal_as_one_that_is_made() {
         let own = axis(-1.0, 3.0, 5);
@@ -429,6 +412,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_grid_that_is_read_is_as_legal_as_one_that_is_made() {
         let own = Grid::new(axis(0.0, 1.0, 5), axis(0.0, 2.0, 6)).expect("legal");
@@ -441,6 +425,7 @@ mod tests {
         assert!(serde_json::from_str::<Grid>(&misspelt).expect_err("misspelt").to_string().contains("sped"));
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn settings_with_a_misspelt_key_are_refused() {
         let text = r#"{"max_impacts":7,"policy":"Complete","polcy":"Complete"}"#;

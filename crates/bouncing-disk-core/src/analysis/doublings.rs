@@ -1,17 +1,19 @@
 //! The period-doubling cascade that starts from the orbit with one impact per period.
 
 use roots::{Convergency, SearchError, find_root_brent};
-use serde::{Deserialize, Serialize};
 
-use super::periodic::PeriodicOrbit;
-use crate::error::{Error, within};
+use super::periodic::{MAX_PERIOD, PeriodicOrbit};
+use crate::error::{Error, finite, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::observer::{Observer, Tick, Unobserved, Watch};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
+use crate::read_checked;
 
 /// A period doubling of the cascade that starts from the period-1 orbit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedDoubling"))]
 pub struct PeriodDoubling {
     /// The forcing Gamma_n.
     pub axial_forcing: f64,
@@ -19,6 +21,22 @@ pub struct PeriodDoubling {
     pub period: usize,
     /// det(1 + monodromy) at the forcing found: what the search left.
     pub residual: f64,
+}
+
+read_checked!(PeriodDoubling as UncheckedDoubling {
+    axial_forcing: f64,
+    period: usize,
+    residual: f64,
+});
+
+impl PeriodDoubling {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        Vibration::from_axial_forcing(self.axial_forcing)?;
+        within("period", self.period as f64, 1.0, MAX_PERIOD as f64, "[1, 4096]")?;
+        finite("residual", self.residual)?;
+        Ok(())
+    }
 }
 
 /// Root only where the function is exactly zero or the bracket a few neighbouring doubles.
@@ -79,8 +97,9 @@ pub fn period_doublings_observed(
 /// assert_eq!(run.found(), period_doublings(0.5, 4)?);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedRun")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRun"))]
 pub struct DoublingsRun {
     restitution: f64,
     found: Vec<PeriodDoubling>,
@@ -88,40 +107,11 @@ pub struct DoublingsRun {
     orbit: Option<PeriodicOrbit>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedRun {
+read_checked!(DoublingsRun as UncheckedRun {
     restitution: f64,
     found: Vec<PeriodDoubling>,
     orbit: Option<PeriodicOrbit>,
-}
-
-impl TryFrom<UncheckedRun> for DoublingsRun {
-    type Error = Error;
-
-    fn try_from(read: UncheckedRun) -> Result<Self, Error> {
-        let UncheckedRun { restitution, found, orbit } = read;
-        let run = Self { found, orbit, ..Self::new(restitution)? };
-        within_cascade(run.found.len())?;
-        // The forcings of a cascade rise, and its periods double.
-        for (index, doubling) in run.found.iter().enumerate() {
-            let least = if index == 0 { 0.0 } else { run.found[index - 1].axial_forcing.next_up() };
-            within(
-                "forcing of a doubling",
-                doubling.axial_forcing,
-                least,
-                f64::MAX,
-                "(that of the one before, inf)",
-            )?;
-            let period = (1_u64 << index) as f64;
-            within("period of a doubling", doubling.period as f64, period, period, "2^n for the n-th one")?;
-        }
-        let (period, last) = (run.orbit.as_ref().map_or(0, PeriodicOrbit::period), run.found.last());
-        let expected = last.map_or(0, |last| last.period) as f64;
-        within("period of the last orbit", period as f64, expected, expected, "that of the last doubling")?;
-        Ok(run)
-    }
-}
+});
 
 fn within_cascade(count: usize) -> Result<(), Error> {
     within("count", count as f64, 0.0, 10.0, "[0, 10]").map(drop)
@@ -135,6 +125,29 @@ impl DoublingsRun {
     pub fn new(restitution: f64) -> Result<Self, Error> {
         within("restitution", restitution, f64::MIN_POSITIVE, 1.0 - f64::EPSILON, "(0, 1)")?;
         Ok(Self { restitution, found: Vec::new(), orbit: None })
+    }
+
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        Self::new(self.restitution)?;
+        within_cascade(self.found.len())?;
+        // The forcings of a cascade rise, and its periods double.
+        for (index, doubling) in self.found.iter().enumerate() {
+            let least = if index == 0 { 0.0 } else { self.found[index - 1].axial_forcing.next_up() };
+            within(
+                "forcing of a doubling",
+                doubling.axial_forcing,
+                least,
+                f64::MAX,
+                "(that of the one before, inf)",
+            )?;
+            let period = (1_u64 << index) as f64;
+            within("period of a doubling", doubling.period as f64, period, period, "2^n for the n-th one")?;
+        }
+        let (period, last) = (self.orbit.as_ref().map_or(0, PeriodicOrbit::period), self.found.last());
+        let expected = last.map_or(0, |last| last.period) as f64;
+        within("period of the last orbit", period as f64, expected, expected, "that of the last doubling")?;
+        Ok(())
     }
 
     /// The coefficient of restitution.
@@ -303,6 +316,7 @@ mod tests {
     }
 
     /// Stopped after so many calls, written, read and gone on with: the doublings of one call.
+    #[cfg(feature = "serde")]
     #[test]
     fn a_cascade_that_is_stopped_keeps_what_it_has_found() {
         let at_once = period_doublings(0.5, 6).expect("nobody stops it");
@@ -326,6 +340,7 @@ mod tests {
         assert_eq!(run.found(), at_once, "fewer than there are");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_stored_cascade_that_is_none_is_refused() {
         let mut run = DoublingsRun::new(0.5).expect("legal");

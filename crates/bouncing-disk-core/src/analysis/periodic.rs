@@ -3,15 +3,15 @@
 use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
-use serde::{Deserialize, Serialize};
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, within};
+use crate::error::{Error, finite, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::acos;
 use crate::observer::{Observer, Tick, Unobserved, Watch};
 use crate::platform::phase::Phase;
+use crate::read_checked;
 
 /// Newton steps of the multiple shooting before it gives up.
 const MAX_NEWTON_STEPS: u32 = 50;
@@ -23,7 +23,9 @@ const SHOOTING_RESIDUAL: f64 = 1.0e-12;
 pub const MAX_PERIOD: usize = 4_096;
 
 /// A real number or a pair of conjugates: the two Floquet multipliers of an orbit of the 2-D impact map.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMultipliers"))]
 pub enum Multipliers {
     /// Two real multipliers, the one of larger modulus first.
     Real(f64, f64),
@@ -36,7 +38,32 @@ pub enum Multipliers {
     },
 }
 
+/// How far rounding may make the second of two equal multipliers the larger one.
+const MULTIPLIER_ROUNDING: f64 = 1.0e-12;
+
+read_checked!(enum Multipliers as UncheckedMultipliers {
+    Real(large: f64, small: f64),
+    Complex { real: f64, imaginary: f64 },
+});
+
 impl Multipliers {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::Real(large, small) => {
+                finite("multiplier", large)?;
+                let most = large.abs() * (1.0 + MULTIPLIER_ROUNDING);
+                within("second multiplier", small, -most, most, "not larger than the first")?;
+            }
+            Self::Complex { real, imaginary } => {
+                finite("real part of a multiplier", real)?;
+                let least = f64::from_bits(1);
+                within("imaginary part of a multiplier", imaginary, least, f64::MAX, "(0, inf)")?;
+            }
+        }
+        Ok(())
+    }
+
     /// The eigenvalues of a real 2x2 matrix, in closed form without cancellation.
     #[must_use]
     pub fn of(matrix: DMat2) -> Self {
@@ -76,8 +103,9 @@ impl core::fmt::Display for Multipliers {
 }
 
 /// A periodic orbit of the impact map.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedOrbit"))]
 pub struct PeriodicOrbit {
     /// The impacts of one period of the orbit, in their order.
     pub states: Vec<ImpactState>,
@@ -87,7 +115,35 @@ pub struct PeriodicOrbit {
     pub monodromy: DMat2,
 }
 
+read_checked!(PeriodicOrbit as UncheckedOrbit {
+    states: Vec<ImpactState>,
+    platform_periods: u64,
+    monodromy: DMat2,
+});
+
 impl PeriodicOrbit {
+    /// Checks what is read: what [`ImpactMap::refine`] may find.
+    fn check(&self) -> Result<(), Error> {
+        let most = MAX_PERIOD as f64;
+        within("impacts of a periodic orbit", self.states.len() as f64, 1.0, most, "[1, 4096]")?;
+        for entry in self.monodromy.to_cols_array() {
+            finite("derivative around a periodic orbit", entry)?;
+        }
+        self.check_motion()
+    }
+
+    /// Refuses a disk at rest.
+    fn check_motion(&self) -> Result<(), Error> {
+        if let Some(index) = self.states.iter().position(|state| state.velocity() >= 0.0) {
+            return Err(Error::ImpactWithoutSpeed { index, phase: self.states[index].phase().angle() });
+        }
+        if self.platform_periods == 0 {
+            let speed = self.states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
+            return Err(Error::NoPlatformPeriods { impacts: self.states.len(), speed });
+        }
+        Ok(())
+    }
+
     /// Number of impacts in one period of the orbit.
     #[must_use]
     pub fn period(&self) -> usize {
@@ -120,13 +176,7 @@ struct Shooting {
 
 /// A solution of the multiple shooting, unless it is a disk at rest.
 fn accepted(orbit: PeriodicOrbit) -> Result<PeriodicOrbit, Error> {
-    if let Some(index) = orbit.states.iter().position(|state| state.velocity() >= 0.0) {
-        return Err(Error::ImpactWithoutSpeed { index, phase: orbit.states[index].phase().angle() });
-    }
-    if orbit.platform_periods == 0 {
-        let speed = orbit.states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
-        return Err(Error::NoPlatformPeriods { impacts: orbit.states.len(), speed });
-    }
+    orbit.check_motion()?;
     Ok(orbit)
 }
 

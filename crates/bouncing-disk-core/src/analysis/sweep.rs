@@ -7,14 +7,13 @@ mod runner;
 use core::f64::consts::TAU;
 use core::ops::ControlFlow;
 
-use serde::Serialize;
-
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
+use crate::error::{Error, not_negative};
 use crate::flight::impact::Impact;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 use crate::observer::{Observer, Unobserved};
 use crate::platform::phase::Phase;
+use crate::read_checked;
 
 pub use measures::{
     MAX_RECORDED, orbit_diagram, orbit_diagram_observed, survival_times, survival_times_observed,
@@ -22,7 +21,8 @@ pub use measures::{
 pub use run::{PartialResults, SweepRun};
 
 /// One event of an orbit of a sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum SweepEvent {
     /// The disk hits the platform.
@@ -32,7 +32,9 @@ pub enum SweepEvent {
 }
 
 /// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweepImpact"))]
 pub struct SweepImpact {
     /// The impact.
     pub state: ImpactState,
@@ -43,7 +45,18 @@ pub struct SweepImpact {
     pub duration: f64,
 }
 
+read_checked!(SweepImpact as UncheckedSweepImpact {
+    state: ImpactState,
+    turns: u64,
+    duration: f64,
+});
+
 impl SweepImpact {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        not_negative("duration", self.duration).map(|_| ())
+    }
+
     #[inline(always)]
     fn new(from: Phase, state: ImpactState, turns: u64) -> Self {
         let ahead = state.phase().angle() - from.angle();

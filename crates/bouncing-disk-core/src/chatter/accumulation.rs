@@ -8,13 +8,13 @@
 
 use core::f64::consts::TAU;
 
-use serde::Serialize;
-
 use super::expansion::{Expansion, LAST_SHARE, MAJORANT};
 use super::series::ChatterSeries;
+use crate::error::{Error, not_negative, within};
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
-use crate::platform::phase::Phase;
+use crate::platform::phase::{PAIR_TOLERANCE, Phase};
 use crate::platform::vibration::Vibration;
+use crate::read_checked;
 
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
 /// doubles in [pi/2, pi].
@@ -33,7 +33,9 @@ const PULL_SHARES: (f64, f64) = (0.6, 1.4);
 const WINDOW_ROUNDING: f64 = 1.0e-14;
 
 /// The accumulation point of a chattering sequence.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedAccumulation"))]
 pub struct Accumulation {
     /// Time from the last impact to the accumulation point, in radians.
     pub duration: f64,
@@ -45,8 +47,28 @@ pub struct Accumulation {
     pub turns: u64,
 }
 
+read_checked!(Accumulation as UncheckedAccumulation {
+    duration: f64,
+    #[serde(deserialize_with = "crate::stored::infinite_if_none")]
+    error_bound: f64,
+    phase: Phase,
+    turns: u64,
+});
+
+impl Accumulation {
+    /// Checks what is read. There is no bound on what a cut leaves out: it is infinite.
+    fn check(&self) -> Result<(), Error> {
+        not_negative("duration", self.duration)?;
+        within("error_bound", self.error_bound, 0.0, f64::INFINITY, "[0, inf] (rad)")?;
+        within("turns", self.turns as f64, 0.0, 1.0, "0 or 1")?;
+        Ok(())
+    }
+}
+
 /// One impact of a chattering sequence, from the expansion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedChatterImpact"))]
 pub struct ChatterImpact {
     /// Time since the impact that the sequence started from, in radians.
     pub time: f64,
@@ -54,6 +76,24 @@ pub struct ChatterImpact {
     pub speed: f64,
     /// Phase pair (sin, cos) at this impact.
     pub pair: (f64, f64),
+}
+
+read_checked!(ChatterImpact as UncheckedChatterImpact {
+    time: f64,
+    speed: f64,
+    pair: (f64, f64),
+});
+
+impl ChatterImpact {
+    /// Checks what is read: the pair as that of a [`Phase`].
+    fn check(&self) -> Result<(), Error> {
+        not_negative("time", self.time)?;
+        not_negative("speed", self.speed)?;
+        let (sin, cos) = self.pair;
+        let (low, high) = (1.0 - PAIR_TOLERANCE, 1.0 + PAIR_TOLERANCE);
+        within("length of a pair", (sin * sin + cos * cos).sqrt(), low, high, "within 1e-9 of 1")?;
+        Ok(())
+    }
 }
 
 impl Vibration {

@@ -2,12 +2,12 @@
 
 use core::f64::consts::{PI, TAU};
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::Error;
+use crate::read_checked;
 
 /// What is done with the infinite sequence of impacts of a chattering disk.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ChatterPolicy {
     /// The sequence is summed in closed form and the disk attaches at the accumulation point; only where a bound
@@ -23,30 +23,20 @@ pub enum ChatterPolicy {
 /// speed, or after so many consecutive flights that are shorter than a short one.
 ///
 /// A cut that never applies leaves a chattering disk bouncing until its speed underflows.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Parameters")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCut"))]
 pub struct ChatterCut {
     smallest_speed: f64,
     short_flight: f64,
     short_flights: u32,
 }
 
-/// A cut as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Parameters {
+read_checked!(ChatterCut as UncheckedCut {
     smallest_speed: f64,
     short_flight: f64,
     short_flights: u32,
-}
-
-impl TryFrom<Parameters> for ChatterCut {
-    type Error = Error;
-
-    fn try_from(of: Parameters) -> Result<Self, Error> {
-        Self::new(of.smallest_speed, of.short_flight, of.short_flights)
-    }
-}
+} => ChatterCut::new);
 
 const fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> Result<ChatterCut, Error> {
     Err(Error::OutOfRange { field, value, legal })
@@ -99,7 +89,7 @@ impl ChatterCut {
 }
 
 /// Counts what a cut needs to remember.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct ShortFlightCount(u32);
 
 impl ShortFlightCount {
@@ -154,6 +144,11 @@ mod tests {
         {
             assert!(matches!(ChatterCut::new(speed, flight, flights), Err(Error::OutOfRange { .. })));
         }
+    }
+
+    #[cfg(feature = "serde")]
+    #[test]
+    fn a_cut_that_is_read_is_legal() {
         let text = serde_json::to_string(&PAPER_CUT).expect("serialisable");
         assert_eq!(serde_json::from_str::<ChatterCut>(&text).expect("legal"), PAPER_CUT);
         for text in [

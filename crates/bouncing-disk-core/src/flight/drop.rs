@@ -42,6 +42,23 @@ const SLOWEST_BRIEF: f64 = 1.0e-200;
 const PATIENCE: u32 = 40;
 const MAX_EVALUATIONS: u32 = 200;
 
+/// Checks that a disk may start in the air at `gap` with `relative_velocity`: the ranges of
+/// [`Vibration::first_impact_of_drop`].
+///
+/// # Errors
+/// [`Error::OutOfRange`] names the number.
+pub fn check_drop(gap: f64, relative_velocity: f64) -> Result<(), Error> {
+    within("gap", gap, f64::MIN_POSITIVE, LARGEST_GAP, "[2.3e-308, 1e17] (units of g/omega^2)")?;
+    within(
+        "relative_velocity",
+        relative_velocity,
+        -LARGEST_VELOCITY,
+        LARGEST_VELOCITY,
+        "[-1e9, 1e9] (units of g/omega)",
+    )?;
+    Ok(())
+}
+
 impl Vibration {
     /// The first impact of a disk that at `phase` is `gap` above the platform, a normal number up to 1e17 (units of g/omega^2), and
     /// moves with `relative_velocity` in [-1e9, 1e9] (disk minus platform, units of g/omega, of either sign).
@@ -58,14 +75,7 @@ impl Vibration {
         gap: f64,
         relative_velocity: f64,
     ) -> Result<Impact, Error> {
-        within("gap", gap, f64::MIN_POSITIVE, LARGEST_GAP, "[2.3e-308, 1e17] (units of g/omega^2)")?;
-        within(
-            "relative_velocity",
-            relative_velocity,
-            -LARGEST_VELOCITY,
-            LARGEST_VELOCITY,
-            "[-1e9, 1e9] (units of g/omega)",
-        )?;
+        check_drop(gap, relative_velocity)?;
         let impact = self.impact_of_drop(phase, gap, relative_velocity);
         #[cfg(debug_assertions)]
         if let Ok(impact) = &impact {

@@ -2,12 +2,14 @@
 
 use core::f64::consts::TAU;
 
-use serde::Serialize;
-
+use crate::error::{Error, within};
 use crate::platform::phase::Phase;
+use crate::read_checked;
 
 /// The first impact after a launch.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedImpact"))]
 pub struct Impact {
     /// Whole periods of the duration of the flight.
     pub periods: u64,
@@ -23,7 +25,23 @@ pub struct Impact {
     pub evaluations: u32,
 }
 
+read_checked!(Impact as UncheckedImpact {
+    periods: u64,
+    remainder: f64,
+    turns: u64,
+    phase: Phase,
+    velocity: f64,
+    evaluations: u32,
+});
+
 impl Impact {
+    /// Checks what is read; rounding may take the remainder to 2 pi.
+    fn check(&self) -> Result<(), Error> {
+        within("remainder", self.remainder, 0.0, TAU, "[0, 2 pi] (rad)")?;
+        within("velocity", self.velocity, f64::MIN, 0.0, "(-inf, 0] (units of g/omega)")?;
+        Ok(())
+    }
+
     /// Duration of the flight in radians (rounded: the exact value is `periods` and `remainder`).
     #[must_use]
     pub fn duration(&self) -> f64 {

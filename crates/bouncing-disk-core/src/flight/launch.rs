@@ -1,16 +1,19 @@
 //! A launch of the disk from the platform.
 
-use serde::Serialize;
-
 use crate::error::Error;
 use crate::platform::phase::Phase;
+use crate::read_checked;
 
 /// A launch of the disk from the platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedLaunch"))]
 pub struct Launch {
     phase: Phase,
     relative_speed: f64,
 }
+
+read_checked!(Launch as UncheckedLaunch { phase: Phase, relative_speed: f64 } => Launch::new);
 
 impl Launch {
     /// A launch at `phase` with `relative_speed` >= 0 (disk minus platform, in units of g/omega).

@@ -1,20 +1,21 @@
 //! The impact map (next-collision map) of the vertical motion, and its orbits.
 
 use glam::{DMat2, DVec2};
-use serde::{Deserialize, Serialize};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
-use crate::error::{Error, within};
+use crate::error::{Error, not_negative, within};
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
 use crate::observer::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
+use crate::read_checked;
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedState")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedState"))]
 pub struct ImpactState {
     phase: Phase,
     velocity: f64,
@@ -31,21 +32,7 @@ impl core::fmt::Display for ImpactState {
     }
 }
 
-/// What is read of an [`ImpactState`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedState {
-    phase: Phase,
-    velocity: f64,
-}
-
-impl TryFrom<UncheckedState> for ImpactState {
-    type Error = Error;
-
-    fn try_from(state: UncheckedState) -> Result<Self, Error> {
-        Self::new(state.phase, state.velocity)
-    }
-}
+read_checked!(ImpactState as UncheckedState { phase: Phase, velocity: f64 } => ImpactState::new);
 
 impl ImpactState {
     /// An impact at `phase` with relative axial velocity `velocity` <= 0 (disk minus platform, units of g/omega).
@@ -110,8 +97,9 @@ impl From<&Impact> for ImpactState {
 }
 
 /// The vertical impact map: vibration of the platform and coefficient of restitution.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedMap")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMap"))]
 pub struct ImpactMap {
     vibration: Vibration,
     restitution: f64,
@@ -124,21 +112,7 @@ impl core::fmt::Display for ImpactMap {
     }
 }
 
-/// What is read of an [`ImpactMap`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedMap {
-    vibration: Vibration,
-    restitution: f64,
-}
-
-impl TryFrom<UncheckedMap> for ImpactMap {
-    type Error = Error;
-
-    fn try_from(map: UncheckedMap) -> Result<Self, Error> {
-        Self::new(map.vibration, map.restitution)
-    }
-}
+read_checked!(ImpactMap as UncheckedMap { vibration: Vibration, restitution: f64 } => ImpactMap::new);
 
 impl ImpactMap {
     /// The map of a disk with `restitution` in [0, 1) on a vibrating platform.
@@ -292,7 +266,8 @@ impl ImpactMap {
 }
 
 /// One event of the vertical motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum OrbitEvent {
     /// The disk hits the platform.
@@ -302,7 +277,9 @@ pub enum OrbitEvent {
 }
 
 /// A spell of contact between the end of a chattering sequence and the next separation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttachment"))]
 pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] the last impact itself,
     /// with duration zero and no bound on what was cut off (`error_bound` is infinite unless the speed was 0).
@@ -312,6 +289,23 @@ pub struct Attachment {
     /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to there;
     /// `None` if the disk rests for ever (P <= 1).
     pub separation: Option<(Phase, u64)>,
+}
+
+read_checked!(Attachment as UncheckedAttachment {
+    accumulation: Accumulation,
+    last_speed: f64,
+    separation: Option<(Phase, u64)>,
+});
+
+impl Attachment {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        not_negative("last_speed", self.last_speed)?;
+        if let Some((_, turns)) = self.separation {
+            within("turns before the separation", turns as f64, 0.0, 1.0, "0 or 1")?;
+        }
+        Ok(())
+    }
 }
 
 /// What the disk does next.

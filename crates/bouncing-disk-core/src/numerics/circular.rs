@@ -1,8 +1,10 @@
 //! How far angles extend on a circle, whose end is its beginning, and where on it they are concentrated.
 
-use serde::{Deserialize, Serialize};
+use core::f64::consts::PI;
 
+use crate::error::{Error, within};
 use crate::numerics::elementary::{atan2, cos, hypot, sin_cos};
+use crate::read_checked;
 
 /// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap
 /// between neighbours. Zero for one phase, `None` for none.
@@ -26,7 +28,9 @@ pub fn distance(one: f64, other: f64) -> f64 {
 }
 
 /// First trigonometric moment of weights at phases: where they are concentrated, and how much.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedConcentration"))]
 pub struct Concentration {
     /// Mean direction (rad), from -pi to pi.
     pub mean_direction_rad: f64,
@@ -34,7 +38,22 @@ pub struct Concentration {
     pub resultant_length: f64,
 }
 
+/// How far rounding may take the resultant length above 1: that of some million weights.
+const LENGTH_ROUNDING: f64 = 1.0e-9;
+
+read_checked!(Concentration as UncheckedConcentration {
+    mean_direction_rad: f64,
+    resultant_length: f64,
+});
+
 impl Concentration {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        within("mean_direction_rad", self.mean_direction_rad, -PI, PI, "[-pi, pi] (rad)")?;
+        within("resultant_length", self.resultant_length, 0.0, 1.0 + LENGTH_ROUNDING, "[0, 1]")?;
+        Ok(())
+    }
+
     /// Of (phase in rad, weight); `None` without weight.
     pub fn of(weights: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
         let (mut cosine, mut sine, mut total) = (0.0, 0.0, 0.0);

@@ -2,10 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::Error;
 use crate::numerics::elementary::{sin_cos, wrapped_angle};
+use crate::read_checked;
 
 /// A phase of the platform's cycle: the angle tau in [0, 2 pi) with its sine and cosine.
 ///
@@ -21,8 +20,9 @@ use crate::numerics::elementary::{sin_cos, wrapped_angle};
 ///
 /// All three numbers are stored, so that an orbit goes on bit for bit from a phase that is read. One that is
 /// read has its angle in [0, 2 pi) and a pair within 1e-9 of the sine and cosine of that angle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedPhase")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPhase"))]
 pub struct Phase {
     angle: f64,
     sin: f64,
@@ -39,21 +39,14 @@ impl core::fmt::Display for Phase {
 
 /// How far a pair that is read may be from the angle's: far more than any orbit drifts, far less than another
 /// angle shows.
-const PAIR_TOLERANCE: f64 = 1.0e-9;
+pub(crate) const PAIR_TOLERANCE: f64 = 1.0e-9;
 
-/// What is read of a [`Phase`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedPhase {
-    angle: f64,
-    sin: f64,
-    cos: f64,
-}
+read_checked!(Phase as UncheckedPhase { angle: f64, sin: f64, cos: f64 });
 
-impl TryFrom<UncheckedPhase> for Phase {
-    type Error = Error;
-
-    fn try_from(UncheckedPhase { angle, sin, cos }: UncheckedPhase) -> Result<Self, Error> {
+impl Phase {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let Self { angle, sin, cos } = *self;
         let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });
         if !(0.0..TAU).contains(&angle) {
             return illegal("angle of a phase", angle, "[0, 2 pi) (rad)");
@@ -66,11 +59,9 @@ impl TryFrom<UncheckedPhase> for Phase {
                 return illegal(field, value, "within 1e-9 of that of its angle");
             }
         }
-        Ok(Self { angle, sin, cos })
+        Ok(())
     }
-}
 
-impl Phase {
     /// The phase at `angle` radians; any finite angle is reduced to [0, 2 pi).
     ///
     /// # Errors
@@ -129,7 +120,7 @@ impl Phase {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "serde"))]
 mod tests {
     use super::*;
 

@@ -2,39 +2,39 @@
 
 use core::f64::consts::{PI, TAU};
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::{Error, within};
 use crate::numerics::elementary::{CREST, asin};
 use crate::platform::crests::Crests;
 use crate::platform::phase::Phase;
+use crate::read_checked;
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.
 ///
 /// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the preload
 /// acceleration. In these units P is also its amplitude and its peak speed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedVibration")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedVibration"))]
 pub struct Vibration {
     peak_acceleration: f64,
     /// Phase sigma at which P sin tau rises through 1 (pi/2 if it never does): a disk at rest separates, and
     /// the curvature of the gap turns positive.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) separation_angle: f64,
     /// pi - sigma: the curvature of the gap turns negative again.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) retention_angle: f64,
     /// P cos sigma: the platform's speed at separation, zero for P <= 1.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) separation_speed: f64,
     /// P - P sin sigma: how far the platform is below its crest at separation.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) separation_depth: f64,
     /// A gap at a crest or an inflection that may be rounding only, in the crest form.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) doubtful_gap: f64,
     /// Which launches clear the first crest for certain.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) crests: Crests,
 }
 
@@ -45,20 +45,7 @@ impl core::fmt::Display for Vibration {
     }
 }
 
-/// What is read of a [`Vibration`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UncheckedVibration {
-    peak_acceleration: f64,
-}
-
-impl TryFrom<UncheckedVibration> for Vibration {
-    type Error = Error;
-
-    fn try_from(vibration: UncheckedVibration) -> Result<Self, Error> {
-        Self::new(vibration.peak_acceleration)
-    }
-}
+read_checked!(Vibration as UncheckedVibration { peak_acceleration: f64 } => Vibration::new);
 
 impl Vibration {
     /// Largest peak acceleration accepted (units of g).

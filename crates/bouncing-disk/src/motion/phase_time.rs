@@ -3,12 +3,15 @@
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::Phase;
 use bouncing_disk_core::elementary::wrapped_angle;
-use serde::Serialize;
+use bouncing_disk_core::{Phase, read_checked};
+
+use crate::error::{Error, check};
 
 /// An instant: `periods` whole periods of the platform after phase 0 of its first period, and a phase.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PhaseTime {
     /// Whole periods.
     pub periods: u64,
@@ -65,7 +68,9 @@ impl PhaseTime {
 /// A duration: whole periods and a remainder in radians.
 ///
 /// Whatever takes a span takes any, and reads it as [`Self::normalised`] says.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSpan"))]
 pub struct PhaseSpan {
     /// Whole periods.
     pub periods: u64,
@@ -73,7 +78,15 @@ pub struct PhaseSpan {
     pub remainder: f64,
 }
 
+read_checked!(PhaseSpan as UncheckedSpan { periods: u64, remainder: f64 });
+
 impl PhaseSpan {
+    /// Checks that what is read is [normalised](Self::normalised).
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        check((0.0..=TAU).contains(&self.remainder), "remainder", self.remainder, "[0, 2 pi] (rad)")?;
+        Ok(())
+    }
+
     /// No time at all.
     pub const ZERO: Self = Self { periods: 0, remainder: 0.0 };
 

@@ -1,13 +1,14 @@
 //! The state of the disk and of the platform at an instant.
 
-use bouncing_disk_core::Phase;
-use serde::{Deserialize, Serialize};
+use bouncing_disk_core::{Phase, read_checked};
 
+use crate::error::{Error, all_finite};
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Which way the disk slips over the platform.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SlipDirection {
     /// The disk turns faster than the platform.
     Forward,
@@ -47,7 +48,8 @@ impl SlipDirection {
 }
 
 /// How the disk moves between two events.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
     /// Free of the platform.
     Flight,
@@ -58,7 +60,9 @@ pub enum Mode {
 }
 
 /// The disk's state, dimensionless (see [`crate::Scales`] for the units).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedDisk"))]
 pub struct DiskState {
     /// How it moves.
     pub mode: Mode,
@@ -74,8 +78,36 @@ pub struct DiskState {
     pub angular_speed: f64,
 }
 
+read_checked!(DiskState as UncheckedDisk {
+    mode: Mode,
+    height: f64,
+    axial_velocity: f64,
+    angle: f64,
+    angular_speed: f64,
+});
+
+impl DiskState {
+    /// Checks what is read.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let Self { mode: _, height, axial_velocity, angle, angular_speed } = *self;
+        check_state(height, axial_velocity, angle, angular_speed)
+    }
+}
+
+/// Checks the numbers of a state of the disk or of the platform.
+fn check_state(height: f64, axial_velocity: f64, angle: f64, angular_speed: f64) -> Result<(), Error> {
+    all_finite([
+        ("height", height),
+        ("axial_velocity", axial_velocity),
+        ("angle", angle),
+        ("angular_speed", angular_speed),
+    ])
+}
+
 /// The platform's state, dimensionless.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPlatform"))]
 pub struct PlatformState {
     /// Height, in units of g/omega^2.
     pub height: f64,
@@ -87,7 +119,20 @@ pub struct PlatformState {
     pub angular_speed: f64,
 }
 
+read_checked!(PlatformState as UncheckedPlatform {
+    height: f64,
+    axial_velocity: f64,
+    angle: f64,
+    angular_speed: f64,
+});
+
 impl PlatformState {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let Self { height, axial_velocity, angle, angular_speed } = *self;
+        check_state(height, axial_velocity, angle, angular_speed)
+    }
+
     /// The platform at `phase`.
     #[must_use]
     pub fn at(system: &DimensionlessSystem, phase: Phase) -> Self {
@@ -101,7 +146,9 @@ impl PlatformState {
 }
 
 /// Disk and platform at an instant.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Snapshot {
     /// The instant.
     pub time: PhaseTime,

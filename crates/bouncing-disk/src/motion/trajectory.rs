@@ -2,7 +2,9 @@
 
 use std::cmp::Ordering;
 
-use crate::error::Error;
+use bouncing_disk_core::read_checked;
+
+use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::EventRecord;
@@ -11,14 +13,37 @@ use crate::motion::state::Snapshot;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// The events of a motion up to some point, and the motion between them.
+///
+/// The times of one that is read do not run back.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedTrajectory"))]
 pub struct Trajectory {
     system: DimensionlessSystem,
     start: PhaseTime,
     records: Vec<EventRecord>,
 }
 
+read_checked!(Trajectory as UncheckedTrajectory {
+    system: DimensionlessSystem,
+    start: PhaseTime,
+    records: Vec<EventRecord>,
+});
+
 impl Trajectory {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let mut last = self.start;
+        for EventRecord { time, segment, .. } in &self.records {
+            for time in [segment.start, *time] {
+                let later = time.order(&last) != Ordering::Less;
+                check(later, "time of an event (periods)", time.cycles(), "not before the event before")?;
+                last = time;
+            }
+        }
+        Ok(())
+    }
+
     /// Runs `engine` on until `last` is true of an event, which is still recorded, or until it ends.
     ///
     /// A disk that bounces or slips for ever needs a `last` that becomes true.
@@ -105,11 +130,14 @@ impl Trajectory {
 mod tests {
     use bouncing_disk_core::{ChatterPolicy, Phase};
 
+    use proptest::prelude::*;
+
     use super::*;
     use crate::motion::event::Event;
     use crate::motion::initial_condition::InitialCondition;
     use crate::motion::state::Mode;
     use crate::parameters::dimensionless::ForcingParameters;
+    use crate::testing;
 
     fn recorded() -> Trajectory {
         let system =
@@ -157,5 +185,28 @@ mod tests {
         let early = PhaseTime::in_first_period(Phase::new(3.9).unwrap());
         assert!(trajectory.at(late).is_none() && trajectory.at(early).is_none());
         assert_eq!(trajectory.sample([early, trajectory.start(), late]).count(), 1);
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_is_recorded_can_be_read((system, start, policy) in testing::motion()) {
+            let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(()) };
+            let start = engine.time();
+            let mut trajectory = Trajectory { system, start, records: Vec::new() };
+            while let Ok(Some(record)) = engine.advance() {
+                prop_assert_eq!(record.check(), Ok(()));
+                prop_assert_eq!(record.event.check(), Ok(()));
+                prop_assert_eq!(record.before.check(), Ok(()));
+                prop_assert_eq!(record.after.check(), Ok(()));
+                prop_assert_eq!(record.ledger.check(), Ok(()));
+                prop_assert_eq!(record.segment.check(), Ok(()));
+                prop_assert_eq!(record.span.check(), Ok(()));
+                trajectory.records.push(record);
+                if trajectory.records.len() == 200 {
+                    break;
+                }
+            }
+            prop_assert_eq!(trajectory.check(), Ok(()));
+        }
     }
 }

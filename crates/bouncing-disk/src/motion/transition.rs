@@ -1,12 +1,11 @@
 //! Which events lead from which mode to which: the flow chart of the simulation (Sec. II B, Fig. 3).
 
-use serde::{Deserialize, Serialize};
-
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::state::Mode;
 
 /// A [`Mode`] without its direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ModeKind {
     /// [`Mode::Flight`].
     Flight,
@@ -22,7 +21,8 @@ impl ModeKind {
 }
 
 /// An [`Event`] without its numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum EventKind {
     /// [`Event::Impact`].
@@ -52,8 +52,9 @@ impl EventKind {
 }
 
 /// An event with the modes before and after it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Transition {
     /// The mode that the event ends.
     pub from: ModeKind,

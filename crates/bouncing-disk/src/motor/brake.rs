@@ -1,12 +1,13 @@
 //! Braking: the friction coefficient from the deceleration of a disk on a platform at rest.
 
-use serde::{Deserialize, Serialize};
+use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check, finite, not_negative, positive};
 
 /// A disk that slides on a platform at rest, and how its angular speed changes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedBraking"))]
 pub struct Braking {
     /// Angular acceleration (rad/s^2) of a disk with a positive angular speed: not positive, since it slows down.
     pub angular_acceleration: f64,
@@ -20,6 +21,26 @@ pub struct Braking {
     pub gyration_radius: f64,
 }
 
+read_checked!(Braking as UncheckedBraking {
+    angular_acceleration: f64,
+    normal_force: f64,
+    mass: f64,
+    contact_radius: f64,
+    gyration_radius: f64,
+});
+
+impl Braking {
+    fn check(&self) -> Result<(), Error> {
+        let slowing = finite("angular_acceleration", self.angular_acceleration)?;
+        check(slowing <= 0.0, "angular_acceleration", slowing, "(-inf, 0] (rad/s^2)")?;
+        positive("normal_force", self.normal_force)?;
+        positive("mass", self.mass)?;
+        positive("contact_radius", self.contact_radius)?;
+        positive("gyration_radius", self.gyration_radius)?;
+        Ok(())
+    }
+}
+
 /// The coefficient of friction mu = -m a_g^2 alpha_brake/(a_e N) of a disk that brakes (Eq. 17).
 ///
 /// It is Eq. (12) of a sliding disk, solved for mu. The sign is that of Eq. (17): alpha_brake is an acceleration and
@@ -28,12 +49,7 @@ pub struct Braking {
 /// # Errors
 /// [`Error::OutOfRange`] names the field, its value and its legal range.
 pub fn friction_from_braking(braking: &Braking) -> Result<f64, Error> {
-    let slowing = finite("angular_acceleration", braking.angular_acceleration)?;
-    check(slowing <= 0.0, "angular_acceleration", slowing, "(-inf, 0] (rad/s^2)")?;
-    positive("normal_force", braking.normal_force)?;
-    positive("mass", braking.mass)?;
-    positive("contact_radius", braking.contact_radius)?;
-    positive("gyration_radius", braking.gyration_radius)?;
+    braking.check()?;
     let inertia = braking.mass * braking.gyration_radius * braking.gyration_radius;
     check(inertia.is_normal(), "moment of inertia", inertia, "[2.3e-308, 1.7e308] (kg m^2)")?;
     let arm = braking.contact_radius * braking.normal_force;

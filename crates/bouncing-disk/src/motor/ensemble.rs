@@ -9,18 +9,18 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Phase, Unobserved, Watch};
-use serde::{Deserialize, Serialize};
+use bouncing_disk_core::{Observer, Phase, Unobserved, Watch, read_checked};
 
-use crate::error::{Error, check, finite, not_negative, read_checked, room_for, within_limit};
+use crate::error::{Error, check, finite, not_negative, room_for, within_limit};
 use crate::motor::fit::ExponentialFit;
 use crate::motor::transient::{SpeedCurve, TransientSettings};
 use crate::motor::transients::{TransientMember, TransientsRun};
 use crate::parameters::system::System;
 
 /// A mean over the members of an ensemble, with its spread.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedSpread")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSpread"))]
 pub struct Spread {
     /// Mean.
     pub mean: f64,
@@ -68,8 +68,9 @@ pub const MAX_SPEEDS: usize = 1 << 26;
 /// An ensemble of transients of one motor.
 ///
 /// One that is read has members, and a fit for each.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedEnsemble")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEnsemble"))]
 pub struct TransientEnsemble {
     /// The curve of each member.
     pub curves: Vec<SpeedCurve>,
@@ -449,6 +450,7 @@ mod tests {
         assert!(Spread::of(&[f64::MAX, -f64::MAX]).is_err(), "no double holds the deviation");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn an_ensemble_that_is_read_is_whole() {
         let settings = TransientSettings { duration: 0.01, intervals: 3, ..TransientSettings::default() };

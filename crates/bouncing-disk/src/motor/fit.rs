@@ -3,10 +3,10 @@
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::numerics::minimum::golden_section;
 use bouncing_disk_core::numerics::statistics::summing_scale;
+use bouncing_disk_core::read_checked;
 use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
-use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, check, finite, not_negative, positive, read_checked};
+use crate::error::{Error, check, finite, not_negative, positive};
 
 /// Steps of the golden-section search: the interval shrinks by 0.618 each.
 const GOLDEN_STEPS: u32 = 80;
@@ -19,8 +19,9 @@ const WIDEST_STEP: f64 = 1.0;
 const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedExponentialFit")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedExponentialFit"))]
 pub struct ExponentialFit {
     /// Steady speed alpha_ss (rad/s).
     pub steady_speed: f64,
@@ -91,8 +92,9 @@ impl ExponentialFit {
 }
 
 /// The fit of alpha_ss min(t/t_r, 1): the piecewise linear rise of low-period chattering orbits (Fig. 12).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedRampFit")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRampFit"))]
 pub struct RampFit {
     /// Steady speed alpha_ss (rad/s).
     pub steady_speed: f64,
@@ -446,6 +448,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_fit_that_is_read_is_legal() {
         let fit = ExponentialFit { steady_speed: -3.0, time_constant: 0.5, residual: 0.1 };

@@ -4,7 +4,6 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::{ChatterPolicy, Phase};
-use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::motion::initial_condition::InitialCondition;
@@ -46,8 +45,9 @@ pub fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitC
 }
 
 /// Which curve a stall acceleration was read from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum RiseForm {
     /// alpha_ss (1 - exp(-t/t_c)): stall acceleration alpha_ss/t_c.
     Exponential,
@@ -57,7 +57,9 @@ pub enum RiseForm {
 }
 
 /// Ensemble statistics of one motor.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MotorStatistics {
     /// Steady speed (rad/s) from the fits; where less than half of the members can be fitted, the mean over
     /// the last half of each.

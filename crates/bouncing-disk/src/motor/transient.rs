@@ -4,10 +4,9 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::mean;
-use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Unobserved, Watch, WorkCount};
-use serde::{Deserialize, Serialize};
+use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Unobserved, Watch, WorkCount, read_checked};
 
-use crate::error::{Error, check, finite, moderate_not_negative, positive, read_checked, room_for};
+use crate::error::{Error, check, finite, moderate_not_negative, positive, room_for};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motor::fit::{ExponentialFit, check_curve};
 use crate::motor::rotor::{Rotor, RotorStep};
@@ -30,8 +29,9 @@ pub(crate) const FLIGHTS_OF_EVENT: u64 = 4;
 const EVENTS_BETWEEN_COUNTS: u64 = 64;
 
 /// How a transient is computed and sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedSettings")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct TransientSettings {
     /// Duration (s), positive: at most 2^53 periods of the platform.
     pub duration: f64,
@@ -94,8 +94,9 @@ read_checked!(TransientSettings as UncheckedSettings {
 /// Angular speed against time, from rest.
 ///
 /// A curve that is read is one that can be fitted: at least three points, as many speeds as times, times that rise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedCurve")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCurve"))]
 pub struct SpeedCurve {
     /// Middles of the intervals (s).
     pub times: Vec<f64>,
@@ -467,6 +468,7 @@ mod tests {
         assert!(short.speeds.iter().all(|speed| speed.is_finite()));
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn settings_that_are_read_are_legal() {
         let text = serde_json::to_string(&TransientSettings::default()).expect("writes");
@@ -506,6 +508,7 @@ mod tests {
         assert_eq!(huge, Ok(1.7e308), "its sum is more than a double holds");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn a_curve_that_is_read_can_be_fitted() {
         let own = curve(&[1.0, 1.5, 1.75]);

@@ -6,7 +6,6 @@ use bouncing_disk_core::{
     ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Phase, Unobserved, Watch,
     WorkCount,
 };
-use serde::{Deserialize, Serialize};
 
 use super::rotors::{Carry, Rotors};
 use crate::error::Error;
@@ -22,6 +21,8 @@ const BATCHES: usize = 8;
 
 /// The arguments of one [`transient`](crate::transient()).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TransientMember {
     /// The motor.
     pub system: System,
@@ -116,8 +117,12 @@ pub fn transients_observed(
 /// assert_eq!(TransientEnsemble::of_results(run.into_results()?)?, ensemble(&motor, &settings, 8)?);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(from = "PartialResults<SpeedCurve>", into = "PartialResults<SpeedCurve>")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(from = "PartialResults<SpeedCurve>", into = "PartialResults<SpeedCurve>")
+)]
 pub struct TransientsRun {
     results: PartialResults<Result<SpeedCurve, Error>>,
 }

@@ -8,13 +8,13 @@ use std::f64::consts::PI;
 
 use bouncing_disk_core::elementary::sin_cos;
 use bouncing_disk_core::{ImpactMap, Phase, Vibration};
-use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, finite, moderate, moderate_not_negative};
 
 /// The dimensionless parameters, not yet checked.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct DimensionlessParameters {
     /// P = A omega^2/g = pi Gamma, in [0, 1e8].
     pub peak_acceleration: f64,
@@ -27,7 +27,7 @@ pub struct DimensionlessParameters {
     /// Coefficient of restitution, in [0, 1).
     pub restitution: f64,
     /// Load torque l = T_L/(m g a_e), in [-1e100, 1e100]; a positive load decelerates a positive rotation.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub load: f64,
 }
 
@@ -57,8 +57,9 @@ impl DimensionlessParameters {
 ///
 /// A friction coefficient other than zero only scales the rotary motion, so it is set to 1 here: angular speeds
 /// then come in units of mu g a_e/(a_g^2 omega).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ForcingParameters {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), in [0, 3.18e7].
     pub axial_forcing: f64,
@@ -94,8 +95,9 @@ impl ForcingParameters {
 ///
 /// The equations of motion (Eq. 2) read, with N the normal force in units of the disk's weight under preload and
 /// f the friction torque in units of m g a_e: d(axial velocity)/d tau = N - 1, d(angular speed)/d tau = f - l.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "DimensionlessParameters", into = "DimensionlessParameters")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "DimensionlessParameters", into = "DimensionlessParameters"))]
 pub struct DimensionlessSystem {
     parameters: DimensionlessParameters,
     map: ImpactMap,

@@ -1,14 +1,13 @@
 //! The disk: the dough, or the rotor.
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::{Error, finite, not_negative, positive, restitution};
 
 /// The parameters of a [`Disk`], not yet checked.
 ///
 /// The mass is not among them: it multiplies every equation. Energies come per unit mass.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct DiskParameters {
     /// Effective contact radius a_e (m), positive: where the friction force acts.
     pub contact_radius: f64,
@@ -22,7 +21,7 @@ pub struct DiskParameters {
     pub preload_acceleration: f64,
     /// Angular deceleration by a constant load torque, T_L/(m a_g^2) (rad/s^2), any finite number; a positive
     /// load decelerates a positive rotation. Zero if absent in a serialised form.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub load_acceleration: f64,
 }
 
@@ -61,8 +60,9 @@ impl DiskParameters {
 }
 
 /// A disk with legal parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "DiskParameters", into = "DiskParameters")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "DiskParameters", into = "DiskParameters"))]
 pub struct Disk {
     parameters: DiskParameters,
 }

@@ -4,13 +4,13 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::elementary::{atan2, sin_cos};
-use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check, finite, not_negative, positive};
 
 /// The parameters of a [`Platform`], not yet checked.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PlatformParameters {
     /// Amplitude A of the height (m), not negative.
     pub amplitude: f64,
@@ -38,8 +38,9 @@ impl PlatformParameters {
 }
 
 /// A platform motion given by the length and the direction of its stroke; see [`Platform::from_stroke`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Stroke {
     /// Stroke c (m), not negative: the half length of the helical path of a point at the contact radius.
     pub stroke: f64,
@@ -54,8 +55,9 @@ pub struct Stroke {
 }
 
 /// What Eq. (14) reads a toss from: a video shows how fast the disk rises and turns as it leaves.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct LaunchSpeeds {
     /// Axial speed at separation (m/s), positive.
     pub axial_speed: f64,
@@ -94,8 +96,9 @@ impl Stroke {
 }
 
 /// The platform's motion (Eq. 1): height s = A sin tau, angle beta = Phi sin(tau + theta), with tau = omega t.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "PlatformParameters", into = "PlatformParameters")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "PlatformParameters", into = "PlatformParameters"))]
 pub struct Platform {
     parameters: PlatformParameters,
     sin_lag: f64,

@@ -1,13 +1,15 @@
 //! The units of the dimensionless system.
 
-use serde::Serialize;
+use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 
 /// The SI values of the units of the dimensionless system.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedScales"))]
 pub struct Scales {
     /// Unit of time 1/omega (s).
     pub time: f64,
@@ -26,6 +28,17 @@ pub struct Scales {
     /// Unit of rotary energy per unit mass (g a_e/(a_g omega))^2 (J/kg).
     pub rotary_energy: f64,
 }
+
+read_checked!(Scales as UncheckedScales {
+    time: f64,
+    length: f64,
+    velocity: f64,
+    angle: f64,
+    angular_speed: f64,
+    angular_acceleration: f64,
+    axial_energy: f64,
+    rotary_energy: f64,
+});
 
 impl Scales {
     pub(crate) fn new(platform: &Platform, disk: &Disk) -> Self {
@@ -48,7 +61,7 @@ impl Scales {
         }
     }
 
-    /// Checks that no unit is zero, denormal or infinite: numbers in SI would lose their digits in it, and times would stand
+    /// Checks that no unit is negative, zero, denormal or infinite: numbers in SI would lose their digits in it, and times would stand
     /// still.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let units = [
@@ -62,7 +75,7 @@ impl Scales {
             ("unit of rotary energy (J/kg)", self.rotary_energy),
         ];
         for (field, value) in units {
-            check(value.is_normal(), field, value, "[2.3e-308, 1.7e308]")?;
+            check(value > 0.0 && value.is_normal(), field, value, "[2.3e-308, 1.7e308]")?;
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! A disk on a platform, in SI units.
 
-use serde::{Deserialize, Serialize};
+use bouncing_disk_core::read_checked;
 
 use crate::error::Error;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
@@ -9,11 +9,13 @@ use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
 /// A disk on a platform.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Parts", into = "Parts")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSystem"))]
 pub struct System {
     platform: Platform,
     disk: Disk,
+    #[cfg_attr(feature = "serde", serde(skip))]
     dimensionless: DimensionlessSystem,
 }
 
@@ -102,27 +104,7 @@ impl From<&System> for DimensionlessSystem {
     }
 }
 
-/// What is serialised of a system.
-#[derive(Clone, Copy, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Parts {
-    platform: Platform,
-    disk: Disk,
-}
-
-impl TryFrom<Parts> for System {
-    type Error = Error;
-
-    fn try_from(parts: Parts) -> Result<Self, Error> {
-        Self::new(parts.platform, parts.disk)
-    }
-}
-
-impl From<System> for Parts {
-    fn from(system: System) -> Self {
-        Self { platform: system.platform, disk: system.disk }
-    }
-}
+read_checked!(System as UncheckedSystem { platform: Platform, disk: Disk } => System::new);
 
 #[cfg(test)]
 mod tests {
@@ -282,6 +264,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn misspelt_keys_are_refused() {
         let refused =
@@ -311,6 +294,7 @@ mod tests {
         refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
     }
 
+    #[cfg(feature = "serde")]
     #[test]
     fn parameters_survive_json_and_illegal_json_is_refused() {
         let text = serde_json::to_string(&system()).unwrap();

@@ -3,16 +3,15 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
 /// A flight is long if it lasts longer than this (rad): half a period of the platform. The short ones of a
 /// chattering sequence get shorter without end, so that their number says how the sequence was cut rather
 /// than what the disk does.
 pub const LONG_FLIGHT: f64 = PI;
 
 /// One round of a disk that comes to rest on the platform again and again: from one separation to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ChatteringCycle {
     /// Impacts, without those that the complete policy sums.
     pub impacts: usize,

@@ -4,11 +4,10 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
     ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, Observer, TangentGrowth, Unobserved,
-    Watch, WorkCount,
+    Watch, WorkCount, read_checked,
 };
-use serde::Serialize;
 
-use crate::error::{Error, check, not_negative, room_for};
+use crate::error::{Error, check, finite, not_negative, room_for};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -22,7 +21,9 @@ pub const MAX_EXAMINED: usize = 10_000_000;
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// How long a motion is followed, and when it counts as periodic.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct MultiTossSettings {
     /// What ends a chattering sequence.
     pub policy: ChatterPolicy,
@@ -60,8 +61,18 @@ impl MultiTossSettings {
     }
 }
 
+read_checked!(MultiTossSettings as UncheckedSettings {
+    policy: ChatterPolicy,
+    transient_impacts: usize,
+    examined_impacts: usize,
+    longest_period: usize,
+    tolerance: f64,
+});
+
 /// What a motion has settled on, judged from the impacts examined.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedClass"))]
 #[non_exhaustive]
 pub enum OrbitClass {
     /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
@@ -92,8 +103,35 @@ pub enum OrbitClass {
     AtRest,
 }
 
+read_checked!(enum OrbitClass as UncheckedClass {
+    Periodic { period: usize, platform_periods: u64, vertical: Multipliers, rotary: f64 },
+    Chattering(cycle: ChatteringCycle),
+    ChaoticOrLong { impacts: usize, lyapunov_exponent: Option<f64> },
+    AtRest,
+});
+
+impl OrbitClass {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::Periodic { period, platform_periods, rotary, .. } => {
+                check(period > 0, "period", 0.0, "at least 1")?;
+                check(platform_periods > 0, "platform_periods", 0.0, "at least 1")?;
+                check((0.0..=1.0).contains(&rotary), "rotary multiplier", rotary, "[0, 1]")?;
+            }
+            Self::ChaoticOrLong { lyapunov_exponent, .. } => {
+                finite("lyapunov_exponent", lyapunov_exponent.unwrap_or_default())?;
+            }
+            Self::Chattering(_) | Self::AtRest => {}
+        }
+        Ok(())
+    }
+}
+
 /// A motion after its transient.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedOrbit"))]
 pub struct TossOrbit {
     /// What it has settled on.
     pub class: OrbitClass,
@@ -103,6 +141,20 @@ pub struct TossOrbit {
     pub mean_angular_speed: Option<f64>,
     /// Whether the angular speed, too, repeats from round to round; `None` where nothing repeats.
     pub rotation_repeats: Option<bool>,
+}
+
+read_checked!(TossOrbit as UncheckedOrbit {
+    class: OrbitClass,
+    collisions: Vec<Collision>,
+    mean_angular_speed: Option<f64>,
+    rotation_repeats: Option<bool>,
+});
+
+impl TossOrbit {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        finite("mean_angular_speed", self.mean_angular_speed.unwrap_or_default()).map(|_| ())
+    }
 }
 
 /// Follows a motion through its transient and says what it has settled on.

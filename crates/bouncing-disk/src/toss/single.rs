@@ -3,10 +3,9 @@
 use std::f64::consts::PI;
 
 use bouncing_disk_core::elementary::sin;
-use bouncing_disk_core::{ChatterPolicy, Phase};
-use serde::{Deserialize, Serialize};
+use bouncing_disk_core::{ChatterPolicy, Phase, read_checked};
 
-use crate::error::Error;
+use crate::error::{Error, finite, phase_angle};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::{Event, EventRecord};
@@ -21,7 +20,8 @@ pub const TOSS_START: f64 = 1.5 * PI;
 
 /// How the dough turns at the start of a toss. The two differ if the phase lag is not zero: the hand then turns at
 /// omega Phi sin theta as the toss starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum InitialSpin {
     /// It does not turn.
@@ -32,7 +32,9 @@ pub enum InitialSpin {
 }
 
 /// The performance measures of a single toss (Sec. III A), in SI units; energies per unit mass of the dough.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPerformance"))]
 pub struct TossPerformance {
     /// Airborne rotary speed of the dough (rad/s).
     pub airborne_speed: f64,
@@ -55,6 +57,30 @@ pub struct TossPerformance {
     pub rotary_energy_gain: f64,
     /// The energy balance up to the separation (J/kg).
     pub energy: SiEnergy,
+}
+
+read_checked!(TossPerformance as UncheckedPerformance {
+    airborne_speed: f64,
+    #[serde(deserialize_with = "bouncing_disk_core::stored::nan_if_none")]
+    efficiency: f64,
+    speed_ratio: Option<f64>,
+    separation_phase: f64,
+    sliding_at_separation: bool,
+    launch_speed: f64,
+    rotary_energy_gain: f64,
+    energy: SiEnergy,
+});
+
+impl TossPerformance {
+    /// Checks what is read. The efficiency of nothing that was put in is not a number.
+    fn check(&self) -> Result<(), Error> {
+        finite("airborne_speed", self.airborne_speed)?;
+        finite("speed_ratio", self.speed_ratio.unwrap_or_default())?;
+        phase_angle("separation_phase", self.separation_phase)?;
+        finite("launch_speed", self.launch_speed)?;
+        finite("rotary_energy_gain", self.rotary_energy_gain)?;
+        Ok(())
+    }
 }
 
 /// The toss of `system`'s disk from its platform, up to the separation.

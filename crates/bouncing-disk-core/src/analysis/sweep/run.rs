@@ -2,20 +2,20 @@
 
 use core::ops::ControlFlow;
 
-use serde::{Deserialize, Serialize};
-
 use super::{SweepEvent, runner};
 use crate::error::Error;
 use crate::lockstep::lanes::InstructionSet;
 use crate::map::impact_map::Orbit;
 use crate::observer::{Observer, Watch};
+use crate::read_checked;
 
 /// The results of a list of items, as far as they are finished, in the order of the items.
 ///
 /// What is read has indices that rise and are those of items.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "StoredResults<T>")]
-#[serde(bound(deserialize = "T: Deserialize<'de>"))]
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedResults<T>"))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
 pub struct PartialResults<T> {
     total: usize,
     /// The finished ones by rising index. A list of pairs, so that a result may be whatever it is, also
@@ -23,33 +23,27 @@ pub struct PartialResults<T> {
     finished: Vec<(usize, T)>,
 }
 
-/// What is read of [`PartialResults`].
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StoredResults<T> {
+read_checked!(PartialResults<T> as UncheckedResults {
     total: usize,
     finished: Vec<(usize, T)>,
-}
+});
 
-impl<T> TryFrom<StoredResults<T>> for PartialResults<T> {
-    type Error = Error;
-
-    fn try_from(stored: StoredResults<T>) -> Result<Self, Error> {
-        let StoredResults { total, finished } = stored;
+impl<T> PartialResults<T> {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let Self { total, finished } = self;
         let unfitting = |what, found: usize, expected: usize| {
             Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
         };
-        if let Some((index, _)) = finished.iter().find(|(index, _)| *index >= total) {
+        if let Some((index, _)) = finished.iter().find(|(index, _)| index >= total) {
             return unfitting("index of a finished item", *index, total.saturating_sub(1));
         }
         if let Some(pair) = finished.windows(2).find(|pair| pair[0].0 >= pair[1].0) {
             return unfitting("index of a finished item, out of order", pair[0].0, pair[1].0);
         }
-        Ok(Self { total, finished })
+        Ok(())
     }
-}
 
-impl<T> PartialResults<T> {
     /// No result of so many items.
     #[must_use]
     pub const fn new(total: usize) -> Self {
@@ -157,9 +151,10 @@ impl<T> PartialResults<T> {
 /// assert_eq!(run.into_results()?, orbit_diagram(&orbits, 200, 50)?);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-#[serde(bound(deserialize = "T: Deserialize<'de>"))]
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
 pub struct SweepRun<T> {
     results: PartialResults<T>,
 }

@@ -4,12 +4,12 @@ use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
-use crate::analysis::basin::{ATTACHED, Axis};
+use crate::analysis::basin::{ATTACHED, Axis, FIRST_ORBIT};
 use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::ImpactState;
 use crate::observer::{Progress, Unobserved};
 use crate::platform::vibration::Vibration;
-use crate::testing::{PAPER_POLICY, StopAfter};
+use crate::testing::{PAPER_POLICY, StopAfter, stored};
 
 fn map() -> ImpactMap {
     ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal")
@@ -28,13 +28,6 @@ fn known() -> Vec<KnownOrbit> {
 
 fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts").install(work)
-}
-
-fn stored(run: &BasinRun) -> BasinRun {
-    let text = serde_json::to_string(run).expect("writes");
-    let read = serde_json::from_str(&text).expect("legal");
-    assert_eq!(*run, read);
-    read
 }
 
 /// Goes on until all is done, each time stopped after so many calls and stored in between; how often it was
@@ -171,6 +164,7 @@ fn a_failure_leaves_what_was_finished() {
     }
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn a_stored_run_that_does_not_fit_is_refused() {
     let mut run = BasinRun::new(map(), grid(2, 3), &known(), BasinSettings::default()).expect("few cells");

@@ -1,7 +1,5 @@
 //! Runs that are stopped, stored, read and gone on with against one call.
 
-use serde::de::DeserializeOwned;
-
 use super::*;
 use crate::analysis::lyapunov::lyapunov_exponents;
 use crate::analysis::sweep::{orbit_diagram, survival_times, sweep};
@@ -9,7 +7,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::observer::{Progress, Unobserved};
 use crate::platform::vibration::Vibration;
-use crate::testing::StopAfter;
+use crate::testing::{StopAfter, Storable, stored};
 
 /// Orbits from rest to chaos.
 fn starts(count: u32) -> Vec<(ImpactMap, ImpactState)> {
@@ -26,7 +24,7 @@ fn orbits(count: u32) -> Vec<Orbit> {
 }
 
 /// Goes on until all is done, each time stopped a little later and stored in between.
-fn in_parts<T: Serialize + DeserializeOwned + PartialEq + core::fmt::Debug + Send>(
+fn in_parts<T: Storable + Send>(
     items: usize,
     threads: usize,
     advance: impl Fn(&mut SweepRun<T>, &dyn Observer) -> Result<(), Error> + Sync,
@@ -34,10 +32,7 @@ fn in_parts<T: Serialize + DeserializeOwned + PartialEq + core::fmt::Debug + Sen
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts");
     let mut run = SweepRun::new(items);
     for stops in 0.. {
-        let text = serde_json::to_string(&run).expect("writes");
-        let read = serde_json::from_str(&text).expect("legal");
-        assert_eq!(run, read);
-        run = read;
+        run = stored(&run);
         match pool.install(|| advance(&mut run, &StopAfter::calls(1 + 3 * stops))) {
             Ok(()) => {
                 assert!(stops >= 2, "{stops}");
@@ -134,6 +129,7 @@ fn a_run_of_other_orbits_is_refused() {
     assert_eq!(run.advance_survival_times(&orbits, 0, &Unobserved), refusal);
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn stored_results_that_do_not_fit_are_refused() {
     for (text, complaint) in [

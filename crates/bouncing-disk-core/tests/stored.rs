@@ -1,0 +1,293 @@
+//! Whatever is written is read with the same bits, and what is read is legal.
+
+#![cfg(feature = "serde")]
+
+mod round_trip;
+
+use std::f64::consts::TAU;
+use std::fmt::Debug;
+use std::ops::ControlFlow;
+
+use bouncing_disk_core::numerics::circular::Concentration;
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::reference::first_impact_by_advancement;
+use bouncing_disk_core::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::json;
+
+use round_trip::{check, refused};
+
+fn map(axial_forcing: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), 0.5).expect("legal")
+}
+
+fn start() -> ImpactState {
+    ImpactState::from_normalised(0.8, 1.3).expect("legal")
+}
+
+fn cut() -> ChatterCut {
+    ChatterCut::new(1e-6, 1e-4, 20).expect("legal")
+}
+
+#[test]
+fn the_platform_and_its_map() {
+    let phase = start().phase();
+    check(
+        &phase,
+        &[
+            ("/angle", json!(TAU), "angle of a phase"),
+            ("/angle", json!(-1.0), "angle of a phase"),
+            ("/sin", json!(0.0), "sine of a phase"),
+            ("/cos", json!(2.0), "cosine of a phase"),
+        ],
+    );
+    let peak = "/peak_acceleration";
+    check(map(0.45).vibration(), &[(peak, json!(-1.0), "peak_acceleration"), (peak, json!(2e8), "[0, 1e8]")]);
+    check(
+        &map(0.45),
+        &[("/restitution", json!(1.0), "restitution"), ("/vibration/peak_acceleration", json!(-1.0), "peak")],
+    );
+    check(
+        &start(),
+        &[("/velocity", json!(1.0), "axial_impact_velocity"), ("/phase/angle", json!(7.0), "angle")],
+    );
+    let followed = follow_attractor(0.5, [0.45], start(), 100, ChatterPolicy::Complete).next();
+    let followed = followed.expect("one forcing").expect("no failure");
+    check(
+        &followed,
+        &[
+            ("/axial_forcing", json!(-0.1), "axial_forcing"),
+            ("/axial_forcing", json!(0.46), "peak acceleration of the map"),
+        ],
+    );
+}
+
+#[test]
+fn one_flight() {
+    let vibration = *map(0.45).vibration();
+    let launch = map(0.45).rebound(start());
+    check(&launch, &[("/relative_speed", json!(-1.0), "relative_speed")]);
+    check(
+        &vibration.first_impact(launch).expect("lands"),
+        &[
+            ("/remainder", json!(-0.1), "remainder"),
+            ("/remainder", json!(6.3), "remainder"),
+            ("/velocity", json!(0.1), "velocity"),
+            ("/turns", json!(-1), "-1"),
+            ("/phase/cos", json!(2.0), "cosine"),
+        ],
+    );
+    check(
+        &first_impact_by_advancement(&vibration, launch).expect("lands"),
+        &[
+            ("/duration", json!(-0.1), "duration"),
+            ("/impact_phase", json!(TAU), "impact_phase"),
+            ("/velocity", json!(0.1), "velocity"),
+        ],
+    );
+}
+
+#[test]
+fn chattering() {
+    check(&ChatterPolicy::Complete, &[]);
+    check(&ChatterPolicy::Cut(cut()), &[("/Cut/short_flights", json!(0), "short_flights")]);
+    check(
+        &cut(),
+        &[("/smallest_speed", json!(-1.0), "smallest_speed"), ("/short_flight", json!(-1.0), "short_flight")],
+    );
+    let launch = Launch::new(Phase::new(4.0).expect("finite"), 1e-5).expect("legal");
+    check(
+        &map(0.45).accumulation(launch).expect("chatters to rest"),
+        &[
+            ("/duration", json!(-1.0), "duration"),
+            ("/error_bound", json!(-1.0), "error_bound"),
+            ("/turns", json!(2), "turns"),
+            ("/phase/sin", json!(2.0), "sine"),
+        ],
+    );
+    let impact = map(0.45).chatter_impacts(launch).nth(3).expect("many");
+    check(
+        &impact,
+        &[
+            ("/time", json!(-1.0), "time"),
+            ("/speed", json!(-1.0), "speed"),
+            ("/pair/0", json!(2.0), "length of a pair"),
+            ("/pair", json!([0.0]), "tuple of size 2"),
+        ],
+    );
+}
+
+#[test]
+fn every_event_of_an_orbit() {
+    let mut attachments = 0;
+    for (policy, forcing) in [
+        (ChatterPolicy::Complete, 0.55),
+        (ChatterPolicy::Complete, 0.33),
+        (ChatterPolicy::Complete, 0.25),
+        (ChatterPolicy::Cut(cut()), 0.33),
+    ] {
+        let orbit = map(forcing).orbit(start(), policy);
+        for event in orbit.clone().take(200) {
+            let event = event.expect("no failure");
+            let OrbitEvent::Attachment(rest) = event else {
+                check(&event, &[("/Impact/velocity", json!(1.0), "velocity")]);
+                continue;
+            };
+            attachments += 1;
+            check(&event, &[("/Attachment/last_speed", json!(-1.0), "last_speed")]);
+            check(
+                &rest,
+                &[
+                    ("/last_speed", json!(-1.0), "last_speed"),
+                    ("/accumulation/duration", json!(-1.0), "duration"),
+                ],
+            );
+            if rest.separation.is_some() {
+                check(&rest, &[("/separation/1", json!(2), "turns before the separation")]);
+            }
+            let infinite = matches!(policy, ChatterPolicy::Cut(_));
+            assert_eq!(rest.accumulation.error_bound.is_infinite(), infinite, "JSON has no infinite number");
+        }
+        let events = sweep(
+            &[orbit],
+            |_| Vec::new(),
+            |events, event| {
+                events.push(*event);
+                if events.len() < 200 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+        for event in &events.expect("no failure")[0] {
+            match event {
+                SweepEvent::Impact(impact) => {
+                    check(event, &[("/Impact/state/velocity", json!(1.0), "axial_impact_velocity")]);
+                    check(impact, &[("/duration", json!(-1.0), "duration")]);
+                }
+                _ => check(event, &[("/Attachment/last_speed", json!(-1.0), "last_speed")]),
+            }
+        }
+    }
+    assert!(attachments > 4, "{attachments}");
+}
+
+#[test]
+fn periodic_orbits() {
+    let orbit = map(0.45).refine(&[map(0.45).period_one(1).expect("exists")]).expect("refines");
+    check(
+        &orbit,
+        &[
+            ("/states", json!([]), "impacts of a periodic orbit"),
+            ("/states/0/velocity", json!(0.0), "impact 0 of the solution has no speed"),
+            ("/platform_periods", json!(0), "takes no period of the platform"),
+            ("/monodromy", json!([1.0]), "4"),
+        ],
+    );
+    check(
+        &KnownOrbit::new(orbit, 0.1).expect("legal"),
+        &[("/radius", json!(-1.0), "catching radius"), ("/orbit/platform_periods", json!(0), "no period")],
+    );
+    check(&Multipliers::Real(-0.5, 0.25), &[("/Real/0", json!(0.2), "second multiplier")]);
+    check(
+        &Multipliers::Complex { real: -0.5, imaginary: 0.25 },
+        &[("/Complex/imaginary", json!(0.0), "imaginary part")],
+    );
+    check(
+        &period_doublings(0.5, 1).expect("settles")[0],
+        &[("/axial_forcing", json!(-1.0), "axial_forcing"), ("/period", json!(0), "period")],
+    );
+}
+
+#[test]
+fn basins_and_runs() {
+    let grid = Grid::new(Axis::new(0.0, 1.0, 3).expect("legal"), Axis::new(0.0, 2.0, 2).expect("legal"));
+    let grid = grid.expect("legal");
+    check(grid.phase(), &[("/cells", json!(0), "axis cells"), ("/high", json!(0.0), "axis high end")]);
+    check(&grid, &[("/speed/low", json!(-1.0), "lowest normalised speed")]);
+    let settings = BasinSettings::default();
+    check(&settings, &[("/max_impacts", json!(-1), "-1")]);
+    let mut run = BasinRun::new(map(0.45), grid, &[], settings).expect("few cells");
+    check(&run, &[]);
+    run.advance(&Unobserved).expect("no failure");
+    check(&run, &[("/finished_rows", json!([0, 2]), "finished row"), ("/labels/0", json!(7), "label")]);
+    check(
+        &run.into_basins().expect("done"),
+        &[
+            ("/columns", json!(0), "columns of basins"),
+            ("/columns", json!(4), "labels of basins: 6 where 8 would be legal"),
+            ("/labels", json!([]), "labels of basins: 0 where 3 would be legal"),
+            ("/labels/5", json!(252), "label of basins = 2.52e2"),
+        ],
+    );
+    let mut run = SweepRun::new(2);
+    run.advance_orbit_diagram(
+        &[map(0.45), map(0.5)].map(|map| map.orbit(start(), ChatterPolicy::Complete)),
+        5,
+        3,
+        &Unobserved,
+    )
+    .expect("no failure");
+    check(
+        &run,
+        &[("/total", json!(1), "index of a finished item"), ("/finished/0/0", json!(1), "out of order")],
+    );
+    check(run.results(), &[("/total", json!(1), "index of a finished item")]);
+    check(
+        &Concentration::of([(0.3, 1.0), (0.5, 2.0)]).expect("has weight"),
+        &[
+            ("/mean_direction_rad", json!(4.0), "mean_direction_rad"),
+            ("/resultant_length", json!(1.1), "resultant"),
+        ],
+    );
+}
+
+/// Of any platform, disk and policy: what is made is never refused.
+#[test]
+fn whatever_happens_can_be_read() {
+    fn read<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
+        let text = serde_json::to_string(value).expect("writes");
+        let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        assert_eq!(&read, value);
+    }
+    let mut random = SplitMix64::new(7);
+    let mut attachments = 0;
+    for k in 0..600 {
+        // From a platform that hardly moves to one that moves violently.
+        let peak = elementary::exp(elementary::ln(10.0) * (12.0 * random.unit() - 4.0));
+        let peak = if k % 3 == 0 { 1.0 + random.unit() } else { peak };
+        let restitution = if k % 7 == 0 { 0.0 } else { 0.95 * random.unit() };
+        let map = ImpactMap::new(Vibration::new(peak).expect("legal"), restitution).expect("legal");
+        let policy = if k % 2 == 0 { ChatterPolicy::Complete } else { ChatterPolicy::Cut(cut()) };
+        let state =
+            ImpactState::new(Phase::new(TAU * random.unit()).expect("finite"), -2.0 * peak * random.unit());
+        let orbit = map.orbit(state.expect("legal"), policy);
+        for event in orbit.clone().take(60).map_while(Result::ok) {
+            attachments += usize::from(matches!(event, OrbitEvent::Attachment(_)));
+            read(&event);
+        }
+        let visit = |events: &mut u32, event: &SweepEvent| {
+            read(event);
+            *events += 1;
+            if *events < 60 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        // A flight that is too long ends an orbit.
+        let _ = sweep(&[orbit], |_| 0, visit);
+    }
+    assert!(attachments > 100, "{attachments}");
+}
+
+/// JSON holds no such number; a binary format does.
+#[test]
+fn what_is_no_number_is_not_read() {
+    let vibration = *map(0.45).vibration();
+    let impact = vibration.first_impact(map(0.45).rebound(start())).expect("lands");
+    let launch = Launch::new(Phase::new(4.0).expect("finite"), 1e-5).expect("legal");
+    let accumulation = map(0.45).accumulation(launch).expect("chatters to rest");
+    for number in [f64::NAN, f64::NEG_INFINITY] {
+        refused(&Impact { velocity: number, ..impact }, "velocity");
+        refused(&Impact { remainder: number, ..impact }, "remainder");
+        refused(&Accumulation { duration: number, ..accumulation }, "duration");
+        refused(&Accumulation { error_bound: number, ..accumulation }, "error_bound");
+        refused(&PeriodDoubling { axial_forcing: 0.5, period: 1, residual: number }, "residual");
+        refused(&Multipliers::Real(number, 0.0), "multiplier");
+    }
+}
