@@ -18,7 +18,7 @@ mod png;
 
 use std::path::Path;
 
-use bouncing_disk::{Format, Provenance, StorageError};
+pub use bouncing_disk::{Format, Provenance, StorageError};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -36,6 +36,9 @@ pub const GALLERY: Format = Format { name: "bouncing-disk gallery", version: 1, 
 pub const CACHE_KEY: Format = Format { name: "bouncing-disk cache key", version: 1, oldest: 1 };
 /// The format of `docs/figures/digests.json`.
 pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 1, oldest: 1 };
+
+/// The format of the files in `data/performance`.
+pub const PERFORMANCE: Format = Format { name: "bouncing-disk performance", version: 1, oldest: 1 };
 
 /// The member of JSON, and the name elsewhere.
 const NAME: &str = "provenance";

@@ -140,8 +140,9 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         Ok((journal, partial(items, results)))
     }
 
-    /// What a journal holds, without writing in it; another process may do so meanwhile. For those who look
-    /// how far it is, and to put together the journals of several machines.
+    /// What a journal holds, without writing in it; another process may do so meanwhile, unless the system's locks
+    /// forbid it, as on Windows. For those who look how far it is, and to put together the journals of several
+    /// machines.
     ///
     /// # Errors
     /// Those of [`Self::open`], but for [`StorageError::Busy`].

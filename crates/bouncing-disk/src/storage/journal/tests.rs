@@ -294,3 +294,38 @@ fn transients_that_are_killed_again_and_again_end_as_those_of_one_call() {
     let error = transients_with_journal(&scratch.0, &key, &others, &crate::Unobserved).expect_err("others");
     assert!(error.to_string().contains("provenance.parameters.members_digest"), "{error}");
 }
+
+#[test]
+fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
+    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepRun, Vibration, orbit_diagram};
+
+    let scratch = Scratch::new("sweep");
+    let key = Provenance::new(JOURNAL).with("forcings", &"0.5 to 0.6").expect("storable");
+    let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
+    let orbits: Vec<_> = (0..100)
+        .map(|k| {
+            let vibration = Vibration::from_axial_forcing(0.5 + 1e-3 * f64::from(k)).expect("legal");
+            ImpactMap::new(vibration, 0.5).expect("legal").orbit(start, ChatterPolicy::Complete)
+        })
+        .collect();
+    let mut stops = 0;
+    let results = loop {
+        let (mut journal, finished) =
+            Journal::<Vec<ImpactState>>::open(&scratch.0, &key, orbits.len()).expect("opens");
+        let before = finished.done();
+        let mut run = SweepRun::from(finished);
+        let observer = |progress: Progress| {
+            if progress.done < before + 30 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let outcome = run.advance_orbit_diagram(&orbits, 2_000, 20, &observer);
+        journal.record(run.results()).expect("writable");
+        match outcome {
+            Ok(()) => break run.into_results().expect("done"),
+            Err(error) => assert!(matches!(error, bouncing_disk_core::Error::Stopped { .. }), "{error}"),
+        }
+        assert!(run.results().done() > before);
+        stops += 1;
+    };
+    assert!(stops > 0);
+    assert_eq!(results, orbit_diagram(&orbits, 2_000, 20).expect("no error"));
+}
