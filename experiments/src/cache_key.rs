@@ -7,15 +7,21 @@
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use bouncing_disk::Provenance;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::experiment::Quality;
+use crate::provenance;
 
 include!(concat!(env!("OUT_DIR"), "/digests.rs"));
 
 /// What a finished figure was made from, and its files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CacheKey {
+    /// Of the cache key itself; the files have their own.
+    #[serde(default)]
+    provenance: Option<Provenance>,
     key: String,
     /// The digest of the user's measurements in it; empty when there were none.
     #[serde(default)]
@@ -33,6 +39,11 @@ pub struct CacheKey {
 pub enum Stale {
     /// There is no cache key: never made, or the run was interrupted.
     Missing,
+    /// The files are of a format that is newer than this program.
+    Newer {
+        /// Their format, who wrote it, and what this program reads.
+        message: String,
+    },
     /// Made in another quality.
     Quality {
         /// The quality found.
@@ -53,6 +64,7 @@ impl std::fmt::Display for Stale {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Missing => formatter.write_str("not made yet"),
+            Self::Newer { message } => formatter.write_str(message),
             Self::Quality { found } => write!(formatter, "made in {found} quality"),
             Self::Sources => formatter.write_str("the sources have changed"),
             Self::Measurements => formatter.write_str("the measurements have changed"),
@@ -71,7 +83,20 @@ impl CacheKey {
         files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
     ) -> Self {
         let files = files.into_iter().map(|(name, bytes)| (name.to_owned(), digest(bytes))).collect();
-        Self { key: key(id, quality), measured: measured.to_owned(), quality, run_time_s, files }
+        let provenance = Some(provenance::new(provenance::CACHE_KEY));
+        Self { provenance, key: key(id, quality), measured: measured.to_owned(), quality, run_time_s, files }
+    }
+
+    /// Reads the cache key of a figure.
+    ///
+    /// # Errors
+    ///
+    /// [`Stale::Newer`] where a newer program wrote it; [`Stale::Missing`] where it is none.
+    pub fn read(id: &str, bytes: &[u8]) -> Result<Self, Stale> {
+        let stored: Value = serde_json::from_slice(bytes).map_err(|_| Stale::Missing)?;
+        provenance::refuse_newer(provenance::CACHE_KEY, stored.get("provenance"), &format!("{id}.cache-key"))
+            .map_err(|error| Stale::Newer { message: error.to_string() })?;
+        Self::deserialize(stored).map_err(|_| Stale::Missing)
     }
 
     /// The names of its files.
@@ -162,6 +187,25 @@ mod tests {
         );
         let older = CacheKey { key: "0".to_owned(), ..cache_key };
         assert_eq!(older.check("demo", Quality::Draft, "d1", same), Err(Stale::Sources));
+    }
+
+    #[test]
+    fn it_says_where_it_comes_from_and_a_newer_one_is_refused_by_name() {
+        let cache_key = CacheKey::new("demo", Quality::Draft, "", 1.5, []);
+        let mut stored = serde_json::to_value(&cache_key).expect("storable");
+        assert_eq!(CacheKey::read("demo", stored.to_string().as_bytes()), Ok(cache_key));
+        assert_eq!(stored["provenance"]["program"], "bouncing-disk-experiments");
+        stored["provenance"]["format_version"] = 2.into();
+        stored["files"] = 3.into();
+        let Err(stale @ Stale::Newer { .. }) = CacheKey::read("demo", stored.to_string().as_bytes()) else {
+            panic!("newer");
+        };
+        let text = stale.to_string();
+        assert!(text.starts_with("\"demo.cache-key\" has version 2 of the format"), "{text}");
+        // Of a version that did not say where it comes from, and no cache key at all.
+        let older = br#"{"key":"","quality":"draft","run_time_s":1,"files":{}}"#;
+        assert!(CacheKey::read("demo", older).is_ok());
+        assert_eq!(CacheKey::read("demo", b"{"), Err(Stale::Missing));
     }
 
     #[test]

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use bouncing_disk::StorageError;
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -90,6 +92,9 @@ pub enum ExperimentError {
     /// Stored data do not have the form this version reads.
     #[error("the stored data do not fit this version")]
     Stored(#[source] serde_path_to_error::Error<serde_json::Error>),
+    /// What a file says of its origin cannot be stored, or is of a newer format.
+    #[error(transparent)]
+    Provenance(#[from] StorageError),
     /// A number printed in the paper could not be read.
     #[error("the catalogue of printed numbers failed")]
     Catalogue(#[from] CatalogueError),
@@ -155,6 +160,14 @@ pub trait Experiment: Sync + Send + 'static {
     const DISCUSSION: &'static str;
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
+    /// What ends a chattering sequence in what is drawn, where there is one. A figure that compares both policies says so
+    /// in its data.
+    const CHATTER_POLICY: Option<ChatterPolicy> = None;
+
+    /// What is drawn at random, and its seed; the first is *the* seed of the figure.
+    fn seeds() -> Vec<(&'static str, u64)> {
+        Vec::new()
+    }
 
     /// The caption, plain text with Unicode Greek.
     fn caption(data: &Self::Data) -> String;
@@ -208,6 +221,16 @@ pub trait RegisteredExperiment: Sync + Send {
     /// See [`Experiment::MEASUREMENTS`].
     fn measurements(&self) -> &'static [Layout] {
         &[]
+    }
+
+    /// See [`Experiment::seeds`].
+    fn seeds(&self) -> Vec<(&'static str, u64)> {
+        Vec::new()
+    }
+
+    /// See [`Experiment::CHATTER_POLICY`].
+    fn chatter_policy(&self) -> Option<ChatterPolicy> {
+        None
     }
 
     /// Computes the data.
@@ -286,6 +309,14 @@ impl<E: Experiment> RegisteredExperiment for Erased<E> {
 
     fn measurements(&self) -> &'static [Layout] {
         E::MEASUREMENTS
+    }
+
+    fn seeds(&self) -> Vec<(&'static str, u64)> {
+        E::seeds()
+    }
+
+    fn chatter_policy(&self) -> Option<ChatterPolicy> {
+        E::CHATTER_POLICY
     }
 
     fn compute(

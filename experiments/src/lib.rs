@@ -10,7 +10,7 @@
 //!   [`catalogue`] alone.
 //!
 //! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery, [`results`] the
-//! committed page.
+//! committed page. [`provenance`] is what every file says of its origin.
 
 pub mod answers;
 pub mod artifacts;
@@ -29,6 +29,7 @@ pub mod page;
 pub mod paper;
 pub mod printed;
 pub mod progress;
+pub mod provenance;
 pub mod registry;
 pub mod regular_file;
 pub mod results;

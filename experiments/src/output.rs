@@ -142,10 +142,14 @@ impl OutputFolder {
         partials.into_iter().try_for_each(publish)
     }
 
-    /// The cache key of a figure; `None` when there is none or it cannot be read.
-    pub fn cache_key(&self, id: &str) -> Option<CacheKey> {
-        let bytes = self.read(&cache_key_name(id)).ok()??;
-        serde_json::from_slice(&bytes).ok()
+    /// The cache key of a figure.
+    ///
+    /// # Errors
+    ///
+    /// [`Stale::Missing`] when there is none or it cannot be read, [`Stale::Newer`] for that of a newer program.
+    pub fn cache_key(&self, id: &str) -> Result<CacheKey, Stale> {
+        let bytes = self.read(&cache_key_name(id)).ok().flatten().ok_or(Stale::Missing)?;
+        CacheKey::read(id, &bytes)
     }
 
     /// Whether a figure is up to date; `measured` is the digest of the measurements there are for it.
@@ -154,7 +158,7 @@ impl OutputFolder {
     ///
     /// The first reason to make it again.
     pub fn check(&self, id: &str, quality: Quality, measured: &str) -> Result<(), Stale> {
-        let cache_key = self.cache_key(id).ok_or(Stale::Missing)?;
+        let cache_key = self.cache_key(id)?;
         cache_key.check(id, quality, measured, |name| self.read(name).ok().flatten())
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use bouncing_disk::Provenance;
+
 use crate::claim::{Claim, Class, Computed, Verdict};
 use crate::count::Counts;
 use crate::experiment::Quality;
@@ -37,12 +39,17 @@ pub struct Section {
     pub width: Option<u32>,
 }
 
-/// The page.
-pub fn html(sections: &[Section]) -> String {
+/// The page, which says where it comes from.
+pub fn html(provenance: &Provenance, sections: &[Section]) -> String {
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>Rotating bouncing disks: figures and numbers</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
+         <title>Rotating bouncing disks: figures and numbers</title>\n\
+         <meta name=\"generator\" content=\"{} {}\">\n<meta name=\"provenance\" content=\"{}\">\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n",
+        escaped(provenance.program()),
+        escaped(provenance.version()),
+        escaped(&serde_json::to_string(provenance).unwrap_or_default()),
     );
     push_header(&mut page, sections);
     page.push_str("<main>\n");
@@ -310,6 +317,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::provenance;
 
     #[test]
     fn numbers_are_readable() {
@@ -347,10 +355,13 @@ mod tests {
             has_table: true,
             width: Some(2040),
         };
-        let page = html(&[section]);
+        let page = html(&provenance::new(provenance::GALLERY), &[section]);
         assert!(!page.contains("http") && !page.contains("<script"), "{page}");
         assert!(page.contains("Γ &lt; 1") && page.contains("fig06.csv") && page.contains("75.2 s"));
         assert!(page.contains("class=\"verdict reproduced\""));
+        let head =
+            "<meta name=\"provenance\" content=\"{&quot;program&quot;:&quot;bouncing-disk-experiments&quot;";
+        assert!(page.contains(head), "{page}");
         assert!(
             page.contains(r"Measurements not shown: fig06.csv, line 2: &quot;&lt;script&gt;\u{202e}x&quot;")
         );

@@ -9,15 +9,19 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use bouncing_disk::core::numerics::digest::Digest;
+use bouncing_disk::{Provenance, StorageError};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use crate::artifacts;
+use crate::artifacts::{self, Stored};
+use crate::cache_key::Stale;
 use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::count::Counts;
 use crate::errata::{self, ERRATA_FILE, ErrataError};
 use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
 use crate::output::{OutputError, OutputFolder};
 use crate::page::{ClaimTexts, class_words, like, name, verdict_words};
+use crate::provenance;
 
 /// The page, in the folder of the documentation.
 pub const RESULTS_FILE: &str = "results.md";
@@ -71,11 +75,17 @@ pub enum ResultsError {
     /// The digests cannot be written as JSON.
     #[error("cannot write the digests")]
     Digests(#[source] serde_json::Error),
+    /// What a file says of its origin cannot be stored, or is of a newer format.
+    #[error(transparent)]
+    Provenance(#[from] StorageError),
 }
 
 /// What the committed page and pictures were made from.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Digests {
+    /// Which version of the program wrote it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
     /// Digest of the page.
     pub results: String,
     /// Digest of the errata page.
@@ -104,8 +114,14 @@ pub fn digest(bytes: &[u8]) -> String {
     Digest::of(bytes).to_string()
 }
 
+/// The digest of a picture, which does not depend on what the file says of its origin.
+pub fn picture_digest(bytes: &[u8]) -> String {
+    digest(&provenance::without_png(bytes))
+}
+
 /// A figure as it lies in an output folder.
 struct Made {
+    provenance: Provenance,
     outcome: Box<dyn ErasedData>,
     digest: String,
     section: String,
@@ -121,7 +137,10 @@ fn made(
     let missing = || ResultsError::Missing { id: id.to_owned() };
     let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
     let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
-    let cache_key = folder.cache_key(id).ok_or_else(missing)?;
+    let cache_key = folder.cache_key(id).map_err(|stale| match stale {
+        Stale::Missing => missing(),
+        _ => ResultsError::Changed { id: id.to_owned() },
+    })?;
     // What the program did not write itself may have any form.
     let whole =
         cache_key.holds(&format!("{id}.json"), &data) && cache_key.holds(&format!("{id}.svg"), &drawing);
@@ -129,12 +148,13 @@ fn made(
         return Err(ResultsError::Changed { id: id.to_owned() });
     }
     let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
-    let outcome = artifacts::read(entry, &data).map_err(failed)?.outcome;
+    let Stored { outcome, provenance, .. } = artifacts::read(entry, &data).map_err(failed)?;
     let section = section(entry, &*outcome)?;
-    let mut all = data;
-    all.extend(drawing);
+    // Another version of the program does not make another figure.
+    let mut all = provenance::without_json(data);
+    all.extend(provenance::without_svg(drawing));
     all.extend(section.as_bytes());
-    Ok(Made { outcome, digest: digest(&all), section })
+    Ok(Made { provenance, outcome, digest: digest(&all), section })
 }
 
 /// Writes the page, the errata from their template, the pictures and their digests into `docs` from the figures in both output folders:
@@ -151,7 +171,8 @@ pub fn write(
     docs: &OutputFolder,
 ) -> Result<(), ResultsError> {
     let pictures = OutputFolder::create(docs.path().join(PICTURES_FOLDER))?;
-    let mut digests = Digests::default();
+    let provenance = Some(provenance::new(provenance::DIGESTS).with("quality", &Quality::Paper)?);
+    let mut digests = Digests { provenance, ..Digests::default() };
     let cited = errata::figures(errata);
     let mut data = BTreeMap::new();
     let (mut sections, mut claims, mut files) = (String::new(), Vec::new(), Vec::new());
@@ -166,7 +187,7 @@ pub fn write(
         let picture = figure.to_png_within(PICTURE_WIDTH).map_err(|error| failed(error.into()))?;
         let figure =
             FigureDigests { draft: made_in_draft.digest, paper: made.digest, picture: digest(&picture) };
-        files.push((picture_name(id), picture));
+        files.push((picture_name(id), provenance::in_png(&made.provenance, &picture)));
         digests.figures.insert(id.to_owned(), figure);
         sections.push_str(&made.section);
         if cited.contains(&id) {
@@ -207,8 +228,10 @@ pub fn outdated(
 ) -> Result<Vec<String>, ResultsError> {
     let pictures = OutputFolder::existing(docs.path().join(PICTURES_FOLDER));
     let stored = pictures.read(DIGESTS_FILE)?;
-    let digests: Digests =
+    let stored: Value =
         stored.as_deref().and_then(|bytes| serde_json::from_slice(bytes).ok()).unwrap_or_default();
+    provenance::refuse_newer(provenance::DIGESTS, stored.get("provenance"), DIGESTS_FILE)?;
+    let digests = Digests::deserialize(stored).unwrap_or_default();
     let mut outdated = Vec::new();
     let page = docs.read(RESULTS_FILE)?;
     if page.is_none_or(|page| digest(&page) != digests.results) {
@@ -234,7 +257,7 @@ pub fn outdated(
             Err(ResultsError::Output(error)) => return Err(error.into()),
             Err(_) => false,
         };
-        if !current || picture.is_none_or(|picture| digest(&picture) != known.picture) {
+        if !current || picture.is_none_or(|picture| picture_digest(&picture) != known.picture) {
             outdated.push(format!("{PICTURES_FOLDER}/{}", picture_name(id)));
         }
     }

@@ -1,13 +1,15 @@
 //! What is made from all figures together: `claims.json` and the gallery.
 
+use serde_json::Value;
+
 use crate::cache_key::Stale;
 use crate::claim::Claim;
 use crate::count::Counts;
-use crate::experiment::{self, RegisteredExperiment};
+use crate::experiment::{self, Quality, RegisteredExperiment};
 use crate::measured::Measurements;
 use crate::output::{LockedFolder, OutputError, OutputFolder};
 use crate::page::{self, Section};
-use crate::{artifacts, json};
+use crate::{artifacts, json, provenance};
 
 /// The texts of the common files, and the figures that are not in them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,24 +43,32 @@ impl Summary {
         measurements: &Measurements,
     ) -> Result<Self, OutputError> {
         let mut sections = Vec::new();
-        let mut claims: Vec<Claim> = Vec::new();
+        let (mut claims, mut origins) = (Vec::new(), Vec::new());
+        let mut counts = Counts::default();
         let mut left_out = Vec::new();
         let mut warnings = Vec::new();
         for entry in entries {
             let id = entry.id();
             let name = format!("{id}.json");
             let Some(bytes) = folder.read(&name)? else { continue };
-            // Without a cache key the files may be from different runs.
-            let Some(cache_key) = folder.cache_key(id) else {
-                left_out.push((id.to_owned(), "the run that made it was interrupted".to_owned()));
-                continue;
+            let cache_key = match folder.cache_key(id) {
+                Ok(cache_key) => cache_key,
+                Err(stale) => {
+                    let reason = match stale {
+                        // Without a cache key the files may be from different runs.
+                        Stale::Missing => "the run that made it was interrupted".to_owned(),
+                        other => other.to_string(),
+                    };
+                    left_out.push((id.to_owned(), reason));
+                    continue;
+                }
             };
             // What the program did not write itself may have any form.
             if !cache_key.holds(&name, &bytes) {
                 left_out.push((id.to_owned(), Stale::File { name }.to_string()));
                 continue;
             }
-            let artifacts::Stored { outcome, quality, warnings: own } =
+            let artifacts::Stored { outcome, provenance: origin, quality, warnings: own } =
                 match artifacts::read(&**entry, &bytes) {
                     Ok(read) => read,
                     Err(error) => {
@@ -84,14 +94,15 @@ impl Summary {
                 has_table: cache_key.names().any(|name| name == format!("{id}.csv")),
                 width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
             };
-            claims.extend(section.claims.iter().cloned());
+            counts = counts.and(Counts::of(&section.claims));
+            claims.extend(section.claims.iter().map(|claim| claim_of(claim, &**entry, quality)));
             sections.push(section);
+            origins.push(origin);
         }
-        let counts = Counts::of(&claims);
-        // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
-        let claims = serde_json::to_value(&claims).unwrap_or_default();
-        let claims = json::to_text(&claims).unwrap_or_default();
-        Ok(Self { claims, page: page::html(&sections), counts, left_out, warnings })
+        let claims = json::to_text(&Value::Array(claims)).unwrap_or_default();
+        let gallery = provenance::new(provenance::GALLERY);
+        let gallery = gallery.clone().with("figures", &origins).unwrap_or(gallery);
+        Ok(Self { claims, page: page::html(&gallery, &sections), counts, left_out, warnings })
     }
 
     /// Collects all figures whose results lie in the folder and writes the common files. No other run writes
@@ -131,6 +142,19 @@ impl Summary {
     }
 }
 
+/// A claim as it is stored, with what it says of its origin: `claims.json` is an array and has no other place for that,
+/// and the figures may have been made in different qualities.
+fn claim_of(claim: &Claim, entry: &dyn RegisteredExperiment, quality: Quality) -> Value {
+    // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
+    let mut stored = serde_json::to_value(claim).unwrap_or_default();
+    if let (Some(members), Ok(origin)) =
+        (stored.as_object_mut(), provenance::of_claims(entry, quality).map(serde_json::to_value))
+    {
+        members.insert("provenance".to_owned(), origin.unwrap_or_default());
+    }
+    stored
+}
+
 /// The width in pixels that the header of a PNG file states.
 fn png_width(bytes: &[u8]) -> Option<u32> {
     let width = bytes.get(16..20)?;
@@ -140,7 +164,6 @@ fn png_width(bytes: &[u8]) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::Quality;
     use crate::progress::Silent;
     use crate::testing::demo_entries;
 

@@ -1,5 +1,6 @@
 //! Experiments for the tests of this crate.
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +32,12 @@ impl Experiment for Demo {
         columns: &[Column::value("phase_rad", Range::NotNegative)],
         least_rows: 1,
     }];
+
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("points", 3), ("others", 4)]
+    }
 
     fn caption(data: &DemoData) -> String {
         let measured = match data.measured_phase_rad.len() {

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use bouncing_disk_experiments::errata::{ERRATA_FILE, TEMPLATE};
 use bouncing_disk_experiments::registry;
-use bouncing_disk_experiments::results::{DIGESTS_FILE, Digests, PICTURES_FOLDER, RESULTS_FILE, digest};
+use bouncing_disk_experiments::results::{
+    DIGESTS_FILE, Digests, PICTURES_FOLDER, RESULTS_FILE, digest, picture_digest,
+};
 
 /// A picture may be this large (bytes), and all together so large.
 const LARGEST_PICTURE: usize = 300_000;
@@ -36,7 +38,7 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
     let mut together = 0;
     for (id, digests) in &digests.figures {
         let picture = fs::read(pictures.join(format!("{id}.png"))).expect("the picture is committed");
-        assert_eq!(digest(&picture), digests.picture, "{id}.png was edited");
+        assert_eq!(picture_digest(&picture), digests.picture, "{id}.png was edited");
         assert!(picture.len() <= LARGEST_PICTURE, "{id}.png has {} bytes", picture.len());
         together += picture.len();
     }

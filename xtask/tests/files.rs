@@ -245,6 +245,21 @@ fn malformed_records_are_made_again() {
     }
 }
 
+#[test]
+fn files_of_a_newer_program_are_named_and_made_again() {
+    let out = Scratch::new("newer");
+    succeed(figures(&out.0).arg("table1"));
+    let stored = fs::read_to_string(out.join("table1.cache-key")).expect("written");
+    assert!(stored.contains("\"format_version\": 1,"), "{stored}");
+    out.write("table1.cache-key", stored.replace("\"format_version\": 1,", "\"format_version\": 2,"));
+    let check = output(figures(&out.0).args(["table1", "--check"]));
+    assert_eq!(check.status.code(), Some(1), "{}", text(&check));
+    let words = "table1: \"table1.cache-key\" has version 2 of the format \"bouncing-disk cache key\"";
+    assert!(text(&check).contains(words), "{}", text(&check));
+    succeed(figures(&out.0).arg("table1"));
+    assert_consistent(&out.0, &["table1"]);
+}
+
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::symlink;

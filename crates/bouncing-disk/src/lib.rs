@@ -24,6 +24,7 @@
 //! | the motor | [`transient`], [`transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
+//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`; `StorageError` |
 //! | vertical motion | [`mod@core`] |
 //!
 //! | feature | default | what it does |
@@ -41,6 +42,8 @@ mod error;
 mod motion;
 mod motor;
 mod parameters;
+#[cfg(feature = "storage")]
+mod storage;
 #[cfg(test)]
 mod testing;
 mod toss;
@@ -79,6 +82,14 @@ pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
 pub use parameters::scales::Scales;
 pub use parameters::system::System;
+#[cfg(feature = "storage")]
+pub use storage::error::StorageError;
+#[cfg(feature = "storage")]
+pub use storage::journal::{JOURNAL, Journal};
+#[cfg(feature = "storage")]
+pub use storage::provenance::{Format, Provenance};
+#[cfg(feature = "storage")]
+pub use storage::transients::transients_with_journal;
 pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use toss::multiple::{

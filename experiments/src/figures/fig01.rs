@@ -7,6 +7,7 @@ mod draw;
 
 use std::f64::consts::PI;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig01Data;
@@ -25,6 +26,7 @@ impl Experiment for Fig01 {
 
     const TITLE: &'static str = "The displacement variables of the bouncing disk";
     const DISCUSSION: &str = include_str!("fig01/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &Fig01Data) -> String {
         format!(

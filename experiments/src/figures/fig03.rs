@@ -10,6 +10,7 @@ mod laws;
 mod sprung;
 
 use bouncing_disk::Transition;
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig03Data;
@@ -29,6 +30,7 @@ impl Experiment for Fig03 {
 
     const TITLE: &'static str = "Flow chart of the simulation";
     const DISCUSSION: &str = include_str!("fig03/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &Fig03Data) -> String {
         let (census, cycle) = (&data.census, &data.cycle);

@@ -8,6 +8,7 @@ mod data;
 mod draw;
 mod sweep;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig04Data;
@@ -24,6 +25,11 @@ impl Experiment for Fig04 {
     const ID: &'static str = "fig04";
     const TITLE: &'static str = "The performance of single tosses";
     const DISCUSSION: &str = include_str!("fig04/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("tosses that print alike", alike::SEED)]
+    }
 
     fn caption(data: &Fig04Data) -> String {
         let grid = &data.consistency.coarse_grid;

@@ -5,6 +5,7 @@ mod compute;
 mod data;
 mod draw;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig05Data;
@@ -24,6 +25,7 @@ impl Experiment for Fig05 {
 
     const TITLE: &'static str = "Hand motions and the resulting dough trajectories";
     const DISCUSSION: &str = include_str!("fig05/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &Fig05Data) -> String {
         format!(

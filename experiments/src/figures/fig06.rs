@@ -18,7 +18,8 @@ mod slices;
 
 use std::f64::consts::PI;
 
-use bouncing_disk::PAPER_CUT;
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::{PAPER_CHATTER, PAPER_CUT};
 use bouncing_disk_plot::Figure;
 
 pub(super) use self::compute::FORCING_RANGE;
@@ -36,6 +37,7 @@ impl Experiment for Fig06 {
     const ID: &'static str = "fig06";
     const TITLE: &'static str = "Bifurcation diagrams";
     const DISCUSSION: &str = include_str!("fig06/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(PAPER_CHATTER);
 
     fn caption(data: &Fig06Data) -> String {
         format!(

@@ -9,6 +9,7 @@ mod panels;
 mod scan;
 mod windows;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig07Data;
@@ -25,6 +26,7 @@ impl Experiment for Fig07 {
     const ID: &'static str = "fig07";
     const TITLE: &'static str = "Basins of attraction";
     const DISCUSSION: &str = include_str!("fig07/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &Fig07Data) -> String {
         let others = data.panels.iter().flat_map(|panel| &panel.others).count();

@@ -5,6 +5,7 @@ mod compute;
 mod data;
 mod draw;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 use self::compute::SEED;
@@ -25,6 +26,11 @@ impl Experiment for Fig09 {
     const TITLE: &'static str = "Coefficient of friction from the rotor's deceleration";
     const DISCUSSION: &str = include_str!("fig09/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[DECELERATIONS, FRICTIONS];
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("readings of the friction", SEED)]
+    }
 
     fn caption(data: &Fig09Data) -> String {
         let own: Vec<String> = data.measured_decelerations.iter().map(Deceleration::words).collect();

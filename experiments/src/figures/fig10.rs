@@ -6,6 +6,8 @@ mod data;
 mod draw;
 mod measured;
 
+use bouncing_disk::TransientSettings;
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 use self::compute::MEMBER_INTERVALS;
@@ -26,6 +28,11 @@ impl Experiment for Fig10 {
 
     const TITLE: &'static str = "Transient speed curves of the ultrasonic motor";
     const DISCUSSION: &str = include_str!("fig10/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("motors that print alike", compute::SEED), ("ensembles", TransientSettings::default().seed)]
+    }
 
     const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
 

@@ -8,12 +8,15 @@ mod draw;
 mod measured;
 mod trends;
 
+use bouncing_disk::TransientSettings;
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::motor_case::Form;
+use crate::figures::stall;
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
@@ -28,6 +31,16 @@ impl Experiment for Fig11 {
     const TITLE: &'static str = "Effect of preload on steady-state speed and stall torque";
     const DISCUSSION: &str = include_str!("fig11/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![
+            ("preloads", compute::PRELOAD_SEED),
+            ("ensembles", TransientSettings::default().seed),
+            ("bouncing motors that print alike", bouncing::SEED),
+            ("runs to stall", stall::SEED),
+        ]
+    }
 
     fn caption(data: &Fig11Data) -> String {
         let [first, last] = data.printed.preload_accelerations_m_per_s2;

@@ -5,6 +5,7 @@ mod compute;
 mod data;
 mod draw;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig12Data;
@@ -21,6 +22,11 @@ impl Experiment for Fig12 {
     const ID: &'static str = "fig12";
     const TITLE: &'static str = "Speed transients of long-period and low-period chattering";
     const DISCUSSION: &str = include_str!("fig12/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("motors that print alike", compute::SEED)]
+    }
 
     fn caption(data: &Fig12Data) -> String {
         let (long, low) = (&data.long_period, &data.low_period);

@@ -8,6 +8,8 @@ mod orbits;
 mod sensitivity;
 mod sweeps;
 
+use bouncing_disk::TransientSettings;
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig13Data;
@@ -25,6 +27,11 @@ impl Experiment for Fig13 {
     const ID: &'static str = "fig13";
     const TITLE: &'static str = "Effect of the estimated parameters on steady-state speed and stall torque";
     const DISCUSSION: &str = include_str!("fig13/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("motors that print alike", compute::SEED), ("ensembles", TransientSettings::default().seed)]
+    }
 
     fn caption(data: &Fig13Data) -> String {
         let left_out: usize = sweeps::sweep_points(data).filter(|point| point.stall().is_none()).count();

@@ -26,6 +26,10 @@ impl Experiment for Fig14 {
     const DISCUSSION: &str = include_str!("fig14/discussion.md");
     const MEASUREMENTS: &'static [Layout] = &[DIAMETERS];
 
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("record", SEED)]
+    }
+
     fn caption(data: &Fig14Data) -> String {
         let measured = data
             .measured

@@ -23,7 +23,7 @@ const PREDICTED_POINTS: u32 = 240;
 const BALANCED_IMPACTS: usize = 6_000;
 
 /// Seed of the relaunches.
-const SEED: u64 = 11;
+pub(crate) const SEED: u64 = 11;
 
 /// What stalls one motor, as accelerations (rad/s²): times m a_g² they are torques.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,6 +5,7 @@ mod compute;
 mod data;
 mod draw;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 use crate::claim::Claim;
@@ -22,6 +23,11 @@ impl Experiment for Table1 {
     const ID: &'static str = "table1";
     const TITLE: &'static str = "Full specification of a single toss";
     const DISCUSSION: &str = include_str!("table1/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("launches and slopes that print alike", compute::SEED)]
+    }
 
     fn caption(data: &Table1Data) -> String {
         format!(

@@ -5,6 +5,7 @@ mod compute;
 mod data;
 mod draw;
 
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Table2Data;
@@ -22,6 +23,11 @@ impl Experiment for Table2 {
     const ID: &'static str = "table2";
     const TITLE: &'static str = "Effects of input parameter uncertainties";
     const DISCUSSION: &str = include_str!("table2/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![("tosses that print alike", compute::SEED)]
+    }
 
     fn caption(data: &Table2Data) -> String {
         format!(

@@ -5,10 +5,13 @@ mod compute;
 mod data;
 mod draw;
 
+use bouncing_disk::TransientSettings;
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::stall;
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
 pub use data::Table3Data;
@@ -22,6 +25,15 @@ impl Experiment for Table3 {
     const ID: &'static str = "table3";
     const TITLE: &'static str = "Default values for the dimensional parameters";
     const DISCUSSION: &str = include_str!("table3/discussion.md");
+    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+
+    fn seeds() -> Vec<(&'static str, u64)> {
+        vec![
+            ("drops of the ball", compute::DROP_SEED),
+            ("runs to stall", stall::SEED),
+            ("ensembles", TransientSettings::default().seed),
+        ]
+    }
 
     fn caption(data: &Table3Data) -> String {
         format!(

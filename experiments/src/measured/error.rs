@@ -31,6 +31,9 @@ pub enum MeasuredError {
         /// The names that are read.
         legal: Vec<&'static str>,
     },
+    /// The file is a table of a newer program.
+    #[error(transparent)]
+    Newer(#[from] bouncing_disk::StorageError),
     /// The file is not text in UTF-8.
     #[error("{file}, line {line}, byte {byte}: not text in UTF-8")]
     NotText {

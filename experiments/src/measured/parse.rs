@@ -11,6 +11,7 @@ use csv::{ReaderBuilder, StringRecord, Terminator};
 
 use super::error::MeasuredError;
 use super::layout::{Column, Layout, MOST_ROWS, Range, Role, whole};
+use crate::provenance;
 use crate::visible::Excerpt;
 
 /// The numbers of a file and where they are in it.
@@ -26,7 +27,11 @@ pub(super) struct Rows {
 
 /// Reads all rows of a file.
 pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError> {
-    let mut records = Records::new(layout.file, text(layout, bytes)?);
+    let text = text(layout, bytes)?;
+    // A table that an experiment wrote is read like others, unless its form may be another one.
+    let origin = provenance::from_csv(text);
+    provenance::refuse_newer(provenance::FIGURE, origin.as_ref(), layout.file)?;
+    let mut records = Records::new(layout.file, text);
     let empty = || MeasuredError::Empty { file: layout.file, legal: layout.header() };
     let mut line = records.advance()?.ok_or_else(empty)?;
     let header = Header::read(layout, line, &records.record)?;
@@ -293,6 +298,20 @@ mod tests {
             HEADER.trim_end()
         );
         assert_eq!(rows(&LAYOUT, decorated.as_bytes()).expect("well formed").values, expected);
+    }
+
+    #[test]
+    fn a_table_of_an_experiment_is_read_unless_its_format_is_newer() {
+        let origin = provenance::new(provenance::FIGURE).with("of", "a \"dough\", 'as' printed");
+        let body = format!("{HEADER}1,0.3,0,20.5\n1,0.3,0.1,1e-3\n");
+        let table = provenance::in_csv(&origin.expect("storable"), &body);
+        let read = rows(&LAYOUT, table.as_bytes()).expect("well formed");
+        assert_eq!(read.values, rows(&LAYOUT, body.as_bytes()).expect("well formed").values);
+        assert_eq!(read.lines, [3, 4]);
+        let newer = table.replace("\"format_version\":1", "\"format_version\":2");
+        assert!(
+            fault(newer).starts_with("\"demo.csv\" has version 2 of the format \"bouncing-disk figure\"")
+        );
     }
 
     #[test]

@@ -7,13 +7,17 @@ use std::process::Command;
 
 use anyhow::Context as _;
 use bouncing_disk_experiments::output::OutputFolder;
+use bouncing_disk_experiments::provenance::{self, Provenance};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::criterion::{Times, parsed};
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Record {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    provenance: Option<Provenance>,
     pub(super) processor: String,
     /// The best vector instructions that the processor has and the library uses.
     pub(super) instructions: String,
@@ -36,6 +40,7 @@ impl Record {
         let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let version = Command::new("rustc").arg("--version").output().context("cannot start rustc")?;
         Ok(Self {
+            provenance: Some(provenance::new(provenance::PERFORMANCE)),
             processor: processor(&about).unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
             instructions: instructions().to_owned(),
             processors: std::thread::available_parallelism().map_or(1, NonZeroUsize::get),
@@ -65,7 +70,14 @@ impl Record {
         let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
         paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
         paths.sort();
-        paths.iter().map(|path| parsed(path)).collect()
+        paths.iter().map(|path| Self::read(path)).collect()
+    }
+
+    fn read(path: &Path) -> anyhow::Result<Self> {
+        let stored: Value = parsed(path)?;
+        let name = path.to_string_lossy();
+        provenance::refuse_newer(provenance::PERFORMANCE, stored.get("provenance"), &name)?;
+        Self::deserialize(stored).with_context(|| format!("{} does not have the right form", path.display()))
     }
 
     /// Stores it beside the others.
@@ -108,6 +120,7 @@ pub(super) mod tests {
 
     pub(in crate::bench) fn record(times: &[(&str, f64)]) -> Record {
         Record {
+            provenance: Some(provenance::new(provenance::PERFORMANCE)),
             processor: "A Processor (1/2)".to_owned(),
             instructions: "AVX-512".to_owned(),
             processors: 2,
@@ -131,6 +144,10 @@ pub(super) mod tests {
         fs::write(&stored, r#"{"processor": 3}"#).expect("writable");
         let error = Record::all(&path).expect_err("malformed");
         assert!(format!("{error:#}").contains("a-processor-1-2-avx-512.json"), "{error:#}");
+        let newer = provenance::new(provenance::Format { version: 2, ..provenance::PERFORMANCE });
+        fs::write(&stored, serde_json::json!({ "provenance": newer }).to_string()).expect("writable");
+        let error = format!("{:#}", Record::all(&path).expect_err("newer"));
+        assert!(error.contains("2-avx-512.json\" has version 2 of the format"), "{error}");
         fs::remove_dir_all(&path).expect("removable");
     }
 

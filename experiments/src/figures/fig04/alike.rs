@@ -8,7 +8,7 @@ use crate::experiment::{ExperimentError, Quality};
 use crate::figures::printed_inputs::{DRAWN, agreement, tosses};
 
 /// Seed of the tosses.
-const SEED: u64 = 4;
+pub(super) const SEED: u64 = 4;
 
 pub(super) fn alike(quality: Quality) -> Result<Vec<PrintedShare>, ExperimentError> {
     let rest = InitialSpin::AbsoluteRest;

@@ -17,7 +17,7 @@ use crate::figures::printed_inputs::DRAWN;
 use crate::figures::synthetic::Noise;
 
 /// Seed of the rotors.
-const SEED: u64 = 318;
+pub(super) const SEED: u64 = 318;
 
 /// A rotor that has not come to rest after so many impacts goes on bouncing: those that come to rest need some tens.
 const MOST_IMPACTS: usize = 10_000;

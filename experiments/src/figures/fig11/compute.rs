@@ -21,7 +21,7 @@ const RISES: f64 = 6.0;
 const PERTURBATIONS: [f64; 8] = [0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 
 /// Seed of the preloads.
-const PRELOAD_SEED: u64 = 46_201;
+pub(super) const PRELOAD_SEED: u64 = 46_201;
 
 /// Impacts of the orbit that gives a motor's S(0).
 const BALANCED_IMPACTS: usize = 1_500;

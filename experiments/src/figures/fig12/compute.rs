@@ -40,7 +40,7 @@ const LINE_CYCLES: usize = 10;
 /// The first slope is that of this share of the rise.
 const FIRST_PART: f64 = 0.1;
 /// Seed of the inputs that print alike, and how many are drawn at most to find those of low period.
-const SEED: u64 = 12;
+pub(super) const SEED: u64 = 12;
 const MOST_DRAWN: usize = 6_000;
 /// The zoom starts at this share of the time to the steady speed; of the long-period case, of the rise time.
 const ZOOM_AT: f64 = 0.5;

@@ -37,7 +37,7 @@ const LARGEST_RESTITUTION: f64 = 0.9;
 /// Phase lags that each of the motors which print alike is given.
 const LAGS: u32 = 8;
 /// Seed of the inputs that print alike.
-const SEED: u64 = 13;
+pub(super) const SEED: u64 = 13;
 /// Numbers of flights for which the share of cycles is counted.
 const FLIGHT_COUNTS: [usize; 5] = [2, 4, 8, 16, 32];
 /// A cycle is short if it takes this share of the rise time.

@@ -17,7 +17,7 @@ use crate::figures::uncertainty::Propagated;
 use crate::paper::{self, SectionFive, Uncertain};
 
 /// Seed of the drops whose height and gravity round to the printed ones.
-const DROP_SEED: u64 = 95;
+pub(super) const DROP_SEED: u64 = 95;
 
 pub(super) fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
     let table = paper::table_three()?;

@@ -159,6 +159,13 @@ pub struct SweepRun<T> {
     results: PartialResults<T>,
 }
 
+/// A run that goes on from what is finished.
+impl<T> From<PartialResults<T>> for SweepRun<T> {
+    fn from(results: PartialResults<T>) -> Self {
+        Self { results }
+    }
+}
+
 impl<T> SweepRun<T> {
     /// A run over so many orbits, none of them finished.
     #[must_use]

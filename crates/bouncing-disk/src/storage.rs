@@ -1,0 +1,6 @@
+//! What is stored: where a file comes from, and the journal of a long computation.
+
+pub(crate) mod error;
+pub(crate) mod journal;
+pub(crate) mod provenance;
+pub(crate) mod transients;
