@@ -94,7 +94,7 @@ pub enum ExperimentError {
     Stored(#[source] serde_path_to_error::Error<serde_json::Error>),
     /// What a file says of its origin cannot be stored, or is of a newer format.
     #[error(transparent)]
-    Provenance(#[from] StorageError),
+    Provenance(Box<StorageError>),
     /// A number printed in the paper could not be read.
     #[error("the catalogue of printed numbers failed")]
     Catalogue(#[from] CatalogueError),
@@ -115,6 +115,12 @@ pub enum ExperimentError {
         /// What the system or the parser reported.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+impl From<StorageError> for ExperimentError {
+    fn from(error: StorageError) -> Self {
+        Self::Provenance(Box::new(error))
+    }
 }
 
 impl From<bouncing_disk::Error> for ExperimentError {

@@ -77,7 +77,13 @@ pub enum ResultsError {
     Digests(#[source] serde_json::Error),
     /// What a file says of its origin cannot be stored, or is of a newer format.
     #[error(transparent)]
-    Provenance(#[from] StorageError),
+    Provenance(Box<StorageError>),
+}
+
+impl From<StorageError> for ResultsError {
+    fn from(error: StorageError) -> Self {
+        Self::Provenance(Box::new(error))
+    }
 }
 
 /// What the committed page and pictures were made from.

@@ -33,7 +33,7 @@ pub enum MeasuredError {
     },
     /// The file is a table of a newer program.
     #[error(transparent)]
-    Newer(#[from] bouncing_disk::StorageError),
+    Newer(Box<bouncing_disk::StorageError>),
     /// The file is not text in UTF-8.
     #[error("{file}, line {line}, byte {byte}: not text in UTF-8")]
     NotText {

@@ -30,7 +30,8 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
     let text = text(layout, bytes)?;
     // A table that an experiment wrote is read like others, unless its form may be another one.
     let origin = provenance::from_csv(text);
-    provenance::refuse_newer(provenance::FIGURE, origin.as_ref(), layout.file)?;
+    provenance::refuse_newer(provenance::FIGURE, origin.as_ref(), layout.file)
+        .map_err(|error| MeasuredError::Newer(Box::new(error)))?;
     let mut records = Records::new(layout.file, text);
     let empty = || MeasuredError::Empty { file: layout.file, legal: layout.header() };
     let mut line = records.advance()?.ok_or_else(empty)?;
