@@ -23,6 +23,7 @@ pub mod fig12;
 pub mod fig13;
 pub mod fig14;
 mod hand_path;
+mod least_squares;
 mod motor_case;
 mod power_of_ten;
 mod printed_inputs;

@@ -3,6 +3,7 @@
 use kurbo::{Affine, BezPath, Circle, Point, Shape, Size, Vec2};
 
 use crate::annotation::arrow;
+use crate::builders::builders;
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Rect;
@@ -19,6 +20,37 @@ enum Item {
     Text(Point, Label, TextStyle),
     /// Lines of text about a point.
     Lines(Point, Vec<Label>),
+}
+
+/// A box with centred lines of text in a [`Drawing`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextBox {
+    centre: (f64, f64),
+    size: (f64, f64),
+    corner: f64,
+    lines: Vec<Label>,
+    style: Style,
+}
+
+builders!(TextBox: style);
+
+impl TextBox {
+    /// A box of this size in local units, with a thin black outline and sharp corners unless set.
+    pub fn new<L: Into<Label>>(
+        centre: (f64, f64),
+        size: (f64, f64),
+        lines: impl IntoIterator<Item = L>,
+    ) -> Self {
+        let lines = lines.into_iter().map(Into::into).collect();
+        Self { centre, size, corner: 0.0, lines, style: Stroke::default().into() }
+    }
+
+    /// Sets the radius of the corners in points.
+    #[must_use]
+    pub fn corner(mut self, points: f64) -> Self {
+        self.corner = points;
+        self
+    }
 }
 
 /// A free drawing in local coordinates, `y` upwards.
@@ -70,40 +102,19 @@ impl Drawing {
 
     /// Adds an upright ellipse with half-axes in local units.
     #[must_use]
-    pub fn ellipse(
-        self,
-        centre: (f64, f64),
-        radii: (f64, f64),
-        stroke: Option<Stroke>,
-        fill: Option<(Colour, f64)>,
-    ) -> Self {
+    pub fn ellipse(self, centre: (f64, f64), radii: (f64, f64), style: impl Into<Style>) -> Self {
         let place = Affine::translate(Vec2::from(centre)).pre_scale_non_uniform(radii.0, radii.1);
         // Four curves, which stay within 0.0003 of the unit circle.
         let circle = Circle::new(Point::ZERO, 1.0).to_path(1e-3);
         let outline = self.to_page() * place * circle;
-        self.with(Item::Shape(outline, Style { stroke, fill: fill.map(Fill::from) }))
+        self.with(Item::Shape(outline, style.into()))
     }
 
-    /// Adds a text.
+    /// Adds a text; an [`Anchor`] alone is a style, too.
     #[must_use]
-    pub fn text(self, at: (f64, f64), anchor: Anchor, label: impl Into<Label>) -> Self {
-        self.text_styled(at, anchor, label, None, Colour::BLACK, 0.0)
-    }
-
-    /// Adds a text with a font size in points, a colour and a rotation in degrees, anticlockwise.
-    #[must_use]
-    pub fn text_styled(
-        self,
-        at: (f64, f64),
-        anchor: Anchor,
-        label: impl Into<Label>,
-        size: Option<f64>,
-        colour: Colour,
-        rotation: f64,
-    ) -> Self {
+    pub fn text(self, at: (f64, f64), style: impl Into<TextStyle>, label: impl Into<Label>) -> Self {
         let at = self.to_page() * Point::from(at);
-        let style = TextStyle { size, colour, rotation, ..TextStyle::new(anchor) };
-        self.with(Item::Text(at, label.into(), style))
+        self.with(Item::Text(at, label.into(), style.into()))
     }
 
     /// Adds a line through points with a head of 5 points at the last one.
@@ -131,24 +142,15 @@ impl Drawing {
         self.arrow([from, to], stroke).arrow([to, from], stroke)
     }
 
-    /// Adds a box with centred lines of text, for flow charts. The size is in local units, the radius of the
-    /// corners in points.
+    /// Adds a box with lines of text, for flow charts.
     #[must_use]
-    pub fn text_box<L: Into<Label>>(
-        self,
-        centre: (f64, f64),
-        size: (f64, f64),
-        corner: f64,
-        lines: impl IntoIterator<Item = L>,
-        stroke: Stroke,
-        fill: Colour,
-    ) -> Self {
+    pub fn text_box(self, text_box: TextBox) -> Self {
+        let TextBox { centre, size, corner, lines, style } = text_box;
         let area = kurbo::Rect::from_center_size(centre, Size::from(size));
         let area = self.to_page().transform_rect_bbox(area);
         let outline = area.to_rounded_rect(corner.max(0.0)).to_path(TOLERANCE);
-        let lines = lines.into_iter().map(Into::into).collect();
         let middle = area.center();
-        self.with(Item::Shape(outline, Style::from(stroke).fill(fill))).with(Item::Lines(middle, lines))
+        self.with(Item::Shape(outline, style)).with(Item::Lines(middle, lines))
     }
 
     fn with(mut self, item: Item) -> Self {
@@ -215,9 +217,10 @@ mod tests {
 
     #[test]
     fn ellipses_and_boxes_have_their_size_on_the_page() {
+        let words = TextBox::new((5.0, 5.0), (4.0, 2.0), ["words"]).corner(1.5);
         let drawing = Drawing::new(Rect::new(0.0, 0.0, 100.0, 50.0), (0.0, 10.0), (0.0, 10.0))
-            .ellipse((5.0, 5.0), (2.0, 1.0), None, Some((Colour::GREY, 1.0)))
-            .text_box((5.0, 5.0), (4.0, 2.0), 1.5, ["words"], Stroke::default(), Colour::WHITE);
+            .ellipse((5.0, 5.0), (2.0, 1.0), Colour::GREY)
+            .text_box(words);
         let expected = kurbo::Rect::new(30.0, 20.0, 70.0, 30.0);
         for item in &drawing.items {
             let Item::Shape(path, _) = item else { continue };

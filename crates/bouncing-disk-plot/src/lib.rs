@@ -31,8 +31,8 @@
 //! | layers of points and cells | [`Scatter`] with its [`Marker`], [`DensePoints`], [`Raster`] |
 //! | layers of words | [`Text`], [`Arrow`]; any of these is a [`Layer`] |
 //! | how shapes look, in all layers alike | [`Style`] of [`Stroke`] and [`Fill`], [`Dash`], [`Colour`] |
-//! | words with symbols and scripts | [`Label`], placed by an [`Anchor`] |
-//! | sketches, flow charts, perspective | [`Drawing`], [`Path`], [`Camera`] |
+//! | words with symbols and scripts | [`Label`], placed by an [`Anchor`], set in a [`TextStyle`] |
+//! | sketches, flow charts, perspective | [`Drawing`] with its [`TextBox`], [`Path`], [`Camera`] |
 //! | a table between rules | [`ruled_table`] |
 //! | what can go wrong | [`DrawError`] |
 //!
@@ -71,7 +71,7 @@ pub use axis::{Axis, Scale};
 pub use camera::Camera;
 pub use colour::Colour;
 pub use dense::DensePoints;
-pub use drawing::Drawing;
+pub use drawing::{Drawing, TextBox};
 pub use error::DrawError;
 pub use figure::{DOUBLE_COLUMN, Figure, SINGLE_COLUMN};
 pub use frame::{Grid, Margins, Rect};
@@ -85,7 +85,7 @@ pub use raster::Raster;
 pub use ruled_table::ruled_table;
 pub use scatter::{Marker, Scatter};
 pub use style::{Dash, Fill, Stroke, Style};
-pub use text_style::Anchor;
+pub use text_style::{Anchor, TextStyle};
 pub use ticks::Ticks;
 
 /// The example of the README, compiled.

@@ -19,9 +19,17 @@ pub enum Anchor {
     RightCentre,
 }
 
-/// How a label is set.
+/// How a text is set.
+///
+/// ```
+/// use bouncing_disk_plot::{Anchor, Colour, TextStyle};
+///
+/// let small = TextStyle::new(Anchor::LeftCentre).size(8.0).colour(Colour::DARK_GREY);
+/// assert_eq!(TextStyle::from(Anchor::LeftCentre), TextStyle::new(Anchor::LeftCentre));
+/// assert_ne!(small, Anchor::LeftCentre.into());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TextStyle {
+pub struct TextStyle {
     pub(crate) anchor: Anchor,
     /// The font size in points; that of the figure unless set.
     pub(crate) size: Option<f64>,
@@ -34,23 +42,37 @@ pub(crate) struct TextStyle {
 
 impl TextStyle {
     /// Black, level, in the size of the figure.
-    pub(crate) fn new(anchor: Anchor) -> Self {
+    pub fn new(anchor: Anchor) -> Self {
         Self { anchor, size: None, colour: Colour::BLACK, rotation: 0.0, halo: None }
     }
 
-    pub(crate) fn size(self, points: f64) -> Self {
+    /// Sets the font size in points.
+    #[must_use]
+    pub fn size(self, points: f64) -> Self {
         Self { size: Some(points), ..self }
     }
 
-    pub(crate) fn colour(self, colour: Colour) -> Self {
+    /// Sets the colour.
+    #[must_use]
+    pub fn colour(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
-    pub(crate) fn rotated(self, degrees: f64) -> Self {
+    /// Turns the text anticlockwise.
+    #[must_use]
+    pub fn rotated(self, degrees: f64) -> Self {
         Self { rotation: degrees, ..self }
     }
 
-    pub(crate) fn halo(self, colour: Colour) -> Self {
+    /// Puts a rim around the letters, which keeps them legible on a picture.
+    #[must_use]
+    pub fn halo(self, colour: Colour) -> Self {
         Self { halo: Some(colour), ..self }
+    }
+}
+
+impl From<Anchor> for TextStyle {
+    fn from(anchor: Anchor) -> Self {
+        Self::new(anchor)
     }
 }

@@ -27,6 +27,9 @@ fn main() -> Result<(), Error> {
     let motors = ensemble(&motor, &settings, 32)?;
     let (speed, stall) = (motors.steady_speed, motors.stall_acceleration);
     println!("steady speed {:.2} +- {:.2} rad/s", speed.mean, speed.standard_error);
+    // After this time all but 1/e of the steady speed is there.
+    let constant = motors.time_constant;
+    println!("time constant {:.3} +- {:.3} s", constant.mean, constant.standard_error);
     println!("stall acceleration {:.1} +- {:.1} rad/s^2", stall.mean, stall.standard_error);
     Ok(())
 }

@@ -26,9 +26,9 @@ fn main() -> Result<(), Error> {
     // All of them at once: 512 impacts of each after 20,000 that are not looked at.
     let columns = orbit_diagram(&orbits, 20_000, 512)?;
     for (forcing, column) in forcings.iter().zip(&columns) {
-        // In periods, to six digits, each only once.
+        // Which millionths of a period the phases lie in: the floor keeps the last one below the whole.
         let phases: BTreeSet<i64> =
-            column.iter().map(|impact| (impact.phase().cycles() * 1e6) as i64).collect();
+            column.iter().map(|impact| (impact.phase().cycles() * 1e6).floor() as i64).collect();
         let shown: Vec<String> =
             phases.iter().take(4).map(|&phase| format!("{:.3}", phase as f64 / 1e6)).collect();
         println!("Gamma {forcing:.4}: {:3} impact phases, from {}", phases.len(), shown.join(", "));

@@ -14,6 +14,7 @@ use self::compute::MEMBER_INTERVALS;
 pub use self::data::Fig10Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::motor_case::MotorCase;
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 
@@ -79,18 +80,16 @@ impl Experiment for Fig10 {
         let value = |name: &str, value: f64, unit: &str| {
             (name.to_owned(), format!("{value} {unit}").trim().to_owned())
         };
-        vec![
-            value("μ", table.friction, ""),
-            value("ε", table.restitution, ""),
-            value("θ", table.phase_lag_rad, "rad"),
-            value("ωΦ", table.peak_angular_speed_rad_per_s, "rad/s"),
+        let own = [
             value("a_e", table.contact_radius_mm, "mm"),
             value("a_g", table.gyration_radius_mm, "mm"),
             value("ω/2π", data.section.default_frequency_hz, "Hz"),
             value("members", data.members as f64, ""),
             value("relaunch perturbation", data.relaunch_perturbation, "g/ω"),
             ("inputs that print alike".to_owned(), data.alike.inputs.clone()),
-        ]
+        ];
+        let motor = MotorCase::default_of(table, &data.section);
+        motor.shared_inputs().into_iter().chain(own).collect()
     }
 }
 

@@ -90,11 +90,7 @@ impl Experiment for Fig11 {
     fn parameters(data: &Fig11Data) -> Vec<(String, String)> {
         let motor = &data.motor;
         let pair = |name: &str, value: String| (name.to_owned(), value);
-        vec![
-            pair("μ", motor.friction.to_string()),
-            pair("ε", motor.restitution.to_string()),
-            pair("θ", format!("{} rad", motor.phase_lag_rad)),
-            pair("ωΦ", format!("{} rad/s", motor.peak_angular_speed_rad_per_s)),
+        let own = [
             pair("a_e", format!("{} m", motor.contact_radius_m)),
             pair("a_g", format!("{} m", motor.gyration_radius_m)),
             pair("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
@@ -103,7 +99,8 @@ impl Experiment for Fig11 {
             pair("members by amplitude", data.members.map(|count| count.to_string()).join(", ")),
             pair("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
             pair("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
-        ]
+        ];
+        motor.shared_inputs().into_iter().chain(own).collect()
     }
 
     fn table(data: &Fig11Data) -> Option<Table> {

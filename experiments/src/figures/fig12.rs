@@ -62,11 +62,7 @@ impl Experiment for Fig12 {
     fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
         let motor = &data.long_period.motor;
         let pair = |name: &str, value: String| (name.to_owned(), value);
-        vec![
-            pair("μ", motor.friction.to_string()),
-            pair("ε", motor.restitution.to_string()),
-            pair("θ", format!("{} rad", motor.phase_lag_rad)),
-            pair("ωΦ", format!("{} rad/s", motor.peak_angular_speed_rad_per_s)),
+        let own = [
             pair("ω/2π", format!("{} Hz", motor.frequency_hz)),
             pair("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
             pair("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
@@ -74,6 +70,7 @@ impl Experiment for Fig12 {
             pair("relaunch perturbation", "none".to_owned()),
             pair("motors that print like (a)–(c)", data.alike[0].inputs.clone()),
             pair("motors that print like (d)–(f)", data.alike[1].inputs.clone()),
-        ]
+        ];
+        motor.shared_inputs().into_iter().chain(own).collect()
     }
 }

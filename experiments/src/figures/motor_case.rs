@@ -76,6 +76,17 @@ impl MotorCase {
         }
     }
 
+    /// What all motors of the figures share, by name and with units, for the gallery.
+    pub(crate) fn shared_inputs(&self) -> Vec<(String, String)> {
+        let named = [
+            ("μ", self.friction.to_string()),
+            ("ε", self.restitution.to_string()),
+            ("θ", format!("{} rad", self.phase_lag_rad)),
+            ("ωΦ", format!("{} rad/s", self.peak_angular_speed_rad_per_s)),
+        ];
+        named.map(|(name, value)| (name.to_owned(), value)).into()
+    }
+
     /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time.
     pub(crate) fn largest_acceleration(&self) -> f64 {
         self.rotor().friction_acceleration()

@@ -253,9 +253,9 @@ mod tests {
     fn a_stable_orbit_has_both_radii_and_a_saddle_has_none() {
         let stable = map(0.45);
         let orbit = stable.refine(&[stable.period_one(1).expect("exists")]).expect("refines");
-        let (trapping, catching) = (orbit.trapping_radius(&stable, 64), orbit.attraction_radius(&stable));
+        let (trapping, attraction) = (orbit.trapping_radius(&stable, 64), orbit.attraction_radius(&stable));
         assert!(trapping.is_some_and(|radius| radius > 1e-3), "{trapping:?}");
-        assert!(catching.is_some_and(|radius| radius > 1e-3), "{catching:?}");
+        assert!(attraction.is_some_and(|radius| radius > 1e-3), "{attraction:?}");
         let doubled = map(0.50);
         let saddle = doubled.refine(&[doubled.period_one(1).expect("exists")]).expect("refines");
         assert_eq!((saddle.trapping_radius(&doubled, 64), saddle.attraction_radius(&doubled)), (None, None));

@@ -163,7 +163,7 @@ impl KnownOrbit {
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite radius, and for an orbit without impacts.
     pub fn new(orbit: PeriodicOrbit, radius: f64) -> Result<Self, Error> {
-        within("catching radius", radius, 0.0, f64::MAX, "[0, inf) (rad)")?;
+        within("attraction radius", radius, 0.0, f64::MAX, "[0, inf) (rad)")?;
         within("impacts of a known orbit", orbit.period() as f64, 1.0, f64::MAX, "[1, inf)")?;
         Ok(Self { orbit, radius })
     }
@@ -474,7 +474,7 @@ mod tests {
     #[test]
     fn a_radius_that_is_none_catches_nothing() {
         for radius in [f64::NAN, -1.0, f64::INFINITY, f64::NEG_INFINITY] {
-            refused(KnownOrbit::new(orbit(), radius), "catching radius");
+            refused(KnownOrbit::new(orbit(), radius), "attraction radius");
         }
         let empty = PeriodicOrbit { states: Vec::new(), ..orbit() };
         refused(KnownOrbit::new(empty, 0.1), "impacts of a known orbit");

@@ -100,9 +100,12 @@ impl Vibration {
 
 #[cfg(test)]
 mod tests {
+    use core::convert::Infallible;
+
     use super::*;
     use crate::chatter::policy::ChatterPolicy;
     use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+    use crate::numerics::roots::bisected_bracket;
     use crate::testing::spread;
 
     /// What became of a launch: how long it took to come to rest, if it did before the separation.
@@ -188,12 +191,8 @@ mod tests {
 
     /// The largest of the speeds in (0, `most`) for which something holds that holds for all smaller ones.
     fn fastest(most: f64, holds: impl Fn(f64) -> bool) -> f64 {
-        let (mut low, mut high) = (0.0, most);
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if holds(middle) { low = middle } else { high = middle }
-        }
-        low
+        let Ok((fastest, _)) = bisected_bracket(0.0, most, 40, |speed| Ok::<_, Infallible>(holds(speed)));
+        fastest
     }
 
     /// Whether a disk chatters to rest under a pull 1 - t that shrinks to nothing at t = 1, launched at t = 0: the map in

@@ -1,17 +1,66 @@
 //! Roots of functions of one variable inside a bracket.
 
-/// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings; the
+/// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings: the
 /// middle of the last bracket. The answer is not asked for at the ends, which count as true and false.
 ///
 /// # Errors
 /// Those of `is_below`.
 pub fn bisection<E>(
+    low: f64,
+    high: f64,
+    steps: u32,
+    is_below: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<f64, E> {
+    let (low, high) = bisected_bracket(low, high, steps, is_below)?;
+    Ok(0.5 * (low + high))
+}
+
+/// As [`bisection`], but gives the last bracket: of its two ends `is_below` is true at the first and false at
+/// the second, if it is so at `low` and `high`.
+///
+/// # Errors
+/// Those of `is_below`.
+pub fn bisected_bracket<E>(
+    low: f64,
+    high: f64,
+    steps: u32,
+    is_below: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<(f64, f64), E> {
+    let mut left = steps;
+    let is_wide = |_, _| {
+        let goes_on = left > 0;
+        left = left.saturating_sub(1);
+        goes_on
+    };
+    halved_while(low, high, is_wide, is_below)
+}
+
+/// As [`bisected_bracket`], but halves until the bracket is no wider than `width`, or its ends are neighbouring
+/// doubles. An end that is not a number ends the search at once.
+///
+/// # Errors
+/// Those of `is_below`.
+pub fn bracket_of_width<E>(
+    low: f64,
+    high: f64,
+    width: f64,
+    is_below: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<(f64, f64), E> {
+    let is_wide = |low: f64, high: f64| {
+        let middle = 0.5 * (low + high);
+        high - low > width && low < middle && middle < high
+    };
+    halved_while(low, high, is_wide, is_below)
+}
+
+/// Halves the bracket as long as `is_wide` says so of it.
+fn halved_while<E>(
     mut low: f64,
     mut high: f64,
-    steps: u32,
+    mut is_wide: impl FnMut(f64, f64) -> bool,
     mut is_below: impl FnMut(f64) -> Result<bool, E>,
-) -> Result<f64, E> {
-    for _ in 0..steps {
+) -> Result<(f64, f64), E> {
+    while is_wide(low, high) {
         let middle = 0.5 * (low + high);
         if is_below(middle)? {
             low = middle;
@@ -19,7 +68,7 @@ pub fn bisection<E>(
             high = middle;
         }
     }
-    Ok(0.5 * (low + high))
+    Ok((low, high))
 }
 
 /// The root between `low` and `high` of a function that is positive below it and negative above it, to the
@@ -84,6 +133,21 @@ mod tests {
         assert!((found - 0.4321).abs() < 1e-15, "{found}");
         assert_eq!(bisection(0.0, 1.0, 3, |_| Err("no answer")), Err("no answer"));
         assert_eq!(bisection(1.0, 3.0, 0, below), Ok(2.0));
+    }
+
+    #[test]
+    fn a_bracket_holds_the_change() {
+        let below = |x: f64| Ok::<_, Infallible>(x < 0.4321);
+        assert_eq!(bisected_bracket(0.0, 1.0, 2, below), Ok((0.25, 0.5)));
+        let Ok((low, high)) = bisected_bracket(0.0, 1.0, 60, below);
+        assert!(low < 0.4321 && high >= 0.4321 && high - low <= f64::EPSILON, "{low} {high}");
+        assert_eq!(bracket_of_width(0.0, 1.0, 0.25, below), Ok((0.25, 0.5)));
+        assert_eq!(bracket_of_width(0.0, 1.0, 1.0, below), Ok((0.0, 1.0)));
+        let Ok((low, high)) = bracket_of_width(0.0, 1.0, 0.0, below);
+        assert_eq!((low.next_up(), high), (0.4321, 0.4321));
+        assert_eq!(bracket_of_width(0.0, 1.0, 0.1, |_| Err("no answer")), Err("no answer"));
+        let Ok((low, high)) = bracket_of_width(f64::NAN, 1.0, 0.1, below);
+        assert!(low.is_nan() && high >= 1.0, "{low} {high}");
     }
 
     /// A simple root, a steep one at the end of a plateau, a threefold one, and one at the upper end.

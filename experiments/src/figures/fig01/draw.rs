@@ -3,7 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use bouncing_disk::core::elementary::{atan2, sin, sin_cos};
-use bouncing_disk_plot::{Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke};
+use bouncing_disk_plot::{
+    Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke, TextStyle,
+};
 use glam::DVec3;
 
 use super::data::Fig01Data;
@@ -28,6 +30,10 @@ fn camera(data: &Fig01Data) -> Camera {
 
 fn thin() -> Stroke {
     Stroke::new(Colour::DARK_GREY, 0.6)
+}
+
+fn small(anchor: Anchor, colour: Colour) -> TextStyle {
+    TextStyle::new(anchor).size(8.0).colour(colour)
 }
 
 fn line(camera: &Camera, from: DVec3, to: DVec3) -> Path {
@@ -115,7 +121,7 @@ fn system(data: &Fig01Data, area: Rect) -> Drawing {
     }
     let name = |height: f64| camera.project(polar(1.08 * radius, AZIMUTH + FRAC_PI_2, height));
     let words = |drawing: Drawing, at: (f64, f64), text: &str, colour: Colour| {
-        drawing.text_styled(at, Anchor::LeftCentre, text, Some(8.0), colour.mixed(Colour::BLACK, 0.25), 0.0)
+        drawing.text(at, small(Anchor::LeftCentre, colour.mixed(Colour::BLACK, 0.25)), text)
     };
     drawing = words(drawing, name(bottom + 0.5 * thickness), "disk", Colour::VERMILION);
     drawing = words(drawing, name(data.platform_height_m), "platform", Colour::BLUE);
@@ -216,9 +222,9 @@ fn sketch(data: &Fig01Data, area: Rect) -> Drawing {
     let under = right(0.95, palm - 0.45 * radius);
     let foot = drawing.local((area.left + 0.62 * area.width, area.bottom() - 4.0));
     drawing = drawing
-        .text_styled(beside, Anchor::LeftCentre, "dough", Some(8.0), dark(dough), 0.0)
-        .text_styled(under, Anchor::LeftCentre, "hand", Some(8.0), edge, 0.0)
-        .text_styled(foot, Anchor::Left, "(sketch)", Some(8.0), Colour::DARK_GREY, 0.0);
+        .text(beside, small(Anchor::LeftCentre, dark(dough)), "dough")
+        .text(under, small(Anchor::LeftCentre, edge), "hand")
+        .text(foot, small(Anchor::Left, Colour::DARK_GREY), "(sketch)");
     letter(drawing, area, "(b)")
 }
 
@@ -300,8 +306,8 @@ fn path(data: &Fig01Data, area: Rect) -> Drawing {
     }
     let point = on(data.platform_angle_rad, data.platform_height_m);
     let size = 0.045 * radius;
-    let dot = Some((Colour::BLUE.mixed(Colour::BLACK, 0.4), 1.0));
-    drawing = drawing.ellipse(point, (size, size), None, dot).text(
+    let dot = Colour::BLUE.mixed(Colour::BLACK, 0.4);
+    drawing = drawing.ellipse(point, (size, size), dot).text(
         (point.0 + 0.10 * radius, point.1 + 0.10 * radius),
         Anchor::LeftCentre,
         r"$(a_e\beta, s)$",

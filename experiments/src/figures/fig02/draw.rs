@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk_plot::{Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke};
+use bouncing_disk_plot::{
+    Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke, TextStyle,
+};
 use glam::DVec3;
 
 use super::data::{Fig02Data, Trajectory};
@@ -62,13 +64,10 @@ fn panel(data: &Trajectory, letter: &str, name: Name, area: Rect) -> Drawing {
         let at = camera.project(polar(1.0, angle, height));
         let colour = if cylinder.shows(&camera, angle) { Colour::BLACK } else { Colour::GREY };
         let (place, anchor) = name;
-        drawing = drawing.ellipse(at, (0.06, 0.06), None, Some((colour, 1.0))).text_styled(
+        drawing = drawing.ellipse(at, (0.06, 0.06), colour).text(
             (at.0 + place.0, at.1 + place.1),
-            anchor,
+            TextStyle::new(anchor).size(8.0),
             r"$\tau = 0$",
-            Some(8.0),
-            Colour::BLACK,
-            0.0,
         );
     }
     let number = |angle: f64| match format!("{:.2}", angle / PI).trim_end_matches('0').trim_end_matches('.') {

@@ -3,7 +3,7 @@
 use bouncing_disk::{EventKind, ModeKind, Transition};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
-    Stroke, Text, Ticks,
+    Stroke, Style, Text, TextBox, TextStyle, Ticks,
 };
 
 use super::data::{Census, ChatteringCycle, Fig03Data};
@@ -154,18 +154,12 @@ fn chart(data: &Fig03Data) -> Drawing {
             let Transition { from, event, to } = arrow.transition;
             let (one, other) = (place(from), place(to));
             let middle = (0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1));
-            drawing = drawing.text_styled(
-                middle,
-                Anchor::Middle,
-                Label::plain(&format!("{event:?}")),
-                None,
-                colour,
-                0.0,
-            );
+            let style = TextStyle::new(Anchor::Middle).colour(colour);
+            drawing = drawing.text(middle, style, Label::plain(&format!("{event:?}")));
         }
         drawing = drawing.arrow(arrow.points, Stroke::new(colour, 0.8));
         for (words, at, anchor) in arrow.words {
-            drawing = drawing.text_styled(at, anchor, words, Some(8.0), grey, 0.0);
+            drawing = drawing.text(at, TextStyle::new(anchor).size(8.0).colour(grey), words);
         }
     }
     let size = (2.0 * HALF.0, 2.0 * HALF.1);
@@ -176,7 +170,8 @@ fn chart(data: &Fig03Data) -> Drawing {
         (SLIDING, 2.0, ["Sliding", r"$x = s$, Eq. (12)"], Colour::GREEN),
     ];
     for (centre, corner, lines, colour) in boxes {
-        drawing = drawing.text_box(centre, size, corner, lines, stroke, colour.mixed(Colour::WHITE, 0.75));
+        let style = Style::from(stroke).fill(colour.mixed(Colour::WHITE, 0.75));
+        drawing = drawing.text_box(TextBox::new(centre, size, lines).corner(corner).style(style));
     }
     drawing
 }

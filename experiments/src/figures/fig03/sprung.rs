@@ -6,7 +6,10 @@
 //! frequency sqrt(g/δl_0), and bounded by the two parabolas under the largest and the smallest preload,
 //! between which it lies.
 
+use std::convert::Infallible;
+
 use bouncing_disk::core::elementary::{asin, hypot, sin, sin_cos};
+use bouncing_disk::core::numerics::roots::bisection;
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{Engine, EventKind, EventRecord, System, TOSS_START};
 
@@ -87,17 +90,8 @@ impl Launch {
                 return None;
             }
         }
-        let mut high = low + step;
         // Down to the last place of the time.
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if gap(middle) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let duration = 0.5 * (low + high);
+        let Ok(duration) = bisection(low, low + step, 60, |time| Ok::<_, Infallible>(gap(time) > 0.0));
         Some(End { duration, velocity: self.at(spring, duration).1 })
     }
 

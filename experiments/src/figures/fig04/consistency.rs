@@ -6,6 +6,7 @@
 
 use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::sin;
+use bouncing_disk::core::numerics::roots::bisection;
 
 use super::data::{CoarseGrid, Comparison, Conflict, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
@@ -13,6 +14,8 @@ use crate::experiment::ExperimentError;
 use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
+use crate::figures::least_squares::{Bound, shortest};
+use crate::figures::samples::six_decimals;
 use crate::figures::toss_case::TossCase;
 use crate::paper::{SectionThree, TableOne, Uncertain};
 use crate::printed::PrintedNumber;
@@ -153,7 +156,8 @@ impl Search<'_> {
     }
 
     /// The set of parameters nearest to Table I, within its uncertainties, that has the first `count` printed
-    /// numbers: the shortest vector of shifts in a region with smooth bounds, by successive linearisation.
+    /// numbers: the shortest vector of shifts in a region with smooth bounds, by successive linearisation. Each shift
+    /// has six decimals: the places of the maxima say no more.
     fn nearest(&self, printed: &Printed, count: usize) -> Result<Reading, ExperimentError> {
         /// Steps of the linearisation; it needs about ten.
         const STEPS: u32 = 40;
@@ -161,8 +165,8 @@ impl Search<'_> {
         const DIFFERENCE: f64 = 1e-3;
         /// Largest change of a shift in one step, within which the linearisation is fair.
         const REACH: f64 = 0.25;
-        /// Change of the shifts, in uncertainties, at which the search ends.
-        const END: f64 = 1e-9;
+        /// Change of the shifts, in uncertainties, at which the search ends: their last decimal.
+        const END: f64 = 1e-6;
         /// Keeps a number that lies on its bound from falling outside by rounding.
         const MARGIN: f64 = 1e-4;
         let mut shifts = [0.0; PARAMETERS];
@@ -193,12 +197,15 @@ impl Search<'_> {
                 bounds.push(Bound { normal, limit: 1.0 });
                 bounds.push(Bound { normal: normal.map(|part| -part), limit: 1.0 });
             }
-            let target = shortest(&bounds);
+            let target = shortest(&bounds).ok_or_else(|| ExperimentError::NoData {
+                quantity: "set of parameters within Table I's uncertainties with the printed numbers"
+                    .to_owned(),
+            })?;
             let steps: [f64; PARAMETERS] = std::array::from_fn(|index| target[index] - shifts[index]);
             let longest = steps.iter().fold(0.0_f64, |longest, step| longest.max(step.abs()));
             let share = if longest > REACH { REACH / longest } else { 1.0 };
             for (shift, step) in shifts.iter_mut().zip(steps) {
-                *shift = (*shift + share * step).clamp(-1.0, 1.0);
+                *shift = six_decimals((*shift + share * step).clamp(-1.0, 1.0));
             }
             if longest < END {
                 break;
@@ -209,59 +216,12 @@ impl Search<'_> {
     }
 }
 
-/// normal · x <= limit.
-struct Bound {
-    normal: [f64; PARAMETERS],
-    limit: f64,
-}
-
 fn dot(one: &[f64; PARAMETERS], other: &[f64; PARAMETERS]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
-/// The shortest vector within all bounds (Hildreth's method: each bound in turn gets the multiplier that it needs).
-fn shortest(bounds: &[Bound]) -> [f64; PARAMETERS] {
-    /// Rounds over all bounds; where no vector satisfies them the multipliers would grow for ever.
-    const ROUNDS: u32 = 5000;
-    let mut vector = [0.0; PARAMETERS];
-    let mut multipliers = vec![0.0_f64; bounds.len()];
-    for _ in 0..ROUNDS {
-        let mut change = 0.0_f64;
-        for (bound, multiplier) in bounds.iter().zip(&mut multipliers) {
-            let size = dot(&bound.normal, &bound.normal);
-            if size == 0.0 {
-                continue;
-            }
-            let needed = (*multiplier + (dot(&bound.normal, &vector) - bound.limit) / size).max(0.0);
-            let step = needed - *multiplier;
-            *multiplier = needed;
-            for (part, normal) in vector.iter_mut().zip(bound.normal) {
-                *part -= step * normal;
-            }
-            change = change.max(step.abs() * size.sqrt());
-        }
-        if change < 1e-13 {
-            break;
-        }
-    }
-    vector
-}
-
-/// A zero of a rising function between `low` and `high`.
-fn bisect(
-    (mut low, mut high): (f64, f64),
-    function: impl Fn(f64) -> Result<f64, ExperimentError>,
-) -> Result<f64, ExperimentError> {
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if function(middle)? > 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    Ok(0.5 * (low + high))
-}
+/// Halvings that find a parameter to 1e-12 of the range in which it is looked for.
+const HALVINGS: u32 = 40;
 
 /// See [`Conflict`]. The two numbers are moved by ω and a_g.
 fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentError> {
@@ -272,14 +232,14 @@ fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentE
     // The largest ratio rises with ω, its angle with a_g.
     let with_radius = |gyration_radius_m: f64| {
         let at = |omega: f64| TossCase { gyration_radius_m, angular_frequency_rad_per_s: omega, ..*table };
-        let omega = bisect((0.7 * omega, 1.3 * omega), |omega| {
-            Ok(largest_ratio(&at(omega))?.speed_ratio.unwrap_or(0.0) - lowest_ratio)
+        let omega = bisection(0.7 * omega, 1.3 * omega, HALVINGS, |omega| {
+            Ok::<_, ExperimentError>(largest_ratio(&at(omega))?.speed_ratio.unwrap_or(0.0) <= lowest_ratio)
         })?;
         Ok::<_, ExperimentError>(at(omega))
     };
     let radius = table.gyration_radius_m;
-    let radius = bisect((0.8 * radius, 1.2 * radius), |radius| {
-        Ok(largest_ratio(&with_radius(radius)?)?.amplitude_angle_rad - lowest_angle)
+    let radius = bisection(0.8 * radius, 1.2 * radius, HALVINGS, |radius| {
+        Ok::<_, ExperimentError>(largest_ratio(&with_radius(radius)?)?.amplitude_angle_rad <= lowest_angle)
     })?;
     let case = with_radius(radius)?;
     let reach = case.contact_radius_m / case.gyration_radius_m;
@@ -309,9 +269,9 @@ fn radius_alone(search: &Search<'_>, printed: &Printed) -> Result<Reading, Exper
     let at = |gyration_radius_m: f64| TossCase { gyration_radius_m, ..table };
     let radius = table.gyration_radius_m;
     // The angle falls as the radius grows.
-    let radius = bisect((0.8 * radius, 1.2 * radius), |radius| {
+    let radius = bisection(0.8 * radius, 1.2 * radius, HALVINGS, |radius| {
         let fastest = best_angle(&at(radius), InitialSpin::AbsoluteRest, speed)?;
-        Ok(printed.centres[1] - fastest.amplitude_angle_rad)
+        Ok::<_, ExperimentError>(fastest.amplitude_angle_rad >= printed.centres[1])
     })?;
     Ok(printed.reading(search, at(radius), &smooth_numbers(&at(radius))?))
 }
@@ -404,21 +364,4 @@ pub(super) fn consistency(
         radius_alone: radius_alone(&search, &printed)?,
         coarse_grid,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_shortest_vector_lies_on_the_bounds_that_exclude_the_origin() {
-        let bounds = [
-            Bound { normal: [-1.0, -1.0, 0.0, 0.0, 0.0], limit: -2.0 },
-            Bound { normal: [-1.0, 0.0, 0.0, 0.0, 0.0], limit: -1.5 },
-            Bound { normal: [0.0, 0.0, 1.0, 0.0, 0.0], limit: 7.0 },
-        ];
-        let vector = shortest(&bounds);
-        let expected = [1.5, 0.5, 0.0, 0.0, 0.0];
-        assert!(vector.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-9), "{vector:?}");
-    }
 }

@@ -1,9 +1,11 @@
 //! The curves of panels (a) to (e), their maxima and their symmetries.
 
+use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::elementary::{acos, asin, cos, sin, tan};
+use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::{InitialSpin, TossPerformance, single_toss};
 
 use super::data::{
@@ -264,18 +266,13 @@ pub(super) fn ratio_search(
 pub(super) fn held_to_separation(table: &TossCase) -> f64 {
     let reach = table.contact_radius_m / table.gyration_radius_m;
     let grip = table.friction * reach * reach;
-    let (mut low, mut high) = (0.0, table.last_angle());
-    // Down to the last place.
-    for _ in 0..60 {
-        let angle = 0.5 * (low + high);
+    let holds = |angle: f64| {
         let separation = asin((1.0 / (table.stroke_acceleration() * cos(angle))).min(1.0));
-        if tan(angle) <= grip * cos(separation) {
-            low = angle;
-        } else {
-            high = angle;
-        }
-    }
-    low
+        Ok::<_, Infallible>(tan(angle) <= grip * cos(separation))
+    };
+    // Down to the last place.
+    let Ok((held, _)) = bisected_bracket(0.0, table.last_angle(), 60, holds);
+    held
 }
 
 /// |ν| against the phase lag at an amplitude angle; the dough starts at rest.

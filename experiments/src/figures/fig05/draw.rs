@@ -22,32 +22,34 @@ struct Row {
     high: f64,
 }
 
+impl Row {
+    /// With an axis over (`low`, `high`) that has a number every `step`.
+    fn new([hand, dough]: [fn(&Toss) -> &[f64]; 2], (low, high): (f64, f64), step: f64, label: &str) -> Self {
+        let axis = Axis::linear(low, high).label(label).ticks(Ticks::every(step)).label_distance(25.0);
+        Self { hand, dough, axis, low, high }
+    }
+}
+
 fn rows() -> [Row; 3] {
-    let axis = |low, high, step, label| {
-        Axis::linear(low, high).label(label).ticks(Ticks::every(step)).label_distance(25.0)
-    };
     [
-        Row {
-            hand: |toss| &toss.hand_height_m,
-            dough: |toss| &toss.dough_height_m,
-            axis: axis(-0.35, 0.95, 0.25, "height (m)"),
-            low: -0.35,
-            high: 0.95,
-        },
-        Row {
-            hand: |toss| &toss.hand_angle_rad,
-            dough: |toss| &toss.dough_angle_rad,
-            axis: axis(-2.4, 4.8, 1.0, "angle (rad)"),
-            low: -2.4,
-            high: 4.8,
-        },
-        Row {
-            hand: |toss| &toss.hand_speed_rad_per_s,
-            dough: |toss| &toss.dough_speed_rad_per_s,
-            axis: axis(-30.0, 38.0, 10.0, "angular speed (rad/s)"),
-            low: -30.0,
-            high: 38.0,
-        },
+        Row::new(
+            [|toss| &toss.hand_height_m, |toss| &toss.dough_height_m],
+            (-0.35, 0.95),
+            0.25,
+            "height (m)",
+        ),
+        Row::new(
+            [|toss| &toss.hand_angle_rad, |toss| &toss.dough_angle_rad],
+            (-2.4, 4.8),
+            1.0,
+            "angle (rad)",
+        ),
+        Row::new(
+            [|toss| &toss.hand_speed_rad_per_s, |toss| &toss.dough_speed_rad_per_s],
+            (-30.0, 38.0),
+            10.0,
+            "angular speed (rad/s)",
+        ),
     ]
 }
 

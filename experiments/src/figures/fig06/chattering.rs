@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Vibration, sweep};
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, OrbitClass,
@@ -107,11 +108,10 @@ pub(super) fn single_tosses(
         }
     }
     // A NaN (no Γ at all) ends the loop at once.
-    while first_other - last > 1.0e-9 {
-        let middle = 0.5 * (last + first_other);
-        let cycle = cycles(&[middle], restitution, policy).map_err(ExperimentError::model)?;
-        if cycle.iter().all(is_single) { last = middle } else { first_other = middle }
-    }
+    let (last, first_other) = bracket_of_width(last, first_other, 1.0e-9, |forcing| {
+        let cycle = cycles(&[forcing], restitution, policy).map_err(ExperimentError::model)?;
+        Ok::<_, ExperimentError>(cycle.iter().all(is_single))
+    })?;
     let beyond: Vec<f64> =
         (0..200).map(|i| first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / 200.0).collect();
     let beyond = cycles(&beyond, restitution, policy).map_err(ExperimentError::model)?;

@@ -184,7 +184,7 @@ pub struct Dimension {
     pub outcomes: usize,
     /// Rank of the matrix of derivatives.
     pub rank: usize,
-    /// Its pivots relative to the first.
+    /// Its pivots relative to the first, rounded to 1e-6: those of dependent inputs are 0.
     pub pivots: Vec<f64>,
 }
 

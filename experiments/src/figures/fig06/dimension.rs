@@ -4,20 +4,19 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, System};
+use faer::Mat;
 
 use super::data::{Dimension, TorqueRatio};
 use super::inputs::no_orbit;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
+use crate::figures::samples::six_decimals;
 use crate::figures::toss_case::TossCase;
 use crate::paper;
 
 /// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference, and the rounding
-/// that it divides are both far below [`DEPENDENT`].
+/// that it divides are both far below the sixth decimal.
 const CHANGE: f64 = 1.0e-5;
-/// A pivot below this share of the largest one counts as zero. Those that are not zero are four powers of ten above it, the others
-/// that much below.
-const DEPENDENT: f64 = 1.0e-6;
 /// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast, forward and backward, in
 /// which the slip ends (the first and the last) or goes on (the others).
 const IMPACTS: [(f64, f64, f64); 4] =
@@ -70,27 +69,16 @@ fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
     Ok(outcomes)
 }
 
-/// The sizes of the pivots of a set of rows, largest first: what is left of the largest row when the ones before are taken out.
-fn pivots(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let mut pivots = Vec::with_capacity(rows.len());
-    while !rows.is_empty() {
-        let largest =
-            (0..rows.len()).max_by(|a, b| dot(&rows[*a], &rows[*a]).total_cmp(&dot(&rows[*b], &rows[*b])));
-        let row = rows.swap_remove(largest.unwrap_or_default());
-        let size = dot(&row, &row);
-        pivots.push(size.sqrt());
-        if size > 0.0 {
-            for other in &mut rows {
-                // Twice: the second takes what rounding has left.
-                for _ in 0..2 {
-                    let share = dot(other, &row) / size;
-                    other.iter_mut().zip(&row).for_each(|(value, own)| *value -= share * own);
-                }
-            }
-        }
-    }
-    pivots
+/// The pivots of a set of rows over the largest, falling: what is left of the largest row when the ones before are taken out. They
+/// are those of a QR decomposition with exchanges, to six decimals: independent rows leave ten thousand units of the last one,
+/// dependent ones a hundredth of a unit, which difference quotients and rounding make.
+fn pivots(rows: &[Vec<f64>]) -> Vec<f64> {
+    let length = rows.first().map_or(0, Vec::len);
+    let decomposition = Mat::from_fn(length, rows.len(), |place, row| rows[row][place]).col_piv_qr();
+    let triangle = decomposition.thin_R();
+    let sizes: Vec<f64> = (0..length.min(rows.len())).map(|index| triangle[(index, index)].abs()).collect();
+    let first = sizes.first().copied().unwrap_or(1.0);
+    sizes.into_iter().map(|size| six_decimals(size / first)).collect()
 }
 
 /// The rank of the derivatives of the next collisions by the nine inputs, at the toss of Table I as a motor of those inputs.
@@ -117,13 +105,11 @@ pub(super) fn dimension() -> Result<Dimension, ExperimentError> {
         })
         .collect::<Result<Vec<Vec<f64>>, ExperimentError>>()?;
     let outcomes = rows.first().map_or(0, Vec::len);
-    let pivots = pivots(rows);
-    let first = pivots.first().copied().unwrap_or(1.0);
-    let pivots: Vec<f64> = pivots.into_iter().map(|pivot| pivot / first).collect();
+    let pivots = pivots(&rows);
     Ok(Dimension {
         parameters: NAMES.map(str::to_owned).to_vec(),
         outcomes,
-        rank: pivots.iter().filter(|pivot| **pivot > DEPENDENT).count(),
+        rank: pivots.iter().filter(|pivot| **pivot > 0.0).count(),
         pivots,
     })
 }
@@ -159,8 +145,10 @@ mod tests {
     #[test]
     fn pivots_count_independent_rows() {
         let rows = vec![vec![1.0, 0.0, 2.0], vec![0.0, 3.0, 0.0], vec![2.0, 3.0, 4.0], vec![0.0; 3]];
-        let pivots = pivots(rows);
-        assert_eq!(pivots.len(), 4);
-        assert!(pivots[1] > 1.0 && pivots[2] < 1e-14 && pivots[3] < 1e-14, "{pivots:?}");
+        // The longest row is the third, of length sqrt(29). Of the second row 9/sqrt(29) lies along it.
+        let pivots = pivots(&rows);
+        let second = (9.0 - 81.0 / 29.0_f64).sqrt() / 29.0_f64.sqrt();
+        assert!((pivots[1] - second).abs() <= 0.5e-6, "{pivots:?} {second}");
+        assert!(pivots.len() == 3 && pivots[0] >= 1.0 && pivots[2] <= 0.0, "{pivots:?}");
     }
 }

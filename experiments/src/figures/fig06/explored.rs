@@ -14,9 +14,9 @@ use super::chattering::from_rest;
 use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, Visited};
 use super::inputs::{Inputs, map, no_orbit};
 use super::merging::starts;
-use super::slices::rounded;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::circular::occupied_arc;
+use crate::figures::samples::six_decimals;
 
 /// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
 /// impacts on the mean before it comes to rest for the first time.
@@ -166,7 +166,8 @@ pub(super) fn zoom(
         .iter()
         .zip(states)
         .map(|(at, states)| {
-            let mut phases: Vec<f64> = states.iter().map(|state| rounded(state.phase().cycles())).collect();
+            let mut phases: Vec<f64> =
+                states.iter().map(|state| six_decimals(state.phase().cycles())).collect();
             phases.sort_by(f64::total_cmp);
             phases.dedup_by(|one, other| one.total_cmp(other).is_eq());
             Column { axial_forcing: at.axial_forcing, impact_phase_cycles: phases }

@@ -1,5 +1,6 @@
 //! The crisis in which the followed attractor is lost to chattering, by bisection on survival.
 
+use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow_attractor, survival_times};
 
 use super::data::Merging;
@@ -48,18 +49,11 @@ fn orbits(forcings: &[f64], starts: &[ImpactState], restitution: f64) -> Result<
 /// The last bracket (survived, lost). Its few orbits are advanced one by one: the next Γ is known only when they are done, and
 /// k bisections ahead at once are (2^k − 1)/k times as many orbits, which takes back most of what lanes gain.
 fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(f64, f64), ExperimentError> {
-    let (mut survived, mut lost) = (SAFE_FORCING, LOST_FORCING);
-    while lost - survived > BRACKET {
-        let middle = 0.5 * (survived + lost);
-        let orbits = orbits(&[middle], starts, restitution)?;
+    bracket_of_width(SAFE_FORCING, LOST_FORCING, BRACKET, |forcing| {
+        let orbits = orbits(&[forcing], starts, restitution)?;
         let lives = survival_times(&orbits, impacts).map_err(ExperimentError::model)?;
-        if lives.into_iter().all(|lived| lived == impacts) {
-            survived = middle;
-        } else {
-            lost = middle;
-        }
-    }
-    Ok((survived, lost))
+        Ok(lives.into_iter().all(|lived| lived == impacts))
+    })
 }
 
 /// Locates the crisis of the attractor that is followed from `first`.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState};
 use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, ForcingParameters};
 
@@ -31,17 +32,16 @@ const LAGS_TRIED: u32 = 72;
 
 /// The lowest Γ at which Newton's iteration finds the orbit, and its phase there (rad).
 pub(super) fn threshold(inputs: Inputs, first: ImpactState) -> Result<(f64, f64), ExperimentError> {
-    let (mut absent, mut found) = (BELOW_THRESHOLD, inputs.followed_from);
     let mut state = first;
-    while found - absent > BRACKET {
-        let middle = 0.5 * (absent + found);
+    let (_, found) = bracket_of_width(BELOW_THRESHOLD, inputs.followed_from, BRACKET, |forcing| {
         // The same orbit, not another one: one impact in one period of the platform.
-        let refined = map(middle, inputs.restitution)?.refine(&[state]);
-        match refined.ok().filter(|orbit| orbit.platform_periods == 1) {
-            Some(orbit) => (found, state) = (middle, orbit.states[0]),
-            None => absent = middle,
+        let refined = map(forcing, inputs.restitution)?.refine(&[state]);
+        let orbit = refined.ok().filter(|orbit| orbit.platform_periods == 1);
+        if let Some(orbit) = &orbit {
+            state = orbit.states[0];
         }
-    }
+        Ok::<_, ExperimentError>(orbit.is_none())
+    })?;
     Ok((found, state.phase().angle()))
 }
 

@@ -38,7 +38,8 @@ pub(super) fn width(values: &[f64]) -> f64 {
 /// The map and its parameters.
 fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
     let dimension = &data.dimension;
-    let pivots: Vec<String> = dimension.pivots.iter().map(|pivot| format!("{pivot:.0e}")).collect();
+    let independent = dimension.pivots.iter().filter(|pivot| **pivot > 0.0);
+    let pivots: Vec<String> = independent.map(|pivot| format!("{pivot:.0e}")).collect();
     let ratios: Vec<String> = data
         .torque_ratios
         .iter()
@@ -64,7 +65,7 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
     vec![
         Claim::printed("section4.map_parameters", dimension.rank as f64).note(format!(
             "rank of the derivatives of {} numbers of the next collisions (τ_imp, w_A/(ωA), w_T/(ωΦ)) by the {} inputs {} of a system in \
-             SI units; pivots {}",
+             SI units; pivots {}, the others below 1e-6",
             dimension.outcomes,
             dimension.parameters.len(),
             dimension.parameters.join(", "),

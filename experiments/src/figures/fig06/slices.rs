@@ -11,6 +11,7 @@ use bouncing_disk::{
 use super::data::{Slice, Twist};
 use super::inputs::{Inputs, Systems};
 use crate::experiment::ExperimentError;
+use crate::figures::samples::six_decimals;
 
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
 pub(super) fn followed_slice(
@@ -36,11 +37,6 @@ pub(super) fn followed_slice(
     Ok(Some(slice(followed.axial_forcing, inputs, &linear, &semielliptical)))
 }
 
-/// Six decimals.
-pub(super) fn rounded(value: f64) -> f64 {
-    (value * 1.0e6).round() / 1.0e6
-}
-
 /// The impacts of two rotary motions over the same vertical one.
 pub(super) fn slice(
     axial_forcing: f64,
@@ -50,7 +46,7 @@ pub(super) fn slice(
 ) -> Slice {
     let speeds = |orbit: &TossOrbit, twist: Twist| -> Vec<f64> {
         let scale = PI * twist.angular_forcing;
-        orbit.collisions.iter().map(|collision| rounded(collision.angular_speed / scale)).collect()
+        orbit.collisions.iter().map(|collision| six_decimals(collision.angular_speed / scale)).collect()
     };
     let mean = |orbit: &TossOrbit, twist: Twist| {
         orbit.mean_angular_speed.unwrap_or_default() / (PI * twist.angular_forcing)
@@ -78,11 +74,11 @@ pub(super) fn slice(
         vertical_motions_agree: vertical(linear)[..shared] == vertical(semielliptical)[..shared],
         impact_phase_cycles: impacts
             .iter()
-            .map(|collision| rounded(collision.state.phase.cycles()))
+            .map(|collision| six_decimals(collision.state.phase.cycles()))
             .collect(),
         normalised_impact_speed: impacts
             .iter()
-            .map(|collision| rounded(-collision.state.axial_impact_velocity / PI))
+            .map(|collision| six_decimals(-collision.state.axial_impact_velocity / PI))
             .collect(),
         linear: speeds(linear, inputs.linear),
         linear_mean: mean(linear, inputs.linear),

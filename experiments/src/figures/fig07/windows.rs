@@ -1,5 +1,8 @@
 //! The printed fractions against the window, which the paper's text does not give.
 
+use std::convert::Infallible;
+
+use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit};
 
 use super::data::{CurvePoint, Search, Windows};
@@ -81,13 +84,10 @@ fn share(sums: &[f64], top: f64) -> f64 {
 fn top_for(sums: &[f64], printed: f64) -> Option<f64> {
     let rows = sums.len() - 1;
     let row = (1..=rows).find(|row| mean(sums, 0, *row) >= printed)?;
-    let (mut low, mut high) =
-        (LARGEST_TOP * (row - 1) as f64 / rows as f64, LARGEST_TOP * row as f64 / rows as f64);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if share(sums, middle) < printed { low = middle } else { high = middle }
-    }
-    Some(high)
+    let (low, high) = (LARGEST_TOP * (row - 1) as f64 / rows as f64, LARGEST_TOP * row as f64 / rows as f64);
+    let is_less = |top: f64| Ok::<_, Infallible>(share(sums, top) < printed);
+    let Ok((_, top)) = bisected_bracket(low, high, 60, is_less);
+    Some(top)
 }
 
 /// Half a unit of the last digit printed.

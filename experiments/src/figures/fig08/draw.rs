@@ -3,7 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use bouncing_disk::core::elementary::sin_cos;
-use bouncing_disk_plot::{Anchor, Camera, Colour, Dash, Drawing, Figure, Path, Rect, SINGLE_COLUMN, Stroke};
+use bouncing_disk_plot::{
+    Anchor, Camera, Colour, Dash, Drawing, Figure, Fill, Path, Rect, SINGLE_COLUMN, Stroke, Style, TextStyle,
+};
 use glam::DVec3;
 
 use super::data::Fig08Data;
@@ -26,11 +28,15 @@ fn black() -> Stroke {
     Stroke::new(Colour::BLACK, 0.7)
 }
 
+fn small(anchor: Anchor) -> TextStyle {
+    TextStyle::new(anchor).size(8.0)
+}
+
 fn leader(drawing: Drawing, from: (f64, f64), to: (f64, f64), lines: &[&str]) -> Drawing {
     let drawing = drawing.stroke(Path::through([from, to]), Stroke::new(Colour::GREY, 0.5));
     lines.iter().enumerate().fold(drawing, |drawing, (index, line)| {
         let at = (to.0 + 1.0, to.1 - 3.4 * index as f64);
-        drawing.text_styled(at, Anchor::LeftCentre, *line, Some(8.0), Colour::BLACK, 0.0)
+        drawing.text(at, small(Anchor::LeftCentre), *line)
     })
 }
 
@@ -64,13 +70,12 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
         twist: FRAC_PI_2,
     };
     drawing = beam.drawn(drawing, &camera, Colour::GREY, Stroke::new(Colour::DARK_GREY, 0.6));
-    let ball = Some((Colour::SKY.mixed(Colour::WHITE, 0.55), 1.0));
+    let ball = Style::from(black()).fill(Colour::SKY.mixed(Colour::WHITE, 0.55));
     let (x, y) = at(0.0);
-    drawing = drawing.ellipse((x, y), (radius, radius), Some(black()), ball).ellipse(
+    drawing = drawing.ellipse((x, y), (radius, radius), ball).ellipse(
         (x - 0.35 * radius, y + 0.4 * radius),
         (0.22 * radius, 0.16 * radius),
-        None,
-        Some((Colour::WHITE, 0.8)),
+        Fill::new(Colour::WHITE, 0.8),
     );
     let magnet_foot = radius + MAGNET_GAP;
     let magnet = Cylinder { radius: MAGNET.0, bottom: magnet_foot, top: magnet_foot + MAGNET.1 };
@@ -90,18 +95,11 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
     let front = |height: f64| camera.project(polar(TRANSDUCER.0, AZIMUTH, height));
     drawing = drawing
         .arrow([front(middle - 3.0), front(middle + 2.2)], Stroke::new(Colour::BLACK, 1.1))
-        .text_styled(
-            (front(middle).0 + 1.2, front(middle).1),
-            Anchor::LeftCentre,
-            "poling",
-            Some(8.0),
-            Colour::BLACK,
-            0.0,
-        );
+        .text((front(middle).0 + 1.2, front(middle).1), small(Anchor::LeftCentre), "poling");
     drawing = source(drawing, &camera, &transducer);
     let edge = drawing.local((CONTACT.left + 2.0, CONTACT.top + 0.5 * CONTACT.height));
     drawing = drawing
-        .ellipse((x, at(tip).1), (2.2, 1.6), Some(Stroke::new(Colour::GREY, 0.5)), None)
+        .ellipse((x, at(tip).1), (2.2, 1.6), Stroke::new(Colour::GREY, 0.5))
         .stroke(Path::through([(x + 2.2, at(tip).1), edge]), Stroke::new(Colour::GREY, 0.5));
     names(drawing, data, &camera, (foot, magnet.top))
 }
@@ -117,13 +115,10 @@ fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> D
         drawing = drawing
             .stroke(Path::through([(x, height), (side - 1.0, height)]), Stroke::new(Colour::GREY, 0.5));
     }
-    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text_styled(
+    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text(
         (side - 2.0, y),
-        Anchor::Middle,
+        TextStyle::new(Anchor::Middle).size(8.5).rotated(90.0),
         format!("{} mm", data.ball_diameter_mm).as_str(),
-        Some(8.5),
-        Colour::BLACK,
-        90.0,
     );
     // The motion of the tip.
     let swing = arc(camera, 6.6, (AZIMUTH - 0.75, AZIMUTH + 0.75), tip - 4.0);
@@ -183,7 +178,7 @@ fn source(drawing: Drawing, camera: &Camera, transducer: &Cylinder) -> Drawing {
     drawing
         .stroke(Path::through([top, (x, top.1), (x, middle + size)]), black())
         .stroke(Path::through([bottom, (x, bottom.1), (x, middle - size)]), black())
-        .ellipse((x, middle), (size, size), Some(black()), Some((Colour::WHITE, 1.0)))
+        .ellipse((x, middle), (size, size), Style::from(black()).fill(Colour::WHITE))
         .stroke(Path::through(wave), black())
 }
 
@@ -195,8 +190,8 @@ fn contact(data: &Fig08Data, area: Rect) -> Drawing {
     let mut drawing = Drawing::with_equal_scales(area, (-2.9, 2.9), (-2.6, 2.3));
     let rim = (0.0, -0.05);
     let frame = 2.75;
-    drawing =
-        drawing.ellipse(rim, (frame, 2.3), Some(Stroke::new(Colour::GREY, 0.5)), Some((Colour::WHITE, 1.0)));
+    let lens = Style::from(Stroke::new(Colour::GREY, 0.5)).fill(Colour::WHITE);
+    drawing = drawing.ellipse(rim, (frame, 2.3), lens);
     // The ball's outline near the axis; heights from the circle of contact.
     let below = |across: f64| radius - (radius * radius - across * across).sqrt() - depth;
     let outline: Vec<(f64, f64)> =
@@ -218,8 +213,8 @@ fn contact(data: &Fig08Data, area: Rect) -> Drawing {
     drawing
         .stroke(Path::through([(touch, -0.95), (touch, -1.3)]), Stroke::new(Colour::GREY, 0.5))
         .double_arrow((0.0, -1.17), (touch, -1.17), black())
-        .text_styled((0.0, -1.65), Anchor::Centre, label.as_str(), Some(8.0), Colour::BLACK, 0.0)
-        .text_styled((0.0, 1.55), Anchor::Centre, "contact", Some(8.0), Colour::BLACK, 0.0)
+        .text((0.0, -1.65), small(Anchor::Centre), label.as_str())
+        .text((0.0, 1.55), small(Anchor::Centre), "contact")
 }
 
 pub(super) fn draw(data: &Fig08Data) -> Figure {

@@ -173,9 +173,8 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Smallest and largest value; `None` of none.
 pub(super) fn extent(values: &[f64]) -> Option<[f64; 2]> {
-    let mut values = values.iter().copied();
-    let first = values.next()?;
-    Some(values.fold([first, first], |[low, high], value| [low.min(value), high.max(value)]))
+    let (low, high) = samples::extent(values.iter().copied());
+    (!values.is_empty()).then_some([low, high])
 }
 
 #[cfg(test)]

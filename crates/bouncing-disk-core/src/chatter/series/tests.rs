@@ -1,8 +1,11 @@
+use core::convert::Infallible;
+
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 use super::*;
 use crate::flight::launch::Launch;
+use crate::numerics::roots::bisected_bracket;
 use crate::testing::spread;
 
 type High = FBig<HalfEven, 2>;
@@ -63,12 +66,9 @@ fn cases(peak: f64, restitution: f64, count: u32) -> impl Iterator<Item = Case> 
         let accepted = |exponent: f64| {
             vibration.accumulation(phase, libm::exp10(exponent), restitution).map(|_| libm::exp10(exponent))
         };
-        let (mut slow, mut fast) = (-150.0, 0.0);
-        accepted(slow)?;
-        for _ in 0..40 {
-            let middle = 0.5 * (slow + fast);
-            if accepted(middle).is_some() { slow = middle } else { fast = middle }
-        }
+        accepted(-150.0)?;
+        let is_slow = |exponent: f64| Ok::<_, Infallible>(accepted(exponent).is_some());
+        let Ok((slow, _)) = bisected_bracket(-150.0, 0.0, 40, is_slow);
         let speed = accepted(slow)? * [1.0, 0.3, 1e-6, 1e-100][(k % 4) as usize];
         vibration.accumulation(phase, speed, restitution)?;
         Some(Case { vibration, phase, speed, restitution })

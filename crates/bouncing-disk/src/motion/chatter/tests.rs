@@ -1,4 +1,7 @@
+use std::convert::Infallible;
+
 use bouncing_disk_core::elementary::pow;
+use bouncing_disk_core::numerics::roots::bisected_bracket;
 use bouncing_disk_core::{Accumulation, Launch};
 
 use super::*;
@@ -66,12 +69,9 @@ fn largest_speed(system: &DimensionlessSystem, phase: Phase) -> Option<f64> {
         let speed = pow(10.0, exponent);
         system.map().accumulation(Launch::new(phase, speed).unwrap()).map(|_| speed)
     };
-    let (mut slow, mut fast) = (-150.0, 0.0);
-    accepted(slow)?;
-    for _ in 0..40 {
-        let middle = 0.5 * (slow + fast);
-        if accepted(middle).is_some() { slow = middle } else { fast = middle }
-    }
+    accepted(-150.0)?;
+    let is_slow = |exponent: f64| Ok::<_, Infallible>(accepted(exponent).is_some());
+    let Ok((slow, _)) = bisected_bracket(-150.0, 0.0, 40, is_slow);
     accepted(slow)
 }
 

@@ -182,7 +182,7 @@ fn a_stored_run_that_does_not_fit_is_refused() {
         (&*labels, "[1,1,1]", "labels of a basin run: 3 where 4 would be legal"),
         (&*labels, "[1,1,1,256]", "256"),
         ("\"finished_rows\"", "\"finished\"", "finished"),
-        ("\"radius\":0.01", "\"radius\":-0.01", "catching radius"),
+        ("\"radius\":0.01", "\"radius\":-0.01", "attraction radius"),
         ("\"restitution\":0.5", "\"restitution\":1.5", "restitution"),
         ("\"cells\":3", "\"cells\":0", "axis cells"),
     ] {
