@@ -249,7 +249,37 @@ fn curve_bits(curves: &[Result<SpeedCurve, Error>]) -> Vec<u64> {
     curves.flat_map(|curve| curve.times.iter().chain(&curve.speeds).map(|x| x.to_bits())).collect()
 }
 
-/// Kills a run at several places: the process ends with whatever the file holds then, half a line included.
+/// Where a process that is to be killed writes its journal.
+const TO_BE_KILLED: &str = "BOUNCING_DISK_TEST_JOURNAL";
+
+/// Runs itself as a process of its own, which it kills as soon as some members more are finished.
+#[test]
+fn a_process_that_is_killed_goes_on_where_it_was() {
+    let (members, key) = (members(), key(0.1));
+    if let Some(path) = std::env::var_os(TO_BE_KILLED) {
+        transients_with_journal(path, &key, &members, &crate::Unobserved).expect("killed before");
+        return;
+    }
+    let scratch = Scratch::new("killed");
+    let lines = || fs::read(&scratch.0).map_or(0, |bytes| bytes.split(|byte| *byte == b'\n').count());
+    for _ in 0..3 {
+        let before = lines();
+        let mut command = std::process::Command::new(std::env::current_exe().expect("runs"));
+        let name = "storage::journal::tests::a_process_that_is_killed_goes_on_where_it_was";
+        command.args(["--exact", name]).env(TO_BE_KILLED, &scratch.0).stdout(std::process::Stdio::null());
+        let mut child = command.spawn().expect("starts");
+        while lines() < before + 8 && child.try_wait().expect("its own child").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        child.kill().expect("its own child");
+        child.wait().expect("its own child");
+        assert!(lines() >= before + 8, "{} lines after {before}", lines());
+    }
+    let curves = transients_with_journal(&scratch.0, &key, &members, &crate::Unobserved).expect("free again");
+    assert_eq!(curve_bits(&curves), curve_bits(&transients(&members)));
+}
+
+/// Stops a run again and again; each time the file ends in half a line.
 #[test]
 fn transients_that_are_killed_again_and_again_end_as_those_of_one_call() {
     let (scratch, members) = (Scratch::new("transients"), members());
