@@ -16,7 +16,7 @@ use clap::{Args, Subcommand};
 use crate::dependencies;
 use crate::output::{complain, say};
 use crate::workspace::{DOCS_FOLDER, in_workspace};
-use criterion::{PROGRAMS, Times, compiled, keep_least};
+use criterion::{Flags, PROGRAMS, Times, compiled, keep_least};
 use record::Record;
 
 /// The folder of the stored measurements, relative to the root of the workspace.
@@ -29,6 +29,12 @@ const SHORT: [&str; 4] = ["--warm-up-time", "0.2", "--measurement-time", "0.4"];
 
 /// The benches of W1, W2 and W3 on one thread.
 const WORKLOADS: &str = "^(w1/(scalar|lanes/.*)|w2/(one_motor|ensemble/threads_1)|w3/(scalar|threads_1))$";
+
+/// The programs of the workloads.
+const WORKLOAD_PROGRAMS: [&str; 3] = ["impact", "motor", "basin"];
+
+/// What precedes the name of a workload that was compiled with default flags.
+const OUTSIDE: &str = "outside";
 
 /// The options of `cargo xtask bench`.
 #[derive(Args)]
@@ -48,7 +54,8 @@ enum Bench {
         /// Go through them so many times
         #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
         passes: u32,
-        /// Store the times, with that of a first build, in data/performance and write docs/performance.md
+        /// Store the times, with those of a first build and of the workloads in a crate of one's own, in data/performance
+        /// and write docs/performance.md
         #[arg(long, conflicts_with = "programs")]
         store: bool,
     },
@@ -63,7 +70,7 @@ enum Bench {
         rounds: u32,
         /// The bench programs
         #[arg(long, value_name = "PROGRAM", value_delimiter = ',', value_parser = names(),
-              default_values = ["impact", "motor", "basin"])]
+              default_values = WORKLOAD_PROGRAMS)]
         programs: Vec<String>,
         /// The benches, a regular expression
         #[arg(long, value_name = "REGEX", default_value = WORKLOADS)]
@@ -85,7 +92,7 @@ fn names() -> PossibleValuesParser {
 pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     match &options.what {
         Bench::Run { programs, passes, store } => {
-            let mut record = measured(programs, *passes)?;
+            let mut record = measured(programs, *passes, *store)?;
             for (name, time) in &record.times_ns {
                 say!("{name:<40} {:>12}", page::time(*time))?;
             }
@@ -109,15 +116,28 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn measured(programs: &[String], passes: u32) -> anyhow::Result<Record> {
+/// The times of the programs, and if wanted those of the workloads with default flags, under names of their own.
+fn measured(programs: &[String], passes: u32, outside: bool) -> anyhow::Result<Record> {
     let (root, target) = (in_workspace(""), target_folder()?);
     let mut record = Record::here(&root, passes)?;
-    let programs = compiled(&root, &target, programs)?;
+    let programs = compiled(&root, &target, programs, Flags::OfSource)?;
+    let workloads = WORKLOAD_PROGRAMS.map(str::to_owned);
+    let outside = match outside {
+        true => compiled(&root, &target.join(OUTSIDE), &workloads, Flags::Default)?,
+        false => Vec::new(),
+    };
     // All programs again and again: a neighbour on the machine mostly stays for some minutes.
     for pass in 1..=passes {
         for program in &programs {
             complain!("pass {pass} of {passes}: {}", program.name);
             keep_least(&mut record.times_ns, program.measure(&target.join("performance"), &SHORT)?);
+        }
+        for program in &outside {
+            complain!("pass {pass} of {passes}: {} with default flags", program.name);
+            let arguments = [&SHORT[..], &[WORKLOADS]].concat();
+            let times = program.measure(&target.join("performance"), &arguments)?;
+            let named = times.into_iter().map(|(name, time)| (format!("{OUTSIDE}/{name}"), time));
+            keep_least(&mut record.times_ns, named.collect());
         }
     }
     Ok(record)
@@ -193,7 +213,7 @@ fn compared(
     // but the times of the files, and would take what it built of one commit for the other.
     let build = |tree: &Tree| {
         let name = tree.0.file_name().context("it has a name")?;
-        compiled(&tree.0, &target.join("compare").join(name), programs)
+        compiled(&tree.0, &target.join("compare").join(name), programs, Flags::OfSource)
     };
     let [old, new] = [build(&trees[0])?, build(&trees[1])?];
     let arguments = [&SHORT[..], &[filter]].concat();

@@ -45,12 +45,30 @@ struct Target {
     kind: Vec<String>,
 }
 
-/// Compiles the programs of the source in `tree`, with the flags and the lock file that lie there.
-pub(super) fn compiled(tree: &Path, target: &Path, names: &[String]) -> anyhow::Result<Vec<Program>> {
+/// The flags of the compiler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flags {
+    /// Those of the source.
+    OfSource,
+    /// None, as in a crate that depends on the libraries.
+    Default,
+}
+
+/// Compiles the programs of the source in `tree`, with the lock file that lies there.
+pub(super) fn compiled(
+    tree: &Path,
+    target: &Path,
+    names: &[String],
+    flags: Flags,
+) -> anyhow::Result<Vec<Program>> {
     let mut cargo = cargo();
     cargo.args(["bench", "--no-run", "--locked", "--message-format", "json-render-diagnostics"]);
     for (package, name) in PROGRAMS.iter().filter(|(_, name)| names.iter().any(|own| own == name)) {
         cargo.args(["--package", package, "--bench", name]);
+    }
+    if flags == Flags::Default {
+        // It takes the place of the flags in .cargo/config.toml.
+        cargo.env("CARGO_ENCODED_RUSTFLAGS", "");
     }
     cargo.env("CARGO_TARGET_DIR", target).current_dir(tree).stderr(Stdio::inherit());
     let output = cargo.output().context("cannot start cargo")?;
