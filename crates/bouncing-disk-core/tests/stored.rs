@@ -184,7 +184,7 @@ fn periodic_orbits() {
     );
     check(
         &KnownOrbit::new(orbit, 0.1).expect("legal"),
-        &[("/radius", json!(-1.0), "catching radius"), ("/orbit/platform_periods", json!(0), "no period")],
+        &[("/radius", json!(-1.0), "attraction radius"), ("/orbit/platform_periods", json!(0), "no period")],
     );
     check(&Multipliers::Real(-0.5, 0.25), &[("/Real/0", json!(0.2), "second multiplier")]);
     check(
@@ -194,6 +194,12 @@ fn periodic_orbits() {
     check(
         &period_doublings(0.5, 1).expect("settles")[0],
         &[("/axial_forcing", json!(-1.0), "axial_forcing"), ("/period", json!(0), "period")],
+    );
+    let mut run = DoublingsRun::new(0.5).expect("legal");
+    run.advance(2, &Unobserved).expect("settles");
+    check(
+        &run,
+        &[("/restitution", json!(0.0), "restitution"), ("/found/1/period", json!(3), "period of a doubling")],
     );
 }
 
