@@ -28,6 +28,7 @@ use crate::motor::transients::{TransientMember, TransientsRun};
 ///
 /// ```
 /// use std::ops::ControlFlow;
+/// use std::sync::atomic::{AtomicU32, Ordering};
 ///
 /// use bouncing_disk::core::Progress;
 /// use bouncing_disk::{
@@ -38,17 +39,19 @@ use crate::motor::transients::{TransientMember, TransientsRun};
 /// # let path = std::env::temp_dir().join(format!("transients-example-{}", std::process::id()));
 /// # let _ = std::fs::remove_file(&path);
 /// let motor = System::motor();
-/// let settings = TransientSettings { duration: 0.05, ..TransientSettings::default() };
-/// let members = ensemble_members(&motor, &settings, 40)?;
+/// let settings = TransientSettings { duration: 1.0, ..TransientSettings::default() };
+/// let members = ensemble_members(&motor, &settings, 200)?;
 /// let key = Provenance::new(JOURNAL)
 ///     .with("system", &motor)?
 ///     .with("settings", &settings)?
 ///     .with_seed(settings.seed)
 ///     .with_chatter_policy(settings.policy);
 ///
-/// // Stopped half way (or killed: that makes no difference).
-/// let stop = |progress: Progress| {
-///     if progress.done < 20 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+/// // Stopped on the way (or killed: that makes no difference).
+/// let asked = AtomicU32::new(0);
+/// let stop = |_: Progress| match asked.fetch_add(1, Ordering::Relaxed) {
+///     0 => ControlFlow::Continue(()),
+///     _ => ControlFlow::Break(()),
 /// };
 /// let stopped = transients_with_journal(&path, &key, &members, &stop);
 /// assert!(matches!(stopped, Err(StorageError::Model(_))));
