@@ -161,6 +161,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// That of the first step that fails (see [`Self::step`]).
+    #[inline]
     pub fn iterate(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         for _ in 0..impacts {
             let speed = -self.restitution * state.velocity;
