@@ -38,8 +38,8 @@
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
 //!
-//! What is read passes the checks of what is made: a value outside its range, a key that is missing and one that is
-//! unknown are errors. An infinite error bound is `null` in JSON, which has no such number.
+//! What is read passes the checks of what is made: a value outside its range, a key that is
+//! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound is `null` in JSON, which has no such number.
 
 mod analysis;
 mod chatter;

@@ -31,9 +31,10 @@
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//! | `storage` | yes | provenance of stored files, and the journal of a long computation |
 //!
-//! What is read passes the checks of what is made: a value outside its range, a key that is missing and one that is
-//! unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
+//! What is read passes the checks of what is made: a value outside its range, a key that is
+//! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 

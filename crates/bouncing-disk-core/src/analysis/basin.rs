@@ -161,10 +161,11 @@ impl KnownOrbit {
     /// [`PeriodicOrbit::trapping_radius`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a negative or non-finite radius, and for an orbit without impacts.
+    /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`] would not
+    /// return, those it returns: without impacts or with too many, at rest, without a period of the platform.
     pub fn new(orbit: PeriodicOrbit, radius: f64) -> Result<Self, Error> {
         within("attraction radius", radius, 0.0, f64::MAX, "[0, inf) (rad)")?;
-        within("impacts of a known orbit", orbit.period() as f64, 1.0, f64::MAX, "[1, inf)")?;
+        orbit.check()?;
         Ok(Self { orbit, radius })
     }
 
@@ -477,7 +478,7 @@ mod tests {
             refused(KnownOrbit::new(orbit(), radius), "attraction radius");
         }
         let empty = PeriodicOrbit { states: Vec::new(), ..orbit() };
-        refused(KnownOrbit::new(empty, 0.1), "impacts of a known orbit");
+        refused(KnownOrbit::new(empty, 0.1), "impacts of a periodic orbit");
         let known = KnownOrbit::new(orbit(), 0.1).expect("legal");
         assert_eq!((known.orbit(), known.radius().to_bits()), (&orbit(), 0.1_f64.to_bits()));
     }

@@ -123,7 +123,7 @@ read_checked!(PeriodicOrbit as UncheckedOrbit {
 
 impl PeriodicOrbit {
     /// Checks what is read: what [`ImpactMap::refine`] may find.
-    fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), Error> {
         let most = MAX_PERIOD as f64;
         within("impacts of a periodic orbit", self.states.len() as f64, 1.0, most, "[1, 4096]")?;
         for entry in self.monodromy.to_cols_array() {
@@ -226,7 +226,7 @@ impl ImpactMap {
     /// to rest (judged by [`ChatterPolicy::Complete`]).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn period_of(
         &self,
         state: ImpactState,
@@ -270,7 +270,7 @@ impl ImpactMap {
     /// # Errors
     /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if Newton's
     /// iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] if it converges to a
-    /// disk at rest; those of [`Vibration::first_impact`].
+    /// disk at rest; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         self.refine_ticked(guess, &mut |_| Ok(()))
     }

@@ -1,6 +1,6 @@
 //! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed in lockstep.
 
-mod measures;
+mod orbit_diagram;
 mod run;
 mod runner;
 
@@ -15,7 +15,7 @@ use crate::observer::{Observer, Unobserved};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 
-pub use measures::{
+pub use orbit_diagram::{
     MAX_RECORDED, orbit_diagram, orbit_diagram_observed, survival_times, survival_times_observed,
 };
 pub use run::{PartialResults, SweepRun};

@@ -18,7 +18,8 @@ read_checked!(Launch as UncheckedLaunch { phase: Phase, relative_speed: f64 } =>
 impl Launch {
     /// A launch at `phase` with `relative_speed` >= 0 (disk minus platform, in units of g/omega).
     ///
-    /// Speed zero means "from rest on the platform": legal only where the platform falls away, P sin tau >= 1.
+    /// Speed zero means "from rest on the platform": where the platform falls away, P sin tau >= 1, the disk
+    /// separates; elsewhere the flight is refused ([`Error::NoLiftOff`]), since a launch knows no platform.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite speed.

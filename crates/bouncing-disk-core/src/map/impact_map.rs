@@ -256,10 +256,7 @@ impl ImpactMap {
         Ok(Orbit::reporting(*self, policy, impact))
     }
 
-    /// The orbit of a disk that leaves the platform at `phase` with relative speed `speed` >= 0.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for a negative or non-finite speed.
+    /// The orbit of a disk that leaves the platform with this launch.
     #[must_use]
     pub const fn orbit_from_launch(&self, launch: Launch, policy: ChatterPolicy) -> Orbit {
         Orbit::from_launch(*self, policy, launch.phase(), launch.relative_speed())

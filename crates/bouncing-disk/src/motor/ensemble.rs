@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Phase, Unobserved, Watch, read_checked};
+use bouncing_disk_core::{Observer, Phase, Unobserved, Watch, WorkCount, read_checked};
 
 use crate::error::{Error, check, finite, not_negative, room_for, within_limit};
 use crate::motor::fit::ExponentialFit;
@@ -76,7 +76,9 @@ pub struct TransientEnsemble {
     pub curves: Vec<SpeedCurve>,
     /// The fit of each member.
     pub fits: Vec<ExponentialFit>,
-    /// Steady speed alpha_ss (rad/s).
+    /// Steady speed alpha_ss (rad/s), by the fits of all members. Next to the load that stalls the motor a curve hardly
+    /// rises and its fit means nothing: there, ask [`SpeedCurve::mean_over_last`] or
+    /// [`MotorStatistics`](crate::MotorStatistics).
     pub steady_speed: Spread,
     /// Time constant t_c (s).
     pub time_constant: Spread,
@@ -185,19 +187,23 @@ impl TransientEnsemble {
     ) -> Result<Self, Error> {
         let members = results.len();
         let watch = Watch::begin(observer, 0, members as u64)?;
-        let fitted = |curve: Result<SpeedCurve, Error>| -> Result<(SpeedCurve, ExponentialFit), Error> {
+        // What one thread counts: fits of short curves are many between two calls of the observer.
+        let fitted = |work: &mut WorkCount<'_>, curve: Result<SpeedCurve, Error>| {
             let curve = curve?;
-            let fit = ExponentialFit::counted(&curve.times, &curve.speeds, &mut watch.work())?;
+            let fit = ExponentialFit::counted(&curve.times, &curve.speeds, work)?;
             watch.finish(1);
-            Ok((curve, fit))
+            Ok::<_, Error>((curve, fit))
         };
         #[cfg(feature = "parallel")]
         let results: Vec<_> = {
             use rayon::prelude::*;
-            results.into_par_iter().map(fitted).collect()
+            results.into_par_iter().map_init(|| watch.work(), fitted).collect()
         };
         #[cfg(not(feature = "parallel"))]
-        let results: Vec<_> = results.into_iter().map(fitted).collect();
+        let results: Vec<_> = {
+            let mut work = watch.work();
+            results.into_iter().map(|curve| fitted(&mut work, curve)).collect()
+        };
         let mut curves = room_for("members of an ensemble", members, MAX_MEMBERS)?;
         let mut fits = room_for("members of an ensemble", members, MAX_MEMBERS)?;
         for result in results {

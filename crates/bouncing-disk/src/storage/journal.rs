@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
-use std::io::{self, BufRead, BufReader, Seek as _, SeekFrom, Write as _};
+use std::io::{self, BufRead, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
@@ -68,13 +68,28 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 #[derive(Debug)]
 pub struct Journal<T> {
     path: PathBuf,
-    /// Locked as long as it is open.
-    file: File,
+    file: Locked,
+    /// Whether a write that failed may have left bytes behind the whole lines.
+    torn: bool,
     /// Bytes of the whole lines.
     length: u64,
     items: usize,
     finished: BTreeSet<usize>,
     results: PhantomData<fn(T) -> T>,
+}
+
+/// A file that is locked as long as it is open.
+///
+/// The lock is given back and not left to the end of the file: a process that is just being started holds a copy of
+/// every open file for a moment, and the lock would live as long.
+#[derive(Debug)]
+struct Locked(File);
+
+impl Drop for Locked {
+    fn drop(&mut self) {
+        // Where the system refuses, it ends the lock with the process.
+        let _ = self.0.unlock();
+    }
 }
 
 /// A line with the result of an item, after its digest.
@@ -129,10 +144,12 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
             Err(TryLockError::WouldBlock) => return Err(StorageError::Busy { path: path.to_owned() }),
             Err(TryLockError::Error(source)) => return Err(failed("lock")(source)),
         }
-        let Contents { length, results } = read(&file, path, &header, items)?;
+        let file = Locked(file);
+        let Contents { length, results } = read(&file.0, path, &header, items)?;
         let finished = results.iter().map(|(index, _)| *index).collect();
-        let mut journal = Self { path: path.to_owned(), file, length, items, finished, results: PhantomData };
-        journal.file.set_len(length).map_err(failed("write"))?;
+        let (path, torn) = (path.to_owned(), false);
+        let mut journal = Self { path, file, torn, length, items, finished, results: PhantomData };
+        journal.file.0.set_len(length).map_err(failed("write"))?;
         if length == 0 {
             journal.write(&header)?;
             journal.sync()?;
@@ -153,6 +170,8 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
     ) -> Result<PartialResults<T>, StorageError> {
         let path = path.as_ref();
         let failed = |source| StorageError::Io { action: "open", path: path.to_owned(), source };
+        // A pipe would be waited for.
+        check_regular(&std::fs::metadata(path).map_err(failed)?, path)?;
         let file = File::open(path).map_err(failed)?;
         Ok(partial(items, read(&file, path, &header(key, items, path)?, items)?.results))
     }
@@ -206,15 +225,18 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
     }
 
     fn write(&mut self, lines: &[u8]) -> Result<(), StorageError> {
-        let written = self.file.seek(SeekFrom::Start(self.length)).and_then(|_| self.file.write_all(lines));
-        match written {
+        let file = &mut self.file.0;
+        let cut = if self.torn { file.set_len(self.length) } else { Ok(()) };
+        let placed = cut.and_then(|()| file.seek(SeekFrom::Start(self.length)));
+        match placed.and_then(|_| file.write_all(lines)) {
             Ok(()) => {
+                self.torn = false;
                 self.length += lines.len() as u64;
                 Ok(())
             }
             Err(source) => {
-                // Half a line is cut off now, or else when the journal is opened again.
-                let _ = self.file.set_len(self.length);
+                // Half a line is cut off now, or else before the next one is written or the journal is opened again.
+                self.torn = file.set_len(self.length).is_err();
                 Err(StorageError::Io { action: "write", path: self.path.clone(), source })
             }
         }
@@ -227,7 +249,7 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
     /// [`StorageError::Io`] if the system refuses.
     pub fn sync(&self) -> Result<(), StorageError> {
         let failed = |source| StorageError::Io { action: "write", path: self.path.clone(), source };
-        self.file.sync_data().map_err(failed)
+        self.file.0.sync_data().map_err(failed)
     }
 
     /// The file.
@@ -266,6 +288,9 @@ fn header(key: &Provenance, items: usize, path: &Path) -> Result<Vec<u8>, Storag
     Ok(line(&body))
 }
 
+/// Most bytes of the first line.
+const LONGEST_KEY: u64 = 1 << 26;
+
 /// What precedes the digest of a line, and what follows it.
 const BEFORE_DIGEST: &[u8] = b"{\"digest\":\"";
 const AFTER_DIGEST: &[u8] = b"\",";
@@ -292,15 +317,15 @@ fn read<T: DeserializeOwned>(
     items: usize,
 ) -> Result<Contents<T>, StorageError> {
     let failed = |source| StorageError::Io { action: "read", path: path.to_owned(), source };
-    if !file.metadata().map_err(failed)?.is_file() {
-        return Err(failed(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file")));
-    }
+    check_regular(&file.metadata().map_err(failed)?, path)?;
     let mut reader = BufReader::new(file);
     let mut contents = Contents { length: 0, results: Vec::new() };
     let mut bytes = Vec::new();
     for number in 1_u64.. {
         bytes.clear();
-        let length = reader.read_until(b'\n', &mut bytes).map_err(failed)?;
+        // A file of gigabytes without a line end is no journal, and is not read to its end to see that.
+        let longest = if number == 1 { LONGEST_KEY } else { u64::MAX };
+        let length = reader.by_ref().take(longest).read_until(b'\n', &mut bytes).map_err(failed)?;
         let Some((b'\n', text)) = bytes.split_last() else {
             // Half a key is that of this journal, or none.
             if number == 1 && !expected.starts_with(&bytes) {
@@ -324,6 +349,14 @@ fn read<T: DeserializeOwned>(
         contents.length += length as u64;
     }
     Ok(contents)
+}
+
+fn check_regular(file: &std::fs::Metadata, path: &Path) -> Result<(), StorageError> {
+    if file.is_file() {
+        return Ok(());
+    }
+    let source = io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file");
+    Err(StorageError::Io { action: "read", path: path.to_owned(), source })
 }
 
 fn no_journal(path: &Path) -> StorageError {
@@ -364,9 +397,10 @@ fn first_difference(found: &Value, expected: &Value, field: &mut String) -> Opti
                     field.push('.');
                 }
                 field.push_str(name);
-                let (left, right) = (left.get(name), right.get(name));
-                let nothing = &Value::Null;
-                let inside = first_difference(left.unwrap_or(nothing), right.unwrap_or(nothing), field);
+                let inside = match (left.get(name), right.get(name)) {
+                    (Some(left), Some(right)) => first_difference(left, right, field),
+                    (left, right) => Some(difference(left, right, field)),
+                };
                 if inside.is_some() {
                     return inside;
                 }
@@ -385,12 +419,17 @@ fn first_difference(found: &Value, expected: &Value, field: &mut String) -> Opti
             }
             None
         }
-        (found, expected) => (found != expected).then(|| Difference {
-            field: field.escape_debug().to_string(),
-            found: short(found),
-            expected: short(expected),
-        }),
+        // As text: 0 and -0 are equal numbers, and other parameters.
+        (found, expected) => {
+            let [left, right] = [found, expected].map(Value::to_string);
+            (left != right).then(|| difference(Some(found), Some(expected), field))
+        }
     }
+}
+
+fn difference(found: Option<&Value>, expected: Option<&Value>, field: &str) -> Difference {
+    let short = |value: Option<&Value>| value.map_or_else(|| "absent".to_owned(), short);
+    Difference { field: field.escape_debug().to_string(), found: short(found), expected: short(expected) }
 }
 
 /// A value as JSON, no longer than a message may be.

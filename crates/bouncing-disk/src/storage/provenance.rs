@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use bouncing_disk_core::ChatterPolicy;
+use ciborium::Value as Tree;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -61,9 +62,18 @@ pub struct Provenance {
     chatter_policy: Option<ChatterPolicy>,
 }
 
-/// What a provenance of every format version has.
-#[derive(Default, Deserialize)]
-#[serde(default)]
+/// The first number of a tree that is not finite.
+fn first_not_finite(tree: &Tree) -> Option<f64> {
+    match tree {
+        Tree::Float(number) => (!number.is_finite()).then_some(*number),
+        Tree::Array(elements) => elements.iter().find_map(first_not_finite),
+        Tree::Map(entries) => entries.iter().find_map(|(_, value)| first_not_finite(value)),
+        Tree::Tag(_, tagged) => first_not_finite(tagged),
+        _ => None,
+    }
+}
+
+/// What a provenance of every format version has; what is of another form there is nothing that is known.
 struct Stamp {
     program: String,
     version: String,
@@ -96,9 +106,14 @@ impl Provenance {
     /// Adds a parameter, or replaces the one of this name. Its numbers must be finite: JSON has no other.
     ///
     /// # Errors
-    /// [`StorageError::NotStorable`] if JSON cannot hold it.
+    /// [`StorageError::NotStorable`] if JSON cannot hold it: also for a number that is not finite.
     pub fn with(mut self, name: &str, parameter: &(impl Serialize + ?Sized)) -> Result<Self, StorageError> {
         let failed = |source| StorageError::NotStorable { what: format!("the parameter {name:?}"), source };
+        // JSON would hold null in their place: different parameters would look alike.
+        let tree = Tree::serialized(parameter).map_err(|error| failed(serde::ser::Error::custom(error)))?;
+        if let Some(number) = first_not_finite(&tree) {
+            return Err(failed(serde::ser::Error::custom(format!("{number} is no number that JSON has"))));
+        }
         self.parameters.insert(name.to_owned(), serde_json::to_value(parameter).map_err(failed)?);
         Ok(self)
     }
@@ -125,8 +140,7 @@ impl Provenance {
     /// [`StorageError::Provenance`] if a field is missing or not known.
     pub fn read(format: Format, stored: &Value, file: &Path) -> Result<Self, StorageError> {
         let unreadable = |source| StorageError::Provenance { file: file.to_owned(), source };
-        let stamp = Stamp::deserialize(stored).map_err(unreadable)?;
-        stamp.check(format, file)?;
+        Stamp::of(stored).check(format, file)?;
         Self::deserialize(stored).map_err(unreadable)
     }
 
@@ -174,6 +188,17 @@ impl Provenance {
 }
 
 impl Stamp {
+    fn of(stored: &Value) -> Self {
+        let text = |name: &str| stored[name].as_str().unwrap_or_default().to_owned();
+        let version = stored["format_version"].as_u64().unwrap_or_default();
+        Self {
+            program: text("program"),
+            version: text("version"),
+            format: text("format"),
+            format_version: u32::try_from(version).unwrap_or(u32::MAX),
+        }
+    }
+
     fn check(self, format: Format, file: &Path) -> Result<(), StorageError> {
         let Self { program, version, format: name, format_version: found } = self;
         let (file, written_by) = (file.to_owned(), format!("{program} {version}"));
@@ -230,6 +255,20 @@ mod tests {
         );
     }
 
+    /// They would be `null`, all of them, and different computations would have the same parameters.
+    #[test]
+    fn numbers_that_are_not_finite_are_no_parameters() {
+        for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(matches!(
+                Provenance::new(FORMAT).with("limit", &[("deep", vec![Some(1.0), Some(number)])]),
+                Err(StorageError::NotStorable { .. })
+            ));
+        }
+        let nothing =
+            Provenance::new(FORMAT).with("limit", &None::<f64>).expect("a number that there is not");
+        assert!(nothing.parameters()["limit"].is_null());
+    }
+
     #[test]
     fn another_format_is_refused_by_name_whatever_else_it_has() {
         let with = |name: &str, version: u32| {
@@ -249,6 +288,10 @@ mod tests {
             read(&json!([])),
             Err(StorageError::OtherFormat { .. } | StorageError::Provenance { .. })
         ));
+        let mut odd = with("test", 4);
+        odd["format_version"] = json!(1_u64 << 40);
+        odd["program"] = json!({"name": "later"});
+        assert!(matches!(read(&odd), Err(StorageError::NewerFormat { found: u32::MAX, .. })));
         // One of this format must be whole, and have nothing else.
         assert!(matches!(read(&with("test", 3)), Err(StorageError::Provenance { .. })));
         for version in [2, 3] {

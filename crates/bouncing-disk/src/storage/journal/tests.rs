@@ -147,7 +147,7 @@ fn the_journal_of_another_computation_is_refused_by_name() {
     let cut = fault(&key(0.1).with_chatter_policy(crate::PAPER_CHATTER), 100);
     assert!(cut.contains("provenance.chatter_policy is null, where {\"Cut\":"), "{cut}");
     let more = fault(&key(0.1).with("load", &1.0).expect("storable"), 100);
-    assert!(more.contains("provenance.parameters.load is null, where 1.0"), "{more}");
+    assert!(more.contains("provenance.parameters.load is absent, where 1.0"), "{more}");
     // Results of two versions of a program are not mixed.
     let other = fault(&key(0.1).written_by("bouncing-disk", "0.0.1"), 100);
     assert!(other.contains("its provenance.version is \"") && other.contains("where \"0.0.1\""), "{other}");
@@ -255,13 +255,16 @@ const TO_BE_KILLED: &str = "BOUNCING_DISK_TEST_JOURNAL";
 /// Runs itself as a process of its own, which it kills as soon as some members more are finished.
 #[test]
 fn a_process_that_is_killed_goes_on_where_it_was() {
-    let (members, key) = (members(), key(0.1));
+    let (mut members, key) = (members(), key(0.1));
+    // Long enough that the process is killed before it has done them all.
+    members.iter_mut().for_each(|member| member.settings.duration *= 30.0);
     if let Some(path) = std::env::var_os(TO_BE_KILLED) {
         transients_with_journal(path, &key, &members, &crate::Unobserved).expect("killed before");
         return;
     }
     let scratch = Scratch::new("killed");
     let lines = || fs::read(&scratch.0).map_or(0, |bytes| bytes.split(|byte| *byte == b'\n').count());
+    let mut killed = 0;
     for _ in 0..3 {
         let before = lines();
         let mut command = std::process::Command::new(std::env::current_exe().expect("runs"));
@@ -272,9 +275,14 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
         child.kill().expect("its own child");
-        child.wait().expect("its own child");
+        // A machine of many processors may have done all before.
+        if child.wait().expect("its own child").success() {
+            break;
+        }
         assert!(lines() >= before + 8, "{} lines after {before}", lines());
+        killed += 1;
     }
+    assert!(killed > 0, "it was never killed on the way");
     let curves = transients_with_journal(&scratch.0, &key, &members, &crate::Unobserved).expect("free again");
     assert_eq!(curve_bits(&curves), curve_bits(&transients(&members)));
 }
@@ -361,4 +369,43 @@ fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
     };
     assert!(stops > 0);
     assert_eq!(results, orbit_diagram(&orbits, 2_000, 20).expect("no error"));
+}
+
+/// 0 and -0 are equal numbers and other parameters, and so are none and one that is absent.
+#[test]
+fn parameters_that_look_alike_are_others() {
+    let scratch = Scratch::new("alike");
+    let of = |load: Option<f64>| Provenance::new(JOURNAL).with("load", &load).expect("storable");
+    drop(Journal::<f64>::open(&scratch.0, &of(Some(0.0)), 3).expect("opens"));
+    for other in [of(Some(-0.0)), of(None), Provenance::new(JOURNAL)] {
+        let error = Journal::<f64>::open(&scratch.0, &other, 3).expect_err("another key");
+        assert!(matches!(error, StorageError::OtherKey { .. }), "{error}");
+    }
+    let scratch = Scratch::new("absent");
+    drop(Journal::<f64>::open(&scratch.0, &of(None), 3).expect("opens"));
+    let error = Journal::<f64>::open(&scratch.0, &Provenance::new(JOURNAL), 3).expect_err("another key");
+    assert!(error.to_string().ends_with("is null, where absent is asked for"), "{error}");
+}
+
+/// While a process is being started it holds a copy of every open file: the lock of a journal that is closed must not
+/// live on in it.
+#[test]
+fn a_journal_can_be_opened_again_while_processes_start() {
+    let scratch = Scratch::new("spawning");
+    let key = Provenance::new(JOURNAL);
+    let going = std::sync::atomic::AtomicBool::new(true);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while going.load(std::sync::atomic::Ordering::Relaxed) {
+                let mut command = std::process::Command::new(std::env::current_exe().expect("runs"));
+                command.arg("--list").stdout(std::process::Stdio::null());
+                command.spawn().expect("starts").wait().expect("its own child");
+            }
+        });
+        let opened: Vec<_> = (0..300).map(|_| Journal::<f64>::open(&scratch.0, &key, 3).map(drop)).collect();
+        going.store(false, std::sync::atomic::Ordering::Relaxed);
+        for outcome in opened {
+            outcome.expect("free again");
+        }
+    });
 }

@@ -1,4 +1,4 @@
-//! What is asked of many orbits at once.
+//! Orbit diagrams and survival times: what is asked of many orbits at once.
 
 use core::ops::ControlFlow;
 
@@ -11,7 +11,7 @@ use crate::observer::{Observer, Unobserved};
 pub const MAX_RECORDED: u64 = 1 << 31;
 
 /// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes to rest is followed
-/// for as many.
+/// for as many. That an orbit has `most` impacts therefore means that it did not come to rest in as many.
 ///
 /// # Errors
 /// Those of [`sweep`](super::sweep).
