@@ -229,11 +229,7 @@ impl FlightScheduler {
         while !lanes.is_none() {
             let (batch, queue, platforms) = (&batches[number], &mut self.low, &mut self.low_platforms);
             queue.fill(number, &mut lanes, |rows, k, lane| {
-                let platform = shared.unwrap_or_else(|| batch.platform(lane));
-                rows.set(k, &platform, batch.launches(), lane);
-                if shared.is_none() {
-                    platforms.set(k, platform);
-                }
+                take_low(rows, platforms, k, (batch, lane), shared);
             });
             if queue.len == LANES {
                 self.fly_low(batches, shared);
@@ -262,10 +258,7 @@ impl FlightScheduler {
         while !lanes.is_none() {
             let (batch, queue, platforms) = (&batches[number], &mut self.above, &mut self.above_platforms);
             queue.fill(number, &mut lanes, |rows, k, lane| {
-                rows.take(k, &batch.arcs, lane);
-                if shared.is_none() {
-                    platforms.set(k, batch.platform(lane));
-                }
+                take_above(rows, platforms, k, (batch, lane), shared);
             });
             if queue.len == LANES {
                 self.fly_above(batches, shared);
@@ -277,11 +270,7 @@ impl FlightScheduler {
     fn go_low(&mut self, batches: &mut [Batch], who: Who, shared: Option<Platform>) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
         let k = self.low.place(who);
-        let platform = shared.unwrap_or_else(|| batch.platform(lane));
-        self.low.rows.set(k, &platform, batch.launches(), lane);
-        if shared.is_none() {
-            self.low_platforms.set(k, platform);
-        }
+        take_low(&mut self.low.rows, &mut self.low_platforms, k, (batch, lane), shared);
         if self.low.len == LANES {
             self.fly_low(batches, shared);
         }
@@ -296,13 +285,41 @@ impl FlightScheduler {
             return;
         }
         let k = self.above.place(who);
-        self.above.rows.take(k, &batch.arcs, lane);
-        if shared.is_none() {
-            self.above_platforms.set(k, batch.platform(lane));
-        }
+        take_above(&mut self.above.rows, &mut self.above_platforms, k, (batch, lane), shared);
         if self.above.len == LANES {
             self.fly_above(batches, shared);
         }
+    }
+}
+
+/// Takes over the launch of a lane that may be hit before the first crest as number `k`.
+#[inline(always)]
+fn take_low(
+    rows: &mut Low,
+    platforms: &mut Platforms,
+    k: usize,
+    (batch, lane): (&Batch, usize),
+    shared: Option<Platform>,
+) {
+    let platform = shared.unwrap_or_else(|| batch.platform(lane));
+    rows.set(k, &platform, batch.launches(), lane);
+    if shared.is_none() {
+        platforms.set(k, platform);
+    }
+}
+
+/// Takes over the arc of a lane that rises above the crests as number `k`.
+#[inline(always)]
+fn take_above(
+    rows: &mut Arcs,
+    platforms: &mut Platforms,
+    k: usize,
+    (batch, lane): (&Batch, usize),
+    shared: Option<Platform>,
+) {
+    rows.take(k, &batch.arcs, lane);
+    if shared.is_none() {
+        platforms.set(k, batch.platform(lane));
     }
 }
 
