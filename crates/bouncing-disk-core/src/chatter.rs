@@ -2,6 +2,6 @@
 
 pub(crate) mod accumulation;
 pub(crate) mod expansion;
+pub(crate) mod impact_series;
 pub(crate) mod policy;
 pub(crate) mod rest_proof;
-pub(crate) mod series;

@@ -1,11 +1,13 @@
 //! The errors of this crate.
 
 /// What can go wrong in the math core. Every variant carries the numbers that are needed to see why.
+///
+/// The texts print numbers with all their digits, and very small or large ones in scientific notation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// An argument lies outside its legal range.
-    #[error("{field} = {value:e} is outside its legal range {legal}")]
+    #[error("{field} = {value:?} is outside its legal range {legal}")]
     OutOfRange {
         /// The name of the argument.
         field: &'static str,
@@ -16,7 +18,7 @@ pub enum Error {
     },
     /// A disk at rest on the platform does not leave it at this phase: the platform is not falling away.
     #[error(
-        "a disk at rest on the platform (peak acceleration {peak_acceleration:e} g) does not lift off at phase {phase:e} rad"
+        "a disk at rest on the platform (peak acceleration {peak_acceleration:?} g) does not lift off at phase {phase:?} rad"
     )]
     NoLiftOff {
         /// Launch phase in radians.
@@ -26,7 +28,7 @@ pub enum Error {
     },
     /// The flight would last longer than the period counter can hold exactly.
     #[error(
-        "a launch at relative speed {relative_speed:e} flies for {duration:e} rad, more than the largest duration {limit:e} rad"
+        "a launch at relative speed {relative_speed:?} flies for {duration:?} rad, more than the largest duration {limit:?} rad"
     )]
     FlightTooLong {
         /// Launch speed relative to the platform, in units of g/omega.
@@ -37,7 +39,7 @@ pub enum Error {
         limit: f64,
     },
     /// The root finder used up its evaluations. This is a defect of the solver; please report the numbers.
-    #[error("no convergence after {evaluations} evaluations: gap {gap:e} after {time:e} rad")]
+    #[error("no convergence after {evaluations} evaluations: gap {gap:?} after {time:?} rad")]
     NoConvergence {
         /// Evaluations of the gap.
         evaluations: u32,
@@ -47,7 +49,7 @@ pub enum Error {
         gap: f64,
     },
     /// An iteration (an orbit search, a refinement) did not settle.
-    #[error("{what} did not settle after {iterations} iterations; last residual {residual:e}")]
+    #[error("{what} did not settle after {iterations} iterations; last residual {residual:?}")]
     NotSettled {
         /// What was sought.
         what: &'static str,
@@ -58,7 +60,7 @@ pub enum Error {
     },
     /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
     #[error(
-        "impact {index} of the solution has no speed (phase {phase:e} rad): a disk at rest is no periodic orbit"
+        "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is no periodic orbit"
     )]
     ImpactWithoutSpeed {
         /// Which impact of the solution.
@@ -69,7 +71,7 @@ pub enum Error {
     /// The solution that an iteration settled on takes no period of the platform: its impacts are the repetition of one
     /// instant within rounding, not a periodic orbit.
     #[error(
-        "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:e} g/omega)"
+        "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:?} g/omega)"
     )]
     NoPlatformPeriods {
         /// Impacts of the solution.

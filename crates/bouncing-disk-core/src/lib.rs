@@ -70,8 +70,8 @@ pub use analysis::sweep::{
     survival_times, survival_times_observed, sweep, sweep_observed,
 };
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
+pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
-pub use chatter::series::{ChatterSeries, ImpactRange, PowerSeries};
 pub use error::Error;
 pub use flight::first_impact::MAX_FLIGHT_DURATION;
 pub use flight::impact::Impact;

@@ -75,7 +75,8 @@ macro_rules! read_checked {
     };
 }
 
-/// Reads a number that may be infinite. JSON has no such number and holds nothing in its place.
+/// Reads a number that may be infinite. JSON has no such number and holds `null` in its place. Other formats that
+/// people read (RON, TOML) have no `null`: only JSON and binary formats such as CBOR are promised both ways.
 ///
 /// # Errors
 /// Those of the format.

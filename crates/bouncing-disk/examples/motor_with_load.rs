@@ -12,7 +12,7 @@ fn main() -> Result<(), Error> {
     let settings = TransientSettings { duration: 8.0, intervals: 160, ..TransientSettings::default() };
 
     for torque in [0.0, 5e-6, 10e-6, 15e-6, 20e-6, 25e-6, 30e-6] {
-        let loaded = motor.with_disk(|rotor| *rotor = rotor.with_load_torque(torque, mass))?;
+        let loaded = motor.with_load_torque(torque, mass)?;
         let motors = ensemble(&loaded, &settings, 16)?;
         // The second half of each run: the motor has run up.
         let mut speed = 0.0;

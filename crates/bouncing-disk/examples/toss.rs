@@ -3,7 +3,7 @@
 //!     cargo run --release -p bouncing-disk --example toss
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
-use bouncing_disk::{Error, InitialSpin, System, single_toss};
+use bouncing_disk::{Error, InitialSpin, System, single_toss, toss_trajectory};
 
 fn main() -> Result<(), Error> {
     // Table I of the paper: the dough rests in the hand at its lowest point, and is thrown.
@@ -19,6 +19,21 @@ fn main() -> Result<(), Error> {
         println!(
             "friction {friction:.2}: {:5.2} rad/s, efficiency {:.3}",
             toss.airborne_speed, toss.efficiency
+        );
+    }
+
+    // Every event until the dough is back: `Scales` carries times and states to seconds, metres and radians.
+    let floured = pizza.with_disk(|dough| dough.friction = 0.2)?;
+    let (flight, units) = (toss_trajectory(&floured, InitialSpin::AbsoluteRest)?, floured.scales());
+    for record in flight.records() {
+        let seconds = units.span_seconds(record.time.since(&flight.start()));
+        let dough = units.state(&record.before);
+        println!(
+            "{seconds:.3} s {}: height {:.3} m, {:.2} m/s upwards, {:.2} rad/s",
+            record.event.kind(),
+            dough.height,
+            dough.axial_velocity,
+            dough.angular_speed
         );
     }
     Ok(())

@@ -216,7 +216,7 @@ impl Display for EventKind {
 }
 
 impl Display for Event {
-    /// With its numbers, which are without units.
+    /// With its numbers in the units of the motion.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let n = numbers(f);
         write!(f, "{}", self.kind())?;
@@ -225,7 +225,7 @@ impl Display for Event {
                 let ends = if *capped { ", slip ends" } else { "" };
                 write!(
                     f,
-                    " with w_A = {}, w_T = {}",
+                    " with w_A = {} g/omega, w_T = {} g a_e/(a_g^2 omega)",
                     n(*axial_impact_velocity),
                     n(*tangential_impact_velocity)
                 )?;
@@ -295,7 +295,10 @@ mod tests {
         );
         let impact =
             Event::Impact { axial_impact_velocity: -1.25, tangential_impact_velocity: 0.1, capped: true };
-        assert_eq!(impact.to_string(), "impact with w_A = -1.25, w_T = 0.1, slip ends");
+        assert_eq!(
+            impact.to_string(),
+            "impact with w_A = -1.25 g/omega, w_T = 0.1 g a_e/(a_g^2 omega), slip ends"
+        );
         assert_eq!(Transition::LEGAL[0].to_string(), "flight -> impact -> flight");
         for value in [f64::NAN, f64::INFINITY, 0.0, -1e300] {
             assert!(!Number { value, digits: 3 }.to_string().is_empty());

@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
+///
+/// The texts print numbers with all their digits, and very small or large ones in scientific notation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A parameter or an argument lies outside its legal range.
-    #[error("{field} = {value} is outside its legal range {legal}")]
+    #[error("{field} = {value:?} is outside its legal range {legal}")]
     OutOfRange {
         /// The name of the parameter.
         field: &'static str,
@@ -18,14 +20,14 @@ pub enum Error {
     },
     /// The disk never leaves the platform, whose peak acceleration does not exceed the preload acceleration.
     #[error(
-        "the disk never leaves the platform: its peak acceleration is {peak_acceleration} g, not above 1 g"
+        "the disk never leaves the platform: its peak acceleration is {peak_acceleration:?} g, not above 1 g"
     )]
     NeverLeaves {
         /// Peak acceleration of the platform in units of the preload acceleration.
         peak_acceleration: f64,
     },
     /// A segment of sliding would last longer than its end can be resolved.
-    #[error("the disk slides for {duration} rad, more than the largest duration {limit} rad")]
+    #[error("the disk slides for {duration:?} rad, more than the largest duration {limit:?} rad")]
     SlipTooLong {
         /// Estimated duration in radians.
         duration: f64,

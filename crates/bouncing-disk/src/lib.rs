@@ -80,8 +80,9 @@ pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_o
 pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
-pub use parameters::platform::{LaunchSpeeds, Platform, PlatformParameters, Stroke};
+pub use parameters::platform::{Platform, PlatformParameters};
 pub use parameters::scales::Scales;
+pub use parameters::stroke::{LaunchSpeeds, Stroke};
 pub use parameters::system::System;
 #[cfg(feature = "storage")]
 pub use storage::error::StorageError;

@@ -5,4 +5,5 @@ pub(crate) mod disk;
 pub(crate) mod platform;
 mod presets;
 pub(crate) mod scales;
+pub(crate) mod stroke;
 pub(crate) mod system;

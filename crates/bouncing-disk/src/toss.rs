@@ -2,6 +2,7 @@
 
 pub(crate) mod chattering_cycle;
 pub(crate) mod collisions;
+pub(crate) mod efficiency;
 pub(crate) mod multiple;
 pub(crate) mod period_one;
 pub(crate) mod single;

@@ -9,7 +9,7 @@
 use core::f64::consts::TAU;
 
 use super::expansion::{Expansion, LAST_SHARE, MAJORANT};
-use super::series::ChatterSeries;
+use super::impact_series::ChatterSeries;
 use crate::error::{Error, not_negative, within};
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
 use crate::platform::phase::{PAIR_TOLERANCE, Phase};

@@ -1,7 +1,7 @@
 //! What an impact map says of the chatter that follows a launch.
 
 use crate::chatter::accumulation::{Accumulation, ChatterImpact};
-use crate::chatter::series::ChatterSeries;
+use crate::chatter::impact_series::ChatterSeries;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 

@@ -1,6 +1,6 @@
 //! The platform's vertical vibration, in units where time is 1/omega and length g/omega^2.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 use crate::error::{Error, within};
 use crate::numerics::elementary::{CREST, asin};
@@ -122,16 +122,6 @@ impl Vibration {
         self.peak_acceleration / PI
     }
 
-    /// The phase at which a disk at rest on the platform separates, asin(1/P) (Eq. 15), or `None` if the
-    /// platform never falls away (P <= 1).
-    #[must_use]
-    pub fn separation_phase(&self) -> Option<Phase> {
-        (self.peak_acceleration > 1.0).then(|| {
-            let p = self.peak_acceleration;
-            Phase::from_parts(self.separation_angle, 1.0 / p, self.separation_speed / p)
-        })
-    }
-
     /// Height of the platform P sin tau, in units of g/omega^2.
     #[must_use]
     #[inline]
@@ -159,20 +149,5 @@ impl Vibration {
     #[inline]
     pub fn contact_force(&self, phase: Phase) -> f64 {
         1.0 - self.peak_acceleration * phase.sin()
-    }
-
-    /// Whether the platform falls away from a resting disk at this angle (rad) in [0, 2 pi): sigma <= tau <
-    /// pi - sigma.
-    #[must_use]
-    #[inline(always)]
-    pub fn falls_away_at(&self, angle: f64) -> bool {
-        angle >= self.separation_angle && angle < self.retention_angle
-    }
-
-    /// Time from `angle` to the next phase sigma, in (0, 2 pi].
-    #[inline(always)]
-    pub(crate) fn time_to_separation(&self, angle: f64) -> f64 {
-        let ahead = self.separation_angle - angle;
-        if ahead > 0.0 { ahead } else { ahead + TAU }
     }
 }

@@ -8,8 +8,9 @@
 //!
 //! A disk at the platform's speed begins to slip in direction s exactly where this is positive, and sticks where it
 //! is positive for neither direction; the two add up to -2 mu N, so in contact it never is for both. Each of the two
-//! is positive over one interval of the period, known in closed form. Every decision below is taken by where the
-//! phase lies relative to these intervals (the *windows*), never by the sign of a rounded force.
+//! is positive over one interval of the period, known in closed form. Where the phase lies relative to these intervals
+//! (the *windows*) says whether friction holds and when a slip ends, never the sign of a rounded force. Which event
+//! comes of it, and what it leaves, is decided in `contact_motion.rs`.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};

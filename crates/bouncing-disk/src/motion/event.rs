@@ -84,7 +84,9 @@ pub struct EventRecord {
     pub before: DiskState,
     /// The disk just after.
     pub after: DiskState,
-    /// Axial impulse per unit mass in units of g/omega, zero except in impacts and attachments.
+    /// Axial impulse per unit mass in units of g/omega, zero except in impacts and attachments. Not negative, but
+    /// for the attachment of a cut ([`ChatterPolicy::Cut`](bouncing_disk_core::ChatterPolicy::Cut)): it takes from the disk the small velocity that a
+    /// rebound has left it with.
     pub axial_impulse: f64,
     /// Angular impulse per moment of inertia in units of g a_e/(a_g^2 omega).
     pub angular_impulse: f64,

@@ -33,17 +33,17 @@ const EVENTS_BETWEEN_COUNTS: u64 = 64;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct TransientSettings {
-    /// Duration (s), positive: at most 2^53 periods of the platform.
+    /// Duration (s), positive: at most 2^53 periods of the platform. Default 3.
     pub duration: f64,
     /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. None may be shorter than 1e-15 rad of the
-    /// platform's motion.
+    /// platform's motion. Default 600.
     pub intervals: usize,
     /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each separation from rest gets a
     /// relative velocity drawn evenly from [0, size). Zero gives the cycle of the rounding. Default 1e-3.
     pub relaunch_perturbation: f64,
-    /// Seed of the perturbations and of the starting phases.
+    /// Seed of the perturbations and of the starting phases. Default 1.
     pub seed: u64,
-    /// What ends a chattering sequence.
+    /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
 }
 

@@ -1,6 +1,6 @@
 //! The disk: the dough, or the rotor.
 
-use crate::error::{Error, finite, not_negative, positive, restitution};
+use crate::error::{Error, check, finite, not_negative, positive, restitution};
 
 /// The parameters of a [`Disk`], not yet checked.
 ///
@@ -26,14 +26,20 @@ pub struct DiskParameters {
 }
 
 impl DiskParameters {
-    /// The same disk with a load `torque` (N m) on a disk of `mass` (kg), positive: with any other mass, or with a moment of inertia
-    /// that no double holds, the load is not a number, and [`Self::build`] refuses it.
-    #[must_use]
-    pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Self {
+    /// The same disk with a load `torque` T_L (N m) on a disk of `mass` m (kg): the load T_L/(m a_g^2). The mass is
+    /// needed for nothing else.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the torque if it is not finite, the mass if it is not positive, and the moment of
+    /// inertia m a_g^2 if no double holds it.
+    pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Result<Self, Error> {
+        finite("torque", torque)?;
+        positive("mass", mass)?;
+        positive("gyration_radius", self.gyration_radius)?;
         let inertia = mass * self.gyration_radius * self.gyration_radius;
-        self.load_acceleration =
-            if inertia > 0.0 && inertia.is_normal() { torque / inertia } else { f64::NAN };
-        self
+        check(inertia.is_normal(), "moment of inertia", inertia, "[2.3e-308, 1.7e308] (kg m^2)")?;
+        self.load_acceleration = torque / inertia;
+        Ok(self)
     }
 
     /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::parameters::disk::DiskParameters;
-use crate::parameters::platform::{Platform, PlatformParameters, Stroke};
+use crate::parameters::platform::{Platform, PlatformParameters};
+use crate::parameters::stroke::Stroke;
 use crate::parameters::system::System;
 
 /// The hand of Table I.
@@ -114,6 +115,14 @@ impl System {
         let mut parameters = self.disk().parameters();
         change(&mut parameters);
         Self::new(*self.platform(), parameters.build()?)
+    }
+
+    /// The same system with a load `torque` (N m) on a disk of `mass` (kg).
+    ///
+    /// # Errors
+    /// Those of [`DiskParameters::with_load_torque`] and of [`Self::new`].
+    pub fn with_load_torque(&self, torque: f64, mass: f64) -> Result<Self, Error> {
+        Self::new(*self.platform(), self.disk().parameters().with_load_torque(torque, mass)?.build()?)
     }
 }
 

@@ -114,7 +114,8 @@ mod tests {
 
     use super::*;
     use crate::parameters::disk::DiskParameters;
-    use crate::parameters::platform::{PlatformParameters, Stroke};
+    use crate::parameters::platform::PlatformParameters;
+    use crate::parameters::stroke::Stroke;
 
     const PLATFORM: PlatformParameters =
         PlatformParameters { amplitude: 0.2, twist_amplitude: 1.1, angular_frequency: 15.0, phase_lag: 0.4 };
@@ -217,13 +218,22 @@ mod tests {
             DiskParameters { contact_radius: 0.0, ..DISK },
             DiskParameters { gyration_radius: 0.0, ..DISK },
             DiskParameters { preload_acceleration: 0.0, ..DISK },
-            DISK.with_load_torque(1.0, 0.0),
-            DISK.with_load_torque(1.0, -0.05),
-            DISK.with_load_torque(0.0, f64::INFINITY),
-            // Its moment of inertia overflows, and the load vanished.
-            DiskParameters { gyration_radius: 1e10, ..DISK }.with_load_torque(1.0, 1e300),
         ] {
             assert!(parameters.build().is_err());
+        }
+        // A moment of inertia that overflows: the load would vanish.
+        let huge = DiskParameters { gyration_radius: 1e10, ..DISK };
+        for (disk, torque, mass, name) in [
+            (DISK, 1.0, 0.0, "mass"),
+            (DISK, 1.0, -0.05, "mass"),
+            (DISK, 0.0, f64::INFINITY, "mass"),
+            (DISK, f64::NAN, 1.0, "torque"),
+            (DISK, 1.0, 5e-324, "moment of inertia"),
+            (huge, 1.0, 1e300, "moment of inertia"),
+            (DiskParameters { gyration_radius: -0.11, ..DISK }, 1.0, 1.0, "gyration_radius"),
+        ] {
+            let error = disk.with_load_torque(torque, mass).unwrap_err();
+            assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
         }
         assert!(PlatformParameters { angular_frequency: 0.0, ..PLATFORM }.build().is_err());
         assert!(PlatformParameters { phase_lag: f64::NAN, ..PLATFORM }.build().is_err());
@@ -238,7 +248,7 @@ mod tests {
         let disk = DiskParameters { friction: 0.0, restitution: 0.0, load_acceleration: 0.0, ..DISK };
         let system = System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap();
         assert_eq!((system.axial_forcing(), system.angular_forcing()), (0.0, None));
-        let torque = DISK.with_load_torque(0.02, 0.4).load_acceleration;
+        let torque = DISK.with_load_torque(0.02, 0.4).unwrap().load_acceleration;
         assert!((torque - 0.02 / (0.4 * 0.11 * 0.11)).abs() < 1e-14);
     }
 

@@ -25,17 +25,17 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct MultiTossSettings {
-    /// What ends a chattering sequence.
+    /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
-    /// Impacts that are not looked at.
+    /// Impacts that are not looked at. Default 4000.
     pub transient_impacts: usize,
-    /// Impacts that are looked at after them, from 2 to [`MAX_EXAMINED`].
+    /// Impacts that are looked at after them, from 2 to [`MAX_EXAMINED`]. Default 1024.
     pub examined_impacts: usize,
     /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts examined are
-    /// compared.
+    /// compared. Default 128.
     pub longest_period: usize,
     /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no more
-    /// are the same.
+    /// are the same. Default 1e-9.
     pub tolerance: f64,
 }
 

@@ -85,6 +85,8 @@ impl TossPerformance {
 
 /// The toss of `system`'s disk from its platform, up to the separation.
 ///
+/// The disk's restitution does not matter, as nothing has fallen back yet.
+///
 /// # Errors
 /// [`Error::NeverLeaves`] if the hand never falls away from the dough (phi_L > acos(g/(c omega^2)) for a motion given
 /// by its stroke).
@@ -164,7 +166,8 @@ mod tests {
 
     use super::*;
     use crate::parameters::disk::DiskParameters;
-    use crate::parameters::platform::{Platform, Stroke};
+    use crate::parameters::platform::Platform;
+    use crate::parameters::stroke::Stroke;
 
     /// Table I, except for amplitude angle, phase lag and friction.
     fn table_i(amplitude_angle: f64, phase_lag: f64, friction: f64) -> System {
