@@ -145,13 +145,17 @@ fn nearest_within<const N: usize>(planes: &[Plane<N>], steps: usize) -> Result<[
     // few. Rounding alone could go on.
     for _ in 0..steps {
         let rest = &last - &columns * &multipliers;
-        if rest.norm_l2() <= EXCLUSION * multipliers.sum() {
+        // More independent columns than x has components sum up to anything.
+        if free.len() > N || rest.norm_l2() <= EXCLUSION * multipliers.sum() {
             return Err(NoShortest::Exclusive);
         }
         // The vector lies on the planes with multipliers. From these it has more digits than from the rest, which is the
         // shorter the longer the vector.
         let vector = nearest_on(&free.iter().map(|&index| &planes[index]).collect::<Vec<_>>());
         let size = length(&[length(&vector), 1.0]);
+        if !size.is_finite() {
+            break;
+        }
         let direction = Col::from_fn(N + 1, |row| vector.get(row).map_or(1.0, |part| -part) / size);
         // What a unit of each multiplier that is held at 0 would gain: how far the vector is from the plane.
         let gain = |index: usize| columns.col(index).transpose() * &direction;
