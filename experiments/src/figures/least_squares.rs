@@ -448,6 +448,25 @@ mod tests {
         }
     }
 
+    /// Copies that differ by less than can be told have a gain and no room to grow: a search that frees the same one
+    /// again and again would never settle.
+    #[test]
+    fn near_copies_do_not_send_the_search_round() {
+        let planes =
+            [bound([0.0, -1.0, 0.1], -1.0), bound([-1e-6, 1.0, 0.0], 0.0), bound([-0.3, 0.2, -0.5], -0.5)];
+        let mut noise = Noise::new(11);
+        let mut moved = || 3e-14 * (noise.even() - 0.5);
+        for _ in 0..2000 {
+            let near = [planes; 3].concat().into_iter().map(|plane: Bound<3>| Bound {
+                normal: plane.normal.map(|part| part * (1.0 + moved()) + moved()),
+                limit: plane.limit * (1.0 + moved()),
+            });
+            let near: Vec<Bound<3>> = near.collect();
+            let vector = shortest_within(&near, 3 * near.len());
+            assert!(vector.is_ok_and(|vector| is_shortest(&near, &vector)), "{near:?} {vector:?}");
+        }
+    }
+
     /// Many planes through one point, which is the shortest vector or not: more of them than unknowns can be free.
     #[test]
     fn a_corner_of_many_planes_is_found() {
