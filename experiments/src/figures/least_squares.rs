@@ -252,11 +252,10 @@ mod tests {
             if rows[step][step].abs() < 1e-30 {
                 return None;
             }
-            for row in (0..count).filter(|&row| row != step) {
-                let share = rows[row][step] / rows[step][step];
-                for place in step..=count {
-                    rows[row][place] -= share * rows[step][place];
-                }
+            let chosen = rows[step].clone();
+            for (_, row) in rows.iter_mut().enumerate().filter(|(row, _)| *row != step) {
+                let share = row[step] / chosen[step];
+                row.iter_mut().zip(&chosen).skip(step).for_each(|(part, own)| *part -= share * own);
             }
         }
         Some((0..count).map(|row| rows[row][count] / rows[row][row]).collect())

@@ -110,8 +110,11 @@ mod tests {
         new(FIGURE).with("τ 𝛼", "Γ < 1").expect("storable")
     }
 
-    /// The pixels, and keyword and content of each text, as a reader of others has them that takes no wrong check sum.
-    fn decoded(file: &[u8]) -> Result<(Vec<u8>, Vec<(String, String)>), png::DecodingError> {
+    /// Keyword and content of each.
+    type Texts = Vec<(String, String)>;
+
+    /// The pixels and the texts, as a reader of others has them that takes no wrong check sum.
+    fn decoded(file: &[u8]) -> Result<(Vec<u8>, Texts), png::DecodingError> {
         let mut options = DecodeOptions::default();
         options.set_ignore_checksums(false);
         options.set_skip_ancillary_crc_failures(false);
