@@ -93,36 +93,104 @@ fn text_chunk(keyword: &str, text: &str) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
+
     use bouncing_disk_plot::Figure;
+    use png::{DecodeOptions, Decoder};
     use serde_json::json;
 
     use super::super::{FIGURE, new};
     use super::*;
 
+    fn picture() -> Vec<u8> {
+        Figure::new(10.0, 10.0).to_png().expect("draws")
+    }
+
+    fn provenance() -> Provenance {
+        new(FIGURE).with("τ 𝛼", "Γ < 1").expect("storable")
+    }
+
+    /// Keyword and content of each.
+    type Texts = Vec<(String, String)>;
+
+    /// The pixels and the texts, as a reader of others has them that takes no wrong check sum.
+    fn decoded(file: &[u8]) -> Result<(Vec<u8>, Texts), png::DecodingError> {
+        let mut options = DecodeOptions::default();
+        options.set_ignore_checksums(false);
+        options.set_skip_ancillary_crc_failures(false);
+        let mut reader = Decoder::new_with_options(Cursor::new(file), options).read_info()?;
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap_or_default()];
+        reader.next_frame(&mut pixels)?;
+        reader.finish()?;
+        let texts = &reader.info().uncompressed_latin1_text;
+        Ok((pixels, texts.iter().map(|text| (text.keyword.clone(), text.text.clone())).collect()))
+    }
+
+    /// Where the two chunks in front of the image end, by the lengths that a file gives.
+    fn ends_of_texts(with: &[u8]) -> [usize; 2] {
+        let after = |start: usize| {
+            let length: [u8; 4] = with[start..start + 4].try_into().expect("four bytes");
+            start + 12 + u32::from_be_bytes(length) as usize
+        };
+        let first = after(AFTER_HEADER);
+        [first, after(first)]
+    }
+
     #[test]
     fn the_picture_gives_it_back_and_is_the_same_without() {
-        let picture = Figure::new(10.0, 10.0).to_png().expect("draws");
-        let provenance = new(FIGURE).with("τ 𝛼", "Γ < 1").expect("storable");
-        let with = in_png(&provenance, &picture);
-        assert_eq!(from_png(&with), Some(json!(provenance)));
-        assert!(with.windows(34).any(|text| text == b"Software\0bouncing-disk-experiments"));
+        let picture = picture();
+        let with = in_png(&provenance(), &picture);
+        assert_eq!(from_png(&with), Some(json!(provenance())));
         assert_eq!(without_png(&with), picture);
         assert_eq!((from_png(&picture), without_png(&picture)), (None, picture.clone()));
-        // A reader that checks every sum takes it.
-        let mut broken = with.clone();
-        broken[50] ^= 1;
-        assert!(Figure::new(1.0, 1.0).to_png().is_ok() && decodes(&with) && !decodes(&broken));
-        for length in [0, 20, 33, 40, 60, with.len() - 1] {
-            assert!(without_png(&with[..length]).len() <= length);
+        // Provenance that is there is not the picture's.
+        assert_eq!(without_png(&in_png(&provenance(), &with)), picture);
+    }
+
+    #[test]
+    fn another_reader_takes_it_and_sees_the_same_picture() {
+        let picture = picture();
+        let with = in_png(&provenance(), &picture);
+        let (pixels, texts) = decoded(&with).expect("is whole");
+        let (expected, none) = decoded(&picture).expect("is whole");
+        assert!(pixels == expected && pixels.iter().any(|byte| *byte != 0), "other pixels");
+        assert!(none.is_empty(), "{none:?}");
+        let [software, origin] = texts.try_into().expect("two texts");
+        let program = format!("bouncing-disk-experiments {}", env!("CARGO_PKG_VERSION"));
+        assert_eq!(software, ("Software".to_owned(), program));
+        assert_eq!(origin.0, "provenance");
+        assert!(origin.1.is_ascii(), "{}", origin.1);
+        assert_eq!(serde_json::from_str::<Value>(&origin.1).ok(), Some(json!(provenance())));
+    }
+
+    /// Any bit of the two chunks behind their lengths, that of kind, text and check sum.
+    #[test]
+    fn another_reader_notices_each_changed_bit() {
+        let with = in_png(&provenance(), &picture());
+        let [first, second] = ends_of_texts(&with);
+        for place in (AFTER_HEADER + 4..first).chain(first + 4..second) {
+            let mut broken = with.clone();
+            broken[place] ^= 1;
+            assert!(decoded(&broken).is_err(), "{place}");
         }
     }
 
-    /// Whether every chunk has the check sum of its content, up to the end.
-    fn decodes(picture: &[u8]) -> bool {
-        let sums = chunks(picture).all(|chunk| {
-            let (checked, sum) = chunk.bytes[4..].split_at(chunk.bytes.len() - 8);
-            crc32fast::hash(checked).to_be_bytes() == sum
-        });
-        sums && chunks(picture).last().is_some_and(|chunk| chunk.kind == b"IEND")
+    /// A file that ends too early loses the chunks of ours that are whole, and nothing else.
+    #[test]
+    fn what_is_cut_off_does_not_look_like_the_picture() {
+        let picture = picture();
+        let with = in_png(&provenance(), &picture);
+        let [first, second] = ends_of_texts(&with);
+        assert_eq!(with.len() - picture.len(), second - AFTER_HEADER);
+        for length in 0..with.len() {
+            let cut = &with[..length];
+            let kept = match length {
+                _ if length < first => cut.to_vec(),
+                _ if length < second => [&cut[..AFTER_HEADER], &cut[first..]].concat(),
+                _ => picture[..length - (second - AFTER_HEADER)].to_vec(),
+            };
+            assert!(without_png(cut) == kept, "{length}");
+            assert_eq!(from_png(cut).is_some(), length >= second, "{length}");
+        }
     }
 }

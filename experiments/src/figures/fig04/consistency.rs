@@ -14,7 +14,7 @@ use crate::experiment::ExperimentError;
 use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
-use crate::figures::least_squares::{Bound, shortest};
+use crate::figures::least_squares::{Bound, NoShortest, shortest};
 use crate::figures::samples::six_decimals;
 use crate::figures::toss_case::TossCase;
 use crate::paper::{SectionThree, TableOne, Uncertain};
@@ -197,9 +197,14 @@ impl Search<'_> {
                 bounds.push(Bound { normal, limit: 1.0 });
                 bounds.push(Bound { normal: normal.map(|part| -part), limit: 1.0 });
             }
-            let target = shortest(&bounds).ok_or_else(|| ExperimentError::NoData {
-                quantity: "set of parameters within Table I's uncertainties with the printed numbers"
-                    .to_owned(),
+            let target = shortest(&bounds).map_err(|error| {
+                let quantity =
+                    "set of parameters within Table I's uncertainties with the printed numbers".to_owned();
+                match error {
+                    NoShortest::Exclusive => ExperimentError::NoData { quantity },
+                    // Such a set may exist.
+                    other => ExperimentError::Search { quantity, source: Box::new(other) },
+                }
             })?;
             let steps: [f64; PARAMETERS] = std::array::from_fn(|index| target[index] - shifts[index]);
             let longest = steps.iter().fold(0.0_f64, |longest, step| longest.max(step.abs()));

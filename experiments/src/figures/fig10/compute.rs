@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::{
     PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
 };
@@ -133,19 +134,19 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
     let cycle = motor.cycle(ChatterPolicy::Complete)?;
     let repeats =
         |preload: f64| Ok::<_, ExperimentError>(at(preload).cycle(ChatterPolicy::Complete)? == cycle);
-    // Doubled until the cycle is another one, then bisected to neighbouring doubles.
+    // Doubled until the cycle is another one, then bisected; the end inside, so that the cycle is surely there.
     let end = |sign: f64| -> Result<f64, ExperimentError> {
         let mut step = printed * f64::EPSILON;
         while repeats(printed + sign * step)? && step < 0.5 * printed {
             step *= 2.0;
         }
-        let (mut inside, mut outside) = (printed + sign * 0.5 * step, printed + sign * step);
-        loop {
-            let middle = 0.5 * (inside + outside);
-            if (middle - inside).abs().min((middle - outside).abs()) <= printed * f64::EPSILON {
-                return Ok(inside);
-            }
-            if repeats(middle)? { inside = middle } else { outside = middle }
+        let (inside, outside) = (printed + sign * 0.5 * step, printed + sign * step);
+        // Three units in the last place, within which rounding decides which cycle it is.
+        let width = 3.0 * (printed.next_up() - printed);
+        if sign < 0.0 {
+            bracket_of_width(outside, inside, width, |preload| Ok(!repeats(preload)?)).map(|ends| ends.1)
+        } else {
+            bracket_of_width(inside, outside, width, repeats).map(|ends| ends.0)
         }
     };
     let settings = TransientSettings {

@@ -12,7 +12,7 @@ use crate::figures::power_of_ten::exponent;
 const STYLES: [(Colour, Dash); 3] =
     [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
 
-/// Ends of the axes: speed, and stall acceleration.
+/// Ends of the axes, speed and stall acceleration, where nothing lies outside.
 const SPEEDS: (f64, f64) = (-9.0, 57.0);
 const STALLS: (f64, f64) = (-4.0, 36.0);
 
@@ -26,7 +26,7 @@ const BAR_EVERY: usize = 12;
 /// See [`BAR_EVERY`].
 const BAR_SHIFT: usize = 4;
 
-/// The ends of an axis, extended where measurements lie outside.
+/// The ends of an axis, extended where values lie outside.
 fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold(ends, |(low, high), value| (low.min(value), high.max(value)));
     let room = 0.05 * (high - low);
@@ -62,6 +62,30 @@ fn stall(point: &Point) -> Option<(f64, f64)> {
     point.statistics.stall_acceleration_rad_per_s2.map(|spread| (spread.mean, spread.deviation))
 }
 
+/// Points and both ends of the bars of all curves.
+fn shown(data: &Fig11Data, quantity: Quantity) -> impl Iterator<Item = f64> {
+    data.curves.iter().enumerate().flat_map(move |(index, curve)| {
+        let [dots, circles] = [false, true].map(|low_period| curve_points(curve, quantity, low_period));
+        let bars = barred(&dots, index);
+        let values: Vec<f64> = dots.iter().chain(&circles).map(|point| point.1).collect();
+        let ends = bars.into_iter().flat_map(|(_, value, error)| [value - error, value + error]);
+        values.into_iter().chain(ends)
+    })
+}
+
+/// Preload, value and half-length of the bar of the motors that repeat a low-period cycle, or of the others.
+fn curve_points(curve: &Curve, quantity: Quantity, low_period: bool) -> Vec<(f64, f64, f64)> {
+    let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
+    wanted
+        .filter_map(|point| quantity(point).map(|(value, error)| (point.preload_mn, value, error)))
+        .collect()
+}
+
+/// The dots of the curve at `index` that have bars.
+fn barred(dots: &[(f64, f64, f64)], index: usize) -> Vec<(f64, f64, f64)> {
+    dots.iter().skip(BAR_SHIFT * index).step_by(BAR_EVERY).copied().collect()
+}
+
 pub(super) fn draw(data: &Fig11Data) -> Figure {
     const HEIGHT: f64 = 400.0;
     let margins = Margins { left: 42.0, right: 48.0, top: 38.0, bottom: 34.0 };
@@ -72,12 +96,16 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
     let [_, last] = data.printed.preload_accelerations_m_per_s2;
     let preloads = (0.0, 1.03 * last * to_mn);
     let preload_ends = extended(preloads, measured.iter().map(|point| point.preload_mn));
-    let speed_ends = extended(SPEEDS, measured.iter().map(|point| point.steady_speed_rad_per_s));
+    // Also the longest bars end within the frame.
+    let computed_speeds = extended(SPEEDS, shown(data, steady_speed));
+    let computed_stalls = extended(STALLS, shown(data, stall));
+    let speed_ends = extended(computed_speeds, measured.iter().map(|point| point.steady_speed_rad_per_s));
     let frequencies = data.printed.frequencies_hz;
     let under_legend = data.measured.at(frequencies[0]);
     let under_legend = under_legend.iter().map(|point| (point.preload_mn, point.steady_speed_rad_per_s));
     let speed_ends = above_crosses(speed_ends, preload_ends, under_legend);
-    let stall_ends = extended(STALLS, measured.iter().map(|point| point.stall_acceleration_rad_per_s2));
+    let stall_ends =
+        extended(computed_stalls, measured.iter().map(|point| point.stall_acceleration_rad_per_s2));
     for (row, frequency) in frequencies.into_iter().enumerate() {
         let curves: Vec<&Curve> =
             data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&frequency).is_eq()).collect();
@@ -100,9 +128,10 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             )
         };
         let speeds = Axis::linear(speed_ends.0, speed_ends.1)
-            .ticks(ticks(speed_ends, SPEEDS, 10.0, 2))
+            .ticks(ticks(speed_ends, computed_speeds, 10.0, 2))
             .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
-        let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, STALLS, 10.0, 2));
+        let stalls =
+            || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, computed_stalls, 10.0, 2));
         let stalls_really: Vec<(f64, f64)> = data
             .stalls
             .iter()
@@ -124,7 +153,7 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
                 Axis::linear(torque * stall_ends.0, torque * stall_ends.1)
-                    .ticks(ticks(stall_ends, STALLS, 10.0, 2))
+                    .ticks(ticks(stall_ends, computed_stalls, 10.0, 2))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
             .layers(
@@ -159,18 +188,13 @@ fn crosses(data: &Fig11Data, frequency_hz: f64, quantity: fn(&MeasuredMotor) -> 
 /// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a low-period cycle.
 fn layers(curve: &Curve, index: usize, quantity: Quantity, names: Names) -> Vec<Layer> {
     let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
-    let read = |low_period: bool| -> Vec<(f64, f64, f64)> {
-        let wanted = curve.points.iter().filter(|point| point.statistics.is_low_period() == low_period);
-        wanted
-            .filter_map(|point| quantity(point).map(|(value, error)| (point.preload_mn, value, error)))
-            .collect()
-    };
-    let dots = read(false);
-    let barred: Vec<_> = dots.iter().skip(BAR_SHIFT * index).step_by(BAR_EVERY).copied().collect();
+    let dots = curve_points(curve, quantity, false);
+    let barred = barred(&dots, index);
     let scatter =
         |points: &[(f64, f64, f64)]| Scatter::new(points.iter().map(|(x, y, _)| (*x, *y))).colour(colour);
     let line = Line::new(dots.iter().map(|(x, y, _)| (*x, *y))).colour(colour).width(0.7).dash(dash);
-    let circles = scatter(&read(true)).marker(Marker::Circle).filled_white().size(3.4);
+    let circles =
+        scatter(&curve_points(curve, quantity, true)).marker(Marker::Circle).filled_white().size(3.4);
     let (line, circles) = match names {
         Names::Shown => (
             line.name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m))),
