@@ -145,6 +145,25 @@ pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<
 mod tests {
     use super::*;
 
+    /// A speed of 1e-300 was told with 299 zeros, which hid the number and what the text is about.
+    #[test]
+    fn texts_tell_numbers_of_any_size_in_few_digits() {
+        for number in [1.25e-300, 1.25e-121, 1.25e300] {
+            for error in [
+                Error::OutOfRange { field: "speed", value: number, legal: "[0, 1]" },
+                Error::NoLiftOff { phase: number, peak_acceleration: number },
+                Error::FlightTooLong { relative_speed: number, duration: number, limit: number },
+                Error::NoConvergence { evaluations: 200, time: number, gap: number },
+                Error::NotSettled { what: "search", iterations: 7, residual: number },
+                Error::ImpactWithoutSpeed { index: 3, phase: number },
+                Error::NoPlatformPeriods { impacts: 2, speed: number },
+            ] {
+                let text = error.to_string();
+                assert!(text.contains(&format!("{number:e}")) && text.len() < 160, "{text}");
+            }
+        }
+    }
+
     #[test]
     fn memory_that_is_not_there_is_an_error_with_its_size() {
         for (count, limit) in [(11, 10), (u64::MAX, 10), (u64::MAX, u64::MAX), (1 << 60, u64::MAX)] {

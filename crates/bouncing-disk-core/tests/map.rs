@@ -417,6 +417,17 @@ fn a_chattering_disk_has_no_period() {
     }
 }
 
+/// Late in a chatter one impact is like the next one to any tolerance, in phase and in what is left of the speed. That is
+/// the disk's way to rest and no period, however late one looks.
+#[test]
+fn impacts_late_in_a_chatter_are_no_period() {
+    let map = map(0.2, 0.5);
+    for impacts in [40, 200, 900] {
+        let late = map.iterate(state(3.0, -0.2), impacts).unwrap();
+        assert_eq!(map.period_of(late, 8, 1.0e-8), Ok(None), "{late:?}");
+    }
+}
+
 /// A solution of the shooting equations without speed, or one that takes no time, is a disk at rest and refused by name.
 #[test]
 fn a_disk_at_rest_is_no_periodic_orbit() {
@@ -437,6 +448,18 @@ fn a_disk_at_rest_is_no_periodic_orbit() {
     let phase = map.vibration().separation_phase().unwrap();
     let refused = map.refine(&[ImpactState::new(phase, 0.0).unwrap()]);
     assert!(refused.is_err(), "{refused:?}");
+}
+
+/// Just before the platform stops to fall away a disk at rest leaves it and is back within a rounding of the phase, without
+/// speed: that solves the shooting equations, and is refused for its speed and not only for the time that it takes.
+#[test]
+fn a_solution_without_speed_is_refused_by_name() {
+    for peak in [1.1, 1.25, 1.5, 1.75] {
+        let vibration = Vibration::new(peak).unwrap();
+        let end = PI - vibration.separation_phase().unwrap().angle();
+        let refused = ImpactMap::new(vibration, 0.5).unwrap().refine(&[state(end.next_down(), 0.0)]);
+        assert!(matches!(refused, Err(Error::ImpactWithoutSpeed { index: 0, .. })), "{peak}: {refused:?}");
+    }
 }
 
 #[test]

@@ -111,3 +111,23 @@ fn too_large(what: &'static str, count: usize, limit: usize) -> Error {
 pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
     if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As those of the core: a number of any size is told in few digits, not in hundreds of zeros.
+    #[test]
+    fn texts_tell_numbers_of_any_size_in_few_digits() {
+        for number in [1.25e-300, 1.25e-121, 1.25e300] {
+            for error in [
+                Error::OutOfRange { field: "speed", value: number, legal: "[0, 1]" },
+                Error::NeverLeaves { peak_acceleration: number },
+                Error::SlipTooLong { duration: number, limit: number },
+            ] {
+                let text = error.to_string();
+                assert!(text.contains(&format!("{number:e}")) && text.len() < 160, "{text}");
+            }
+        }
+    }
+}
