@@ -54,10 +54,10 @@ pub use bouncing_disk_core as core;
 
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};
 pub use error::Error;
-pub use motion::contact::MAX_CONTACT_EVENTS;
 pub use motion::energy::EnergyLedger;
 pub use motion::engine::Engine;
 pub use motion::event::{Event, EventRecord};
+pub use motion::friction::MAX_CONTACT_EVENTS;
 pub use motion::initial_condition::InitialCondition;
 pub use motion::paper_chatter::{PAPER_CHATTER, PAPER_CUT};
 pub use motion::phase_time::{PhaseSpan, PhaseTime};

@@ -3,7 +3,7 @@
 //! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
 //! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
 //! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
-//! coefficients satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
+//! coefficients (`expansion.rs`, with the bound on their error) satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
 //! The coefficients are derived in docs/numerics/chattering.md.
 
 use core::f64::consts::TAU;

@@ -142,12 +142,4 @@ impl Vibration {
     pub fn acceleration(&self, phase: Phase) -> f64 {
         -self.peak_acceleration * phase.sin()
     }
-
-    /// Weight that a resting disk puts on the platform per unit mass, 1 - P sin tau, in units of g (Eq. 3 as
-    /// corrected in docs/errata.md); the disk separates where it falls to zero.
-    #[must_use]
-    #[inline]
-    pub fn contact_force(&self, phase: Phase) -> f64 {
-        1.0 - self.peak_acceleration * phase.sin()
-    }
 }

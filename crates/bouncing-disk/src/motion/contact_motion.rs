@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, Phase};
 
 use crate::error::Error;
-use crate::motion::contact::{Friction, Spent};
+use crate::motion::friction::{Friction, Spent};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{RotaryChange, change_in_contact};
 use crate::motion::state::{Mode, SlipDirection};

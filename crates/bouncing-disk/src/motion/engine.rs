@@ -1,4 +1,5 @@
-//! The event engine: flight, impact, attachment, sticking, sliding, separation.
+//! The event engine: flight, impact, attachment, sticking, sliding, separation. It integrates the equations of motion, Eq. (2),
+//! from event to event in closed form.
 //!
 //! The vertical motion comes entirely from the core's [`Orbit`]; the engine adds the rotary motion and the changes
 //! between sticking and sliding while the disk is on the platform.
@@ -7,10 +8,10 @@ use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Launch, Orbit, Orbit
 
 use crate::error::{Error, moderate};
 use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
-use crate::motion::contact::Friction;
 use crate::motion::contact_motion::{Contact, ContactEvent, ContactStep, Placed};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::{Event, EventRecord};
+use crate::motion::friction::Friction;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};

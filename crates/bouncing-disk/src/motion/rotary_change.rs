@@ -1,12 +1,14 @@
-//! What flight and contact change in the rotation, in closed form, and the energy balance of both.
+//! What flight and contact change in the rotation, in closed form, and the energy balance of both. Sliding, Eq. (12), is in
+//! `sliding.rs`.
 
 use bouncing_disk_core::Phase;
 
 use crate::motion::arc::{Arc, Term};
-use crate::motion::contact::Friction;
 use crate::motion::energy::EnergyLedger;
+use crate::motion::friction::Friction;
 use crate::motion::phase_time::PhaseSpan;
-use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
+use crate::motion::sliding::change_while_sliding;
+use crate::motion::state::{DiskState, Mode, PlatformState};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Change of the rotary state over a segment.
@@ -43,22 +45,6 @@ pub(crate) fn change_in_contact(
                 angle: cosine * arc.sine_change + sine * arc.cosine_change,
             }
         }
-    }
-}
-
-/// Sliding contact (Eq. 12): d(angular speed)/d tau = -s mu N - l with N = 1 - P sin tau, integrated.
-fn change_while_sliding(
-    system: &DimensionlessSystem,
-    direction: SlipDirection,
-    speed: f64,
-    arc: &Arc,
-) -> RotaryChange {
-    let t = arc.duration;
-    let grip = direction.sign() * system.friction();
-    let load = system.load();
-    RotaryChange {
-        speed: speed - (grip * arc.force().value + load * t),
-        angle: t * (speed - 0.5 * load * t) - grip * arc.force_twice().value,
     }
 }
 

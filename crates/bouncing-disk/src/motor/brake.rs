@@ -1,4 +1,4 @@
-//! Braking: the friction coefficient from the deceleration of a disk on a platform at rest.
+//! Braking, Eq. (17): the friction coefficient from the deceleration of a disk on a platform at rest.
 
 use bouncing_disk_core::read_checked;
 

@@ -8,8 +8,8 @@ use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, OrbitEvent, P
 
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
-use crate::motion::contact::Friction;
 use crate::motion::contact_motion::{Contact, Placed};
+use crate::motion::friction::Friction;
 use crate::motion::impact::{axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{change_in_contact, change_in_flight};

@@ -6,7 +6,7 @@ use bouncing_disk_core::{Phase, Vibration};
 use proptest::prelude::*;
 
 use super::*;
-use crate::motion::contact::MAX_CONTACT_EVENTS;
+use crate::motion::friction::MAX_CONTACT_EVENTS;
 use crate::motion::state::PlatformState;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 use crate::testing;

@@ -1,4 +1,5 @@
-//! Friction while disk and platform touch: what holds, when it gives way, and when a slip ends.
+//! Friction while disk and platform touch, Eq. (4): what holds, when it gives way, and when a slip ends. (The normal
+//! force N = 1 - P sin tau, Eq. (3), is the core's `Vibration::contact_force`.)
 //!
 //! Let U >= 0 be the slip speed in one direction s (s = +1: the disk is ahead). While the disk slides,
 //!
