@@ -7,18 +7,9 @@ use crate::motion::arc::{Arc, Term};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::friction::Friction;
 use crate::motion::phase_time::PhaseSpan;
-use crate::motion::sliding::change_while_sliding;
+use crate::motion::sliding::{RotaryChange, change_while_sliding};
 use crate::motion::state::{DiskState, Mode, PlatformState};
 use crate::parameters::dimensionless::DimensionlessSystem;
-
-/// Change of the rotary state over a segment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct RotaryChange {
-    /// Angular speed at the end.
-    pub(crate) speed: f64,
-    /// Change of the angle.
-    pub(crate) angle: f64,
-}
 
 /// The rotary motion of a flight: only the load acts.
 #[inline(always)]
