@@ -1,4 +1,4 @@
-//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability.
+//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability (Floquet multipliers).
 
 use core::f64::consts::{PI, TAU};
 

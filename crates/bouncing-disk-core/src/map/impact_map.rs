@@ -1,4 +1,4 @@
-//! The impact map (next-collision map) of the vertical motion, and its orbits.
+//! The impact map (next-collision map) of the vertical motion, its derivative, and its orbits.
 
 use glam::{DMat2, DVec2};
 
