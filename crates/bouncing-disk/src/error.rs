@@ -44,6 +44,22 @@ pub enum Error {
         /// Its value for another one.
         other: f64,
     },
+    /// A motor does not turn where it is asked for something that only one that turns has.
+    #[error(
+        "the motor does not turn: its mean speed is {speed:?} rad/s with a standard error of {standard_error:?} rad/s"
+    )]
+    DoesNotTurn {
+        /// Mean speed (rad/s).
+        speed: f64,
+        /// Its standard error (rad/s).
+        standard_error: f64,
+    },
+    /// The load accelerates a motor for ever, whatever is changed.
+    #[error("the load of {load:?} m g a_e overpowers the motor: friction cannot give as much on average")]
+    Overpowered {
+        /// Load torque in units of m g a_e.
+        load: f64,
+    },
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),

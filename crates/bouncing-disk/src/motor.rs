@@ -5,6 +5,7 @@ pub(crate) mod brake;
 pub(crate) mod ensemble;
 pub(crate) mod fit;
 pub(crate) mod impulse;
+pub(crate) mod operation;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
 pub(crate) mod shared_orbit;

@@ -158,6 +158,32 @@ impl Engine {
         Ok(())
     }
 
+    /// Comes to rest after an impact at `now` which left the disk in `state`, with the attachment that ends the
+    /// chatter: for those who compute the vertical motion elsewhere. The angle is counted from that of `state`.
+    pub(crate) fn rest_after(&mut self, now: PhaseTime, state: DiskState, rest: &Attachment) -> EventRecord {
+        self.now = now;
+        self.state = state;
+        self.angle = LongSum::new(state.angle);
+        self.attach(rest)
+    }
+
+    /// Lets a contact without end end at `time`, with an event [`Event::Separation`].
+    pub(crate) fn pause_at(&mut self, time: PhaseTime) {
+        if let Stage::Contact(contact) = &mut self.stage {
+            contact.separation = Some(time);
+        }
+    }
+
+    /// Goes on in contact after such an end, in the `mode` before it.
+    pub(crate) const fn resume_in(&mut self, mode: Mode) {
+        let slip = match mode {
+            Mode::Sliding(direction) => Some(direction),
+            Mode::Sticking | Mode::Flight => None,
+        };
+        self.stage = Stage::Contact(Contact { slip, separation: None });
+        self.state.mode = mode;
+    }
+
     /// The next event, or `None` after the last one.
     ///
     /// # Errors

@@ -1,0 +1,396 @@
+//! An ensemble of vertical motions that runs until the speeds of all rotors are known well enough.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::{Observer, Watch};
+
+use super::member::{AxialWindow, Member, RotorWindow, Window};
+use super::point::{Estimate, OperatingPoint, Operation, Shortfall};
+use super::settings::OperatingSettings;
+use super::settling::{left_out, shortfall};
+use crate::error::{Error, positive, within_limit};
+use crate::motor::ensemble::MAX_MEMBERS;
+use crate::motor::shared_orbit::shared_by;
+use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::parameters::scales::Scales;
+use crate::parameters::system::System;
+
+/// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
+const FIRST_WINDOWS: usize = 12;
+const WINDOWS_OF_RISE: f64 = 2.0;
+
+/// With more windows, two and two become one.
+const MOST_WINDOWS: usize = 128;
+
+/// Least impacts of a window, and least periods of the platform.
+const LEAST_IMPACTS: u64 = 50;
+const LEAST_PERIODS: f64 = 10.0;
+
+/// A round runs for at most so many times what all before took together, whatever it hopes for.
+const GROWTH: f64 = 3.0;
+
+/// What a hoped-for number of windows is increased by, so that another round is seldom needed.
+const MARGIN: f64 = 1.15;
+
+/// A motor under a load, to be carried on a shared vertical motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LoadedMotor {
+    pub(crate) system: System,
+    /// Mass m (kg).
+    pub(crate) mass: f64,
+    /// Load torque T_L (N m): what the system's load is made from, as it was given.
+    pub(crate) load_torque: f64,
+}
+
+impl LoadedMotor {
+    /// The same motor under another load torque (N m).
+    pub(crate) fn with_load(&self, load_torque: f64) -> Result<Self, Error> {
+        let disk = self.system.disk().parameters().with_load_torque(load_torque, self.mass)?;
+        Ok(Self { system: System::new(*self.system.platform(), disk.build()?)?, load_torque, ..*self })
+    }
+
+    /// The same motor with another phase lag (rad).
+    pub(crate) fn with_phase_lag(&self, phase_lag: f64) -> Result<Self, Error> {
+        let system = self.system.with_platform(|platform| platform.phase_lag = phase_lag)?;
+        Ok(Self { system, ..*self })
+    }
+
+    /// The load torque in units of m g a_e.
+    pub(crate) const fn load(&self) -> f64 {
+        self.system.dimensionless().load()
+    }
+
+    /// Whether a mean speed is one: beyond four of its standard errors, and beyond what rounding leaves.
+    pub(crate) fn turns(&self, speed: Estimate) -> bool {
+        let rounding = 1e-6 * self.system.platform().peak_angular_speed();
+        speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
+    }
+
+    /// The largest mean torque of friction, mu m g a_e (N m).
+    pub(crate) fn largest_torque(&self) -> f64 {
+        let disk = self.system.disk();
+        disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
+    }
+
+    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or equal to it. On
+    /// average the normal force is the weight under preload, so that friction gives no more, whatever the motion.
+    fn runs_away(&self) -> bool {
+        let system = self.system.dimensionless();
+        system.load() != 0.0 && system.load().abs() >= system.friction()
+    }
+
+    fn runaway(&self) -> Operation {
+        let system = self.system.dimensionless();
+        let beyond = system.load().abs() - system.friction();
+        let scale = self.system.scales().angular_acceleration;
+        Operation::Runaway {
+            load_torque: self.load_torque,
+            largest_torque: self.largest_torque(),
+            acceleration: -beyond.copysign(system.load()) * scale,
+        }
+    }
+}
+
+/// The mean speeds of all rotors and members, and what is said of them.
+#[derive(Debug)]
+pub(crate) struct Operations {
+    /// In the order of the motors.
+    pub(crate) operations: Vec<Operation>,
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up; none for a runaway.
+    pub(crate) speeds: Vec<Vec<f64>>,
+}
+
+/// The steady operation of motors that share one vertical motion; with them, at no cost worth naming, the first motor
+/// without load runs along, whose speed the errors are relative to.
+pub(crate) fn operate(
+    motors: &[LoadedMotor],
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Operations, Error> {
+    settings.check()?;
+    within_limit("rotors on one vertical motion", motors.len(), MAX_MEMBERS)?;
+    let systems: Vec<System> = motors.iter().map(|motor| motor.system).collect();
+    let first = *shared_by(&systems)?;
+    for motor in motors {
+        positive("mass", motor.mass)?;
+    }
+    let mut carried: Vec<LoadedMotor> = motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
+    let unloaded = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
+    carried.push(LoadedMotor { system: unloaded, load_torque: 0.0, ..motors[0] });
+
+    let watch = Watch::begin(observer, 0, settings.most_impacts)?;
+    let mut run = Run::new(carried, settings)?;
+    run.compute(settings, &watch)?;
+    watch.end();
+
+    let mut known = run.results()?.into_iter();
+    let mut results = Operations { operations: Vec::new(), speeds: Vec::new() };
+    for motor in motors {
+        let (operation, speeds) = if motor.runs_away() {
+            (motor.runaway(), Vec::new())
+        } else {
+            // There is one for each that does not run away.
+            known.next().unwrap_or_else(|| (motor.runaway(), Vec::new()))
+        };
+        results.operations.push(operation);
+        results.speeds.push(speeds);
+    }
+    Ok(results)
+}
+
+/// An ensemble under way.
+struct Run {
+    motors: Vec<LoadedMotor>,
+    members: Vec<(Member, Vec<Window>)>,
+    /// Duration of a window (rad) and its least impacts.
+    duration: f64,
+    least_impacts: u64,
+    /// Most impacts of a window.
+    most_impacts: u64,
+    /// What each rotor lacks, and the error that is asked for (rad/s).
+    shortfalls: Vec<Option<Shortfall>>,
+    wanted: f64,
+}
+
+impl Run {
+    fn new(motors: Vec<LoadedMotor>, settings: &OperatingSettings) -> Result<Self, Error> {
+        let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
+        let members = (0..settings.members)
+            .map(|index| Ok((Member::new(&systems, index, settings)?, Vec::new())))
+            .collect::<Result<Vec<_>, Error>>()?;
+        // The time in which friction gives the platform's largest speed, in radians; that of the slowest rotor.
+        let rise = systems.iter().filter(|system| system.friction() > 0.0);
+        let rise = rise.map(|system| system.twist_speed() / system.friction()).fold(0.0, f64::max);
+        let duration = (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
+        // Even where the rise takes for ever the first round spends no more than it may.
+        let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
+        let least_impacts = LEAST_IMPACTS.min(most_impacts);
+        let shortfalls = vec![None; motors.len()];
+        Ok(Self { motors, members, duration, least_impacts, most_impacts, shortfalls, wanted: 0.0 })
+    }
+
+    /// Windows so far.
+    fn windows(&self) -> usize {
+        self.members[0].1.len()
+    }
+
+    fn compute(&mut self, settings: &OperatingSettings, watch: &Watch<'_>) -> Result<(), Error> {
+        let mut target = FIRST_WINDOWS;
+        loop {
+            let more = target - self.windows();
+            self.extend(more, watch)?;
+            self.judge(settings);
+            let lacking = self.shortfalls.iter().flatten();
+            let Some(factor) = lacking.map(|shortfall| self.hoped_for(shortfall)).reduce(f64::max) else {
+                return Ok(());
+            };
+            let windows = self.windows();
+            let grown = (windows as f64 * factor.min(GROWTH)).ceil() as usize;
+            target = grown.max(windows + 1);
+            // Whether the impacts that are left are enough.
+            let spent = self.spent();
+            let left = settings.most_impacts.saturating_sub(spent);
+            let each = spent.max(1) as f64 / windows as f64;
+            let affordable = windows.saturating_add((left as f64 / each) as usize);
+            if affordable <= windows {
+                return Ok(());
+            }
+            target = target.min(affordable);
+            if target > MOST_WINDOWS && self.windows() >= 2 * FIRST_WINDOWS {
+                self.merge();
+                target = target.div_ceil(2).max(self.windows() + 1);
+            }
+        }
+    }
+
+    /// How many times as long a run has to be.
+    fn hoped_for(&self, shortfall: &Shortfall) -> f64 {
+        match *shortfall {
+            Shortfall::Error { standard_error, wanted } => {
+                let ratio = standard_error / wanted;
+                MARGIN * ratio * ratio
+            }
+            Shortfall::Drift { .. } => 2.0,
+        }
+    }
+
+    /// Impacts of all members.
+    fn spent(&self) -> u64 {
+        let windows = self.members.iter().flat_map(|(_, windows)| windows);
+        windows.map(|window| window.axial.impacts).sum()
+    }
+
+    fn extend(&mut self, more: usize, watch: &Watch<'_>) -> Result<(), Error> {
+        let (duration, impacts) = (self.duration, self.least_impacts..=self.most_impacts);
+        let extend_one = |(member, windows): &mut (Member, Vec<Window>)| {
+            let mut work = watch.work();
+            for _ in 0..more {
+                let window = member.next_window(duration, impacts.clone(), &mut work)?;
+                watch.finish(window.axial.impacts);
+                windows.push(window);
+            }
+            Ok::<(), Error>(())
+        };
+        #[cfg(feature = "parallel")]
+        {
+            use rayon::prelude::*;
+            let results: Vec<_> = self.members.par_iter_mut().with_max_len(1).map(extend_one).collect();
+            results.into_iter().collect()
+        }
+        #[cfg(not(feature = "parallel"))]
+        self.members.iter_mut().try_for_each(extend_one)
+    }
+
+    /// Makes one window of two.
+    fn merge(&mut self) {
+        for (_, windows) in &mut self.members {
+            let mut pairs = std::mem::take(windows).into_iter();
+            while let Some(mut window) = pairs.next() {
+                // An odd one at the end is the last and stays alone.
+                if let Some(next) = pairs.next() {
+                    window.add(&next);
+                }
+                windows.push(window);
+            }
+        }
+        self.duration *= 2.0;
+        self.least_impacts *= 2;
+        self.most_impacts = self.most_impacts.saturating_mul(2);
+    }
+
+    /// Mean speeds (rad/s) of a rotor in the windows after the start-up, of each member.
+    fn speeds(&self, rotor: usize) -> Vec<Vec<f64>> {
+        let unit = self.motors[rotor].system.scales().angular_speed;
+        let speed = |window: &Window| window.rotors[rotor].angle / window.axial.duration * unit;
+        let after = left_out(self.windows());
+        self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
+    }
+
+    fn judge(&mut self, settings: &OperatingSettings) {
+        let no_load = self.motors.len() - 1;
+        let system = &self.motors[no_load].system;
+        let total = |windows: &Vec<Vec<f64>>| windows.iter().flatten().sum::<f64>();
+        let speeds = self.speeds(no_load);
+        let count = (speeds.len() * speeds[0].len()) as f64;
+        // A motor without twist has no speed but that at which a load makes it creep.
+        let creep = system.dimensionless().friction() * system.scales().angular_speed;
+        let scale = 0.01 * system.platform().peak_angular_speed().max(creep);
+        self.wanted = settings.relative_error * (total(&speeds) / count).abs().max(scale);
+        self.shortfalls =
+            (0..self.motors.len()).map(|rotor| shortfall(&self.speeds(rotor), self.wanted)).collect();
+    }
+
+    fn results(&self) -> Result<Vec<(Operation, Vec<f64>)>, Error> {
+        (0..self.motors.len()).map(|rotor| self.result(rotor)).collect()
+    }
+
+    /// The operating point of a rotor, and the mean speeds (rad/s) of the members.
+    fn result(&self, rotor: usize) -> Result<(Operation, Vec<f64>), Error> {
+        let motor = &self.motors[rotor];
+        let units = Units::of(motor);
+        let after = left_out(self.windows());
+        // Mean over the windows of each member, and over all windows, the start-up with them.
+        let (mut members, mut whole) = (Vec::new(), Sum::default());
+        for (_, windows) in &self.members {
+            let mut averaged = Sum::default();
+            for (index, window) in windows.iter().enumerate() {
+                whole.add(window, rotor);
+                if index >= after {
+                    averaged.add(window, rotor);
+                }
+            }
+            members.push(averaged);
+        }
+        let of = |value: &dyn Fn(&Sum) -> f64| members.iter().map(value).collect::<Vec<f64>>();
+        let speeds = of(&|sum| sum.rotor.angle / sum.axial.duration * units.speed);
+        let mechanical = of(&|sum| sum.rotor.load_work / sum.axial.duration * units.rotary);
+        let input = of(&|sum| {
+            (sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary)
+                / sum.axial.duration
+        });
+        let restitution = of(&|sum| sum.axial.restitution_loss / sum.axial.duration * units.axial);
+        let friction = of(&|sum| sum.rotor.friction_loss / sum.axial.duration * units.rotary);
+        let perturbation = of(&|sum| sum.axial.perturbation_work / sum.axial.duration * units.axial);
+        let mechanical_power = Estimate::of(&mechanical)?;
+        let efficiency = Estimate::of_ratio(&mechanical, &input).filter(|_| mechanical_power.value >= 0.0);
+        let starts = self
+            .members
+            .iter()
+            .map(|(_, windows)| windows[..after].iter().map(|window| window.axial.duration).sum::<f64>());
+        let point = OperatingPoint {
+            load_torque: motor.load_torque,
+            speed: Estimate::of(&speeds)?,
+            mechanical_power,
+            input_power: Estimate::of(&input)?,
+            restitution_loss: Estimate::of(&restitution)?,
+            friction_loss: Estimate::of(&friction)?,
+            efficiency,
+            perturbation_power: Estimate::of(&perturbation)?.value,
+            energy_residual: whole.energy_residual(&units, motor.system.dimensionless()),
+            averaged_time: members.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
+            start_up: starts.sum::<f64>() / self.members.len() as f64 * units.time,
+            impacts: members.iter().map(|sum| sum.axial.impacts).sum(),
+        };
+        let operation = match self.shortfalls[rotor] {
+            None => Operation::Steady(point),
+            Some(shortfall) => Operation::Unsettled(point, shortfall),
+        };
+        Ok((operation, speeds))
+    }
+}
+
+/// SI units of what the windows hold.
+struct Units {
+    time: f64,
+    speed: f64,
+    /// Power (W) for one unit of axial, and of rotary energy in a radian.
+    axial: f64,
+    rotary: f64,
+}
+
+impl Units {
+    fn of(motor: &LoadedMotor) -> Self {
+        let Scales { time, angular_speed, axial_energy, rotary_energy, .. } = motor.system.scales();
+        Self {
+            time,
+            speed: angular_speed,
+            axial: motor.mass * axial_energy / time,
+            rotary: motor.mass * rotary_energy / time,
+        }
+    }
+}
+
+/// Windows of one member, or of all, added up.
+#[derive(Debug, Default)]
+struct Sum {
+    axial: AxialWindow,
+    rotor: RotorWindow,
+}
+
+impl Sum {
+    fn add(&mut self, window: &Window, rotor: usize) {
+        let mut sum = Window { axial: self.axial, rotors: vec![self.rotor] };
+        sum.add(&Window { axial: window.axial, rotors: vec![window.rotors[rotor]] });
+        (self.axial, self.rotor) = (sum.axial, sum.rotors[0]);
+    }
+
+    /// What the energy balance leaves, relative to the energy that came in; where less came in than a disk that moves with
+    /// the platform has, relative to that: there are only roundings then.
+    fn energy_residual(&self, units: &Units, system: &DimensionlessSystem) -> f64 {
+        let axial = self.axial.normal_work + self.axial.perturbation_work;
+        let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
+        let rotor = &self.rotor;
+        let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
+        let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs();
+        // A load that drives the motor puts energy in, too.
+        let put_in =
+            axial.abs() * units.axial + (rotor.friction_work.abs().max(rotor.load_work.abs())) * units.rotary;
+        let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
+        let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
+        let scale = put_in.max(moving);
+        if scale > 0.0 { left / scale } else { left }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,353 @@
+use std::f64::consts::PI;
+
+use bouncing_disk_core::Unobserved;
+
+use super::*;
+use crate::testing::motor;
+use crate::{Spread, TransientSettings, ensemble};
+
+/// Mass of the rotor (kg): any will do.
+const MASS: f64 = 0.02;
+
+/// This motor under a share of the largest mean torque of friction.
+fn loaded(system: &System, share: f64) -> LoadedMotor {
+    let unloaded = LoadedMotor { system: *system, mass: MASS, load_torque: 0.0 };
+    unloaded.with_load(share * unloaded.largest_torque()).expect("legal")
+}
+
+/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees; radii,
+/// friction and restitution of Table III.
+fn tried() -> System {
+    let angular_frequency = TAU * 40e3;
+    System::motor()
+        .with_platform(|stator| {
+            stator.angular_frequency = angular_frequency;
+            stator.amplitude = 0.5e-6;
+            stator.twist_amplitude = 12.0 / angular_frequency;
+            stator.phase_lag = PI / 6.0;
+        })
+        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration = 5.0 / 0.02))
+        .expect("legal")
+}
+
+fn operated(motors: &[LoadedMotor], settings: &OperatingSettings) -> Vec<Operation> {
+    operate(motors, settings, &Unobserved).expect("no failure").operations
+}
+
+/// The energy that comes in is the work done, the losses and what is stored: over whole runs, with loads that brake,
+/// drive and nearly run away, on platforms of every strength, with and without twist, friction and rebound.
+#[test]
+fn energy_is_balanced() {
+    let settings = OperatingSettings {
+        relative_error: 0.1,
+        members: 4,
+        most_impacts: 200_000,
+        ..OperatingSettings::default()
+    };
+    let of = |amplitude: f64, restitution: f64| {
+        motor(amplitude, 0.0).with_disk(|rotor| rotor.restitution = restitution).expect("legal")
+    };
+    let usual = System::motor().disk().restitution();
+    for system in [of(1e-8, usual), tried(), of(6e-11, usual), of(1e-12, usual), of(1e-8, 0.0), of(1e-8, 0.9)]
+    {
+        let mut motors: Vec<LoadedMotor> =
+            [0.0, 0.3, 0.95, -0.4].iter().map(|&share| loaded(&system, share)).collect();
+        let still = system.with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
+        motors.push(loaded(&still, 0.1));
+        let slippery = system.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
+        motors.push(loaded(&slippery, 0.0));
+        for operation in operated(&motors, &settings) {
+            let point = operation.point().expect("none runs away");
+            assert!(point.energy_residual < 1e-12, "{operation:?}");
+            if operation.steady().is_some() {
+                // The same of the means, but for what the disk has stored in the meantime.
+                let put_in = point.input_power.value + point.perturbation_power;
+                let out =
+                    point.mechanical_power.value + point.restitution_loss.value + point.friction_loss.value;
+                let size = put_in.abs().max(point.mechanical_power.value.abs());
+                assert!((put_in - out).abs() <= 0.02 * size + 1e-20, "{operation:?}");
+            }
+            let power = point.load_torque * point.speed.value;
+            assert!((point.mechanical_power.value - power).abs() <= 1e-9 * power.abs(), "{operation:?}");
+        }
+    }
+}
+
+/// Seen from below, a motor turns the other way.
+#[test]
+fn half_a_circle_of_lag_turns_the_motor_round() {
+    let settings = OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() };
+    for base in [motor(1e-8, 0.0), tried()] {
+        for share in [0.0, 0.35] {
+            let (one, other) = (loaded(&base, share), loaded(&base, -share));
+            let lags = [0.0, 0.7, 2.0];
+            let motors: Vec<LoadedMotor> = lags
+                .iter()
+                .flat_map(|&lag| [one.with_phase_lag(lag), other.with_phase_lag(lag + PI)])
+                .collect::<Result<_, _>>()
+                .expect("legal");
+            for pair in operated(&motors, &settings).chunks(2) {
+                let speed = |index: usize| pair[index].point().expect("none runs away").speed.value;
+                let scale = base.platform().peak_angular_speed();
+                assert!((speed(0) + speed(1)).abs() < 1e-9 * scale, "{} {}", speed(0), speed(1));
+            }
+        }
+    }
+}
+
+/// Friction gives mu m g a_e on average at most: the seam is there, and to the last bit.
+#[test]
+fn a_load_above_the_largest_torque_of_friction_runs_away() {
+    let settings = OperatingSettings { relative_error: 0.5, members: 4, ..OperatingSettings::default() };
+    let base = tried();
+    let exact = |load: f64| {
+        let scale = base.scales().angular_acceleration;
+        let system = base.with_disk(|rotor| rotor.load_acceleration = load * scale).expect("legal");
+        LoadedMotor { system, mass: MASS, load_torque: f64::NAN }
+    };
+    let friction = base.dimensionless().friction();
+    for load in [friction, 1.5 * friction, -friction, -2.0 * friction, 1e6] {
+        let mut motor = exact(load);
+        // The unit may round the load below the friction.
+        if motor.load().abs() < friction {
+            motor = exact(load * (1.0 + 2.0 * f64::EPSILON));
+        }
+        let all = operated(&[loaded(&base, 0.1), motor], &settings);
+        assert!(all[0].point().is_some());
+        let Operation::Runaway { acceleration, .. } = all[1] else { panic!("{:?}", all[1]) };
+        let expected = -(load.abs() - friction).copysign(load) * base.scales().angular_acceleration;
+        assert!(
+            (acceleration - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+            "{acceleration} {expected}"
+        );
+    }
+    assert!(operated(&[exact(friction * 0.999)], &settings)[0].point().is_some());
+    // What nothing holds, nothing drives; the least load runs away with it.
+    let slippery = base.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
+    let still = LoadedMotor { system: slippery, mass: MASS, load_torque: 0.0 };
+    let point = *operated(&[still], &settings)[0].steady().expect("steady");
+    // Where its slip changes sign it is given the platform's speed, which rounding leaves.
+    assert!(point.speed.value.abs() <= 1e-12 * base.platform().peak_angular_speed(), "{point:?}");
+    let pushed = still.with_load(1e-12).expect("legal");
+    assert!(matches!(operated(&[pushed], &settings)[0], Operation::Runaway { .. }));
+}
+
+/// The engine followed without perturbation locks on a cycle that the rounding has chosen, with a perfect energy
+/// balance: what a new user took for the motor's speed.
+#[test]
+fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
+    let settings = OperatingSettings::default();
+    let motor = loaded(&tried(), 0.2);
+    let operation = operated(&[motor], &settings)[0];
+    let point = operation.steady().expect("steady");
+    assert!(point.speed.standard_error <= 0.01 * 8.0, "{point:?}");
+    assert!(point.perturbation_power < 1e-6 * point.input_power.value, "{point:?}");
+    let zero = OperatingSettings { relaunch_perturbation: 0.0, ..settings };
+    let error = operate(&[motor], &zero, &Unobserved).expect_err("not mixed");
+    assert!(matches!(error, Error::OutOfRange { field: "relaunch_perturbation", .. }), "{error}");
+    // Ten times more or less of it, or other seeds: the same within the errors, and these are those of the mean.
+    let mut deviations = Vec::new();
+    for (relaunch_perturbation, seed) in [(1e-2, 1), (1e-4, 1), (1e-3, 2), (1e-3, 300), (1e-3, 4000)] {
+        let other = OperatingSettings { relaunch_perturbation, seed, ..settings };
+        let other = *operated(&[motor], &other)[0].steady().expect("steady");
+        let error = (other.speed.standard_error.powi_two() + point.speed.standard_error.powi_two()).sqrt();
+        deviations.push((other.speed.value - point.speed.value) / error);
+    }
+    assert!(deviations.iter().all(|deviation| deviation.abs() < 4.0), "{deviations:?}");
+}
+
+trait Square {
+    fn powi_two(self) -> f64;
+}
+
+impl Square for f64 {
+    fn powi_two(self) -> f64 {
+        self * self
+    }
+}
+
+/// The end of the curve without load is what the transients rise to.
+#[test]
+fn the_speed_without_load_is_that_of_the_transients() {
+    let system = motor(1e-8, 0.0);
+    let point =
+        *operated(&[loaded(&system, 0.0)], &OperatingSettings::default())[0].steady().expect("steady");
+    let long = TransientSettings { duration: 100.0, intervals: 100, ..TransientSettings::default() };
+    let runs = ensemble(&system, &long, 16).expect("no failure");
+    let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(0.7).expect("legal")).collect();
+    let transient = Spread::of(&means).expect("finite");
+    let error = (point.speed.standard_error.powi_two() + transient.standard_error.powi_two()).sqrt();
+    let difference = point.speed.value - transient.mean;
+    assert!(difference.abs() < 4.0 * error, "{point:?} {transient:?}");
+    assert!(error < 0.01 * point.speed.value, "{error}");
+}
+
+#[test]
+fn a_spent_budget_is_said() {
+    let motor = loaded(&motor(1e-8, 0.0), 0.2);
+    let settings =
+        OperatingSettings { relative_error: 1e-4, most_impacts: 1_000_000, ..OperatingSettings::default() };
+    let operation = operated(&[motor], &settings)[0];
+    let Operation::Unsettled(point, Shortfall::Error { standard_error, wanted }) = operation else {
+        panic!("{operation:?}")
+    };
+    assert!(standard_error > wanted && (wanted / 21.4e-4 - 1.0).abs() < 0.05, "{operation:?}");
+    // Windows are judged as if they were equally long: they are but for an event.
+    assert!((standard_error - point.speed.standard_error).abs() <= 0.01 * standard_error);
+    assert_eq!(operation.steady(), None);
+    assert_eq!(operation.point(), Some(&point));
+}
+
+#[test]
+fn operations_are_the_same_for_any_number_of_threads() {
+    let motors: Vec<LoadedMotor> = (0..9).map(|k| loaded(&tried(), 0.1 * f64::from(k))).collect();
+    let settings = OperatingSettings { members: 5, ..OperatingSettings::default() };
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+        pool.install(|| operate(&motors, &settings, &Unobserved)).expect("no failure").operations
+    };
+    let all = run(1);
+    assert_eq!(all, run(2));
+    assert_eq!(all, run(7));
+}
+
+#[test]
+fn an_observer_may_stop_it() {
+    use std::ops::ControlFlow;
+
+    let motors = [loaded(&motor(1e-8, 0.0), 0.1)];
+    let stop = |progress: bouncing_disk_core::Progress| {
+        assert_eq!(progress.total, 20_000_000);
+        if progress.done < 10_000 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let stopped = operate(&motors, &OperatingSettings::default(), &stop).expect_err("stopped");
+    assert!(matches!(stopped, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{stopped}");
+}
+
+#[test]
+fn illegal_settings_are_named() {
+    let motors = [loaded(&tried(), 0.1)];
+    let usual = OperatingSettings::default();
+    for (settings, name) in [
+        (OperatingSettings { relative_error: 0.0, ..usual }, "relative_error"),
+        (OperatingSettings { relative_error: f64::NAN, ..usual }, "relative_error"),
+        (OperatingSettings { members: 3, ..usual }, "members"),
+        (OperatingSettings { members: usize::MAX, ..usual }, "members"),
+        (OperatingSettings { most_impacts: 0, ..usual }, "most_impacts"),
+        (OperatingSettings { relaunch_perturbation: -1.0, ..usual }, "relaunch_perturbation"),
+        (OperatingSettings { relaunch_perturbation: f64::NAN, ..usual }, "relaunch_perturbation"),
+    ] {
+        let error = operate(&motors, &settings, &Unobserved).expect_err("illegal");
+        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+    }
+    let error = operate(&[], &usual, &Unobserved).expect_err("none");
+    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    let massless = LoadedMotor { mass: 0.0, ..motors[0] };
+    let error = operate(&[massless], &usual, &Unobserved).expect_err("illegal");
+    assert!(matches!(error, Error::OutOfRange { field: "mass", .. }), "{error}");
+    let other = loaded(&motor(1e-8, 0.0), 0.1);
+    let error = operate(&[motors[0], other], &usual, &Unobserved).expect_err("not shared");
+    assert!(matches!(error, Error::NotShared { .. }), "{error}");
+}
+
+/// Where the platform hardly falls away, or the disk never comes to rest: a number with its error, or what it lacks.
+#[test]
+fn platforms_of_every_strength_are_judged() {
+    let settings = OperatingSettings {
+        relative_error: 0.2,
+        members: 4,
+        most_impacts: 50_000,
+        ..OperatingSettings::default()
+    };
+    let base = System::motor();
+    let unit = base.platform().amplitude() / base.peak_acceleration();
+    for peak in [0.0, 0.5, 1.0, 1.0 + 1e-15, 1.0 + 1e-6, 1.5, 3.3, 100.0, 1e4] {
+        for restitution in [0.0, 0.3, 0.99] {
+            let system = base
+                .with_platform(|stator| stator.amplitude = peak * unit)
+                .and_then(|motor| motor.with_disk(|rotor| rotor.restitution = restitution))
+                .expect("legal");
+            for operation in operated(&[loaded(&system, 0.0), loaded(&system, 0.4)], &settings) {
+                let point = operation.point().expect("none runs away");
+                let platform = base.platform().peak_angular_speed();
+                assert!(point.speed.value.abs() <= 1.5 * platform, "{peak} {restitution} {point:?}");
+                assert!(point.energy_residual < 1e-9, "{peak} {restitution} {point:?}");
+            }
+        }
+    }
+}
+
+mod searches {
+    use super::*;
+    use crate::motor::operation::best_phase_lag::best_phase_lag;
+    use crate::motor::operation::stall_load::stall_load;
+
+    /// Under the stall load the motor stands still; a little less and it turns, a little more and it is driven back. The
+    /// paper's estimate from the transient is another number.
+    #[test]
+    fn the_stall_load_is_bracketed_by_what_turns_and_what_does_not() {
+        let settings = OperatingSettings::default();
+        for (system, sign) in [(motor(1e-8, 0.0), 1.0), (tried(), 1.0), (tried(), -1.0)] {
+            let motor = loaded(&system, 0.0);
+            let motor = if sign > 0.0 {
+                motor
+            } else {
+                motor.with_phase_lag(motor.system.platform().phase_lag() + PI).expect("legal")
+            };
+            let stall = stall_load(&motor, &settings, &Unobserved).expect("it turns");
+            assert!(sign * stall.torque.value > 0.0, "{stall:?}");
+            assert!((stall.share * motor.largest_torque() / stall.torque.value - 1.0).abs() < 1e-12);
+            // Other members than those that found it.
+            let others = OperatingSettings { seed: 77, ..settings };
+            let [low, high] = stall.bracket;
+            let loads = [low, stall.torque.value, high];
+            let motors: Vec<LoadedMotor> =
+                loads.iter().map(|&load| motor.with_load(load).expect("legal")).collect();
+            let all = operated(&motors, &others);
+            let speed = |index: usize| all[index].steady().expect("steady").speed;
+            assert!(sign * speed(0).value > 0.0 && sign * speed(2).value < 0.0, "{stall:?} {all:?}");
+            let slope = (speed(2).value - speed(0).value) / (high - low);
+            let uncertain = speed(1).standard_error + (slope * stall.torque.standard_error).abs();
+            assert!(speed(1).value.abs() < 4.0 * uncertain, "{stall:?} {:?}", speed(1));
+            // The same from both sides.
+            let from = |index: usize| loads[index] - speed(index).value / slope;
+            let error = stall.torque.standard_error + (speed(0).standard_error / slope).abs();
+            assert!((from(0) - from(2)).abs() < 4.0 * error, "{stall:?} {} {}", from(0), from(2));
+        }
+    }
+
+    #[test]
+    fn a_motor_that_does_not_turn_has_neither_stall_nor_best_lag() {
+        let settings =
+            OperatingSettings { members: 4, most_impacts: 300_000, ..OperatingSettings::default() };
+        let still = tried().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
+        let slippery = tried().with_disk(|rotor| rotor.friction = 0.0).expect("legal");
+        for system in [still, slippery] {
+            let motor = LoadedMotor { system, mass: MASS, load_torque: 0.0 };
+            let error = stall_load(&motor, &settings, &Unobserved).expect_err("it does not turn");
+            assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
+            let error = best_phase_lag(&motor, &settings, &Unobserved).expect_err("it does not turn");
+            assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
+        }
+        let overpowered = loaded(&tried(), 1.2);
+        let error = best_phase_lag(&overpowered, &settings, &Unobserved).expect_err("it runs away");
+        assert!(matches!(error, Error::Overpowered { .. }), "{error}");
+    }
+
+    /// No lag of a fine comb is faster, beyond the errors.
+    #[test]
+    fn no_lag_is_faster_than_the_best_one() {
+        let settings = OperatingSettings::default();
+        let motor = loaded(&tried(), 0.2);
+        let best = best_phase_lag(&motor, &settings, &Unobserved).expect("it turns");
+        let lags: Vec<f64> = (0..90).map(|k| TAU * f64::from(k) / 90.0).collect();
+        let motors: Vec<LoadedMotor> =
+            lags.iter().map(|&lag| motor.with_phase_lag(lag).expect("legal")).collect();
+        for operation in operated(&motors, &settings) {
+            let speed = operation.steady().expect("steady").speed;
+            assert!(speed.value <= best.speed.value + 4.0 * best.speed.standard_error, "{best:?} {speed:?}");
+        }
+        let [low, high] = best.good_from_to;
+        assert!(low <= best.phase_lag.value && best.phase_lag.value <= high, "{best:?}");
+    }
+}

@@ -1,0 +1,295 @@
+//! One vertical motion with all rotors on it, in windows of time.
+
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::{
+    Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, Phase, WorkCount,
+};
+
+use super::energy_rows::{CarryAll, EnergyRows, WIDTH};
+use super::no_lift_off::Lying;
+use super::settings::OperatingSettings;
+use crate::error::Error;
+use crate::motion::energy::EnergyLedger;
+use crate::motion::engine::Engine;
+use crate::motion::event::Event;
+use crate::motion::impact::{axial_impulse, rebound_velocity};
+use crate::motion::initial_condition::InitialCondition;
+use crate::motion::phase_time::PhaseTime;
+use crate::motion::state::{DiskState, Mode};
+use crate::motor::shared_orbit::vertical::VerticalMotion;
+use crate::motor::transient::FLIGHTS_OF_EVENT;
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// What a rotor did in a window of time, without units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct RotorWindow {
+    /// Angle turned.
+    pub(super) angle: f64,
+    /// Work of the platform by friction, and loss in it.
+    pub(super) friction_work: f64,
+    pub(super) friction_loss: f64,
+    /// Work done against the load.
+    pub(super) load_work: f64,
+    /// Change of the kinetic energy.
+    pub(super) kinetic_change: f64,
+}
+
+/// What all rotors share in a window of time, without units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct AxialWindow {
+    /// Duration (rad).
+    pub(super) duration: f64,
+    /// Work of the platform by normal forces.
+    pub(super) normal_work: f64,
+    /// What the perturbations of the relaunches have given.
+    pub(super) perturbation_work: f64,
+    pub(super) restitution_loss: f64,
+    /// Change of the kinetic and potential energy.
+    pub(super) energy_change: f64,
+    /// Impacts; periods of rotors that never bounce.
+    pub(super) impacts: u64,
+}
+
+/// A window of time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Window {
+    pub(super) axial: AxialWindow,
+    pub(super) rotors: Vec<RotorWindow>,
+}
+
+impl Window {
+    /// This window and the one that follows it as one.
+    pub(super) fn add(&mut self, next: &Self) {
+        let (axial, other) = (&mut self.axial, &next.axial);
+        axial.duration += other.duration;
+        axial.normal_work += other.normal_work;
+        axial.perturbation_work += other.perturbation_work;
+        axial.restitution_loss += other.restitution_loss;
+        axial.energy_change += other.energy_change;
+        axial.impacts += other.impacts;
+        for (rotor, other) in self.rotors.iter_mut().zip(&next.rotors) {
+            rotor.angle += other.angle;
+            rotor.friction_work += other.friction_work;
+            rotor.friction_loss += other.friction_loss;
+            rotor.load_work += other.load_work;
+            rotor.kinetic_change += other.kinetic_change;
+        }
+    }
+}
+
+/// A member of the ensemble: it starts at rest, at a phase and with a stream of random numbers of its own.
+#[derive(Debug)]
+pub(super) enum Member {
+    /// The platform throws the rotors up.
+    Bouncing(Box<Bouncing>),
+    /// It never does: each rotor moves by itself.
+    Lying(Lying),
+}
+
+impl Member {
+    /// The member of this `index` among so many as `settings` says.
+    pub(super) fn new(
+        systems: &[DimensionlessSystem],
+        index: usize,
+        settings: &OperatingSettings,
+    ) -> Result<Self, Error> {
+        // As `ensemble_members`: half a step off zero, so that no member starts on a phase that is special.
+        let phase = Phase::new(TAU * (index as f64 + 0.5) / settings.members as f64)?;
+        let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
+        let policy = ChatterPolicy::Complete;
+        let mut engines = Vec::with_capacity(systems.len());
+        for system in systems {
+            engines.push(Engine::new(
+                *system,
+                InitialCondition::Contact { phase, angular_speed: 0.0 },
+                policy,
+            )?);
+        }
+        let perturbation = (settings.relaunch_perturbation, seed);
+        Ok(match VerticalMotion::from_rest(&systems[0], phase, policy, perturbation)? {
+            Some(vertical) => Self::Bouncing(Box::new(Bouncing {
+                vertical,
+                engines,
+                rows: EnergyRows::of(systems),
+                runner: LaneRunner::new(InstructionSet::best()),
+                window: Window::default(),
+                begun: false,
+                energy: 0.0,
+            })),
+            None => Self::Lying(Lying::new(engines, phase)),
+        })
+    }
+
+    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to the
+    /// end of an event. Rotors that never bounce have periods instead of impacts.
+    pub(super) fn next_window(
+        &mut self,
+        duration: f64,
+        impacts: RangeInclusive<u64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Window, Error> {
+        match self {
+            Self::Bouncing(member) => member.next_window(duration, impacts, work),
+            Self::Lying(member) => member.next_window(duration, *impacts.end(), work),
+        }
+    }
+}
+
+/// Rotors that bounce.
+#[derive(Debug)]
+pub(super) struct Bouncing {
+    vertical: VerticalMotion,
+    /// The rotors while the disk lies on the platform.
+    engines: Vec<Engine>,
+    rows: Vec<EnergyRows>,
+    runner: LaneRunner,
+    window: Window,
+    /// Whether the disk has left the platform for the first time.
+    begun: bool,
+    /// Axial energy after the last event.
+    energy: f64,
+}
+
+impl Bouncing {
+    fn next_window(
+        &mut self,
+        duration: f64,
+        impacts: RangeInclusive<u64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Window, Error> {
+        let rotors = self.engines.len();
+        self.window = Window { axial: AxialWindow::default(), rotors: vec![RotorWindow::default(); rotors] };
+        let mut from = self.vertical.now();
+        if !self.begun {
+            self.begun = true;
+            from = PhaseTime::in_first_period(from.phase);
+            self.energy = self.energy_at(from, 0.0);
+            // A start on a platform that falls away is a flight.
+            if !self.engines[0].launches() {
+                self.rest(None)?;
+            }
+        }
+        let given = self.vertical.given_by_perturbations();
+        let (energy, speeds) = (self.energy, self.speeds());
+        // The first rest of all belongs to no window: there is nothing before it to compare with.
+        self.window = Window { axial: AxialWindow::default(), rotors: vec![RotorWindow::default(); rotors] };
+        from = if self.vertical.now().order(&from).is_gt() { self.vertical.now() } else { from };
+        loop {
+            match self.vertical.advance()? {
+                Some(OrbitEvent::Impact(impact)) => {
+                    self.hit(&impact);
+                    work.spend(1 + (rotors / WIDTH) as u64)?;
+                }
+                Some(OrbitEvent::Attachment(rest)) => {
+                    self.rest(Some(&rest))?;
+                    work.spend(FLIGHTS_OF_EVENT * (1 + rotors as u64))?;
+                }
+                // A platform that has let the disk go once does so for ever.
+                Some(_) | None => break,
+            }
+            let lasts = self.vertical.now().since(&from).radians() >= duration;
+            let done = self.window.axial.impacts;
+            let is_enough = (lasts && done >= *impacts.start()) || done >= *impacts.end();
+            // Where an attachment is due next, the impact is not the end of an event.
+            if is_enough && self.vertical.launch().is_some() {
+                break;
+            }
+        }
+        let axial = &mut self.window.axial;
+        axial.duration = self.vertical.now().since(&from).radians();
+        axial.perturbation_work = self.vertical.given_by_perturbations() - given;
+        axial.energy_change = self.energy - energy;
+        for (index, before) in speeds.into_iter().enumerate() {
+            let (row, own) = (&mut self.rows[index / WIDTH], index % WIDTH);
+            let rotor = &mut self.window.rotors[index];
+            let angle = std::mem::take(&mut row.angle[own]);
+            rotor.angle += angle;
+            rotor.load_work += self.engines[index].system().load() * angle;
+            rotor.friction_work += std::mem::take(&mut row.work[own]);
+            rotor.friction_loss += std::mem::take(&mut row.loss[own]);
+            let after = row.speed[own];
+            rotor.kinetic_change = 0.5 * (after - before) * (after + before);
+        }
+        Ok(std::mem::take(&mut self.window))
+    }
+
+    fn speeds(&self) -> Vec<f64> {
+        (0..self.engines.len()).map(|index| self.rows[index / WIDTH].speed[index % WIDTH]).collect()
+    }
+
+    /// Kinetic and potential energy (per mass) of a disk that leaves the platform with a relative speed.
+    fn energy_at(&self, time: PhaseTime, relative_speed: f64) -> f64 {
+        let vibration = self.engines[0].system().vibration();
+        let velocity = vibration.velocity(time.phase) + relative_speed;
+        0.5 * velocity * velocity + vibration.height(time.phase)
+    }
+
+    fn hit(&mut self, impact: &Impact) {
+        let restitution = self.vertical.restitution();
+        let axial = &mut self.window.axial;
+        axial.impacts += 1;
+        let platform_velocity = self.engines[0].system().vibration().velocity(impact.phase);
+        axial.normal_work += axial_impulse(restitution, impact.velocity) * platform_velocity;
+        axial.restitution_loss +=
+            0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (impact.velocity * impact.velocity);
+        self.energy = self.energy_at(self.vertical.now(), rebound_velocity(restitution, impact.velocity));
+        self.runner.run(CarryAll {
+            duration: impact.duration(),
+            sin: impact.phase.sin(),
+            cos: impact.phase.cos(),
+            velocity: impact.velocity,
+            restitution,
+            rows: &mut self.rows,
+        });
+    }
+
+    /// Carries each rotor through a rest of the disk up to its separation; without an attachment, through the first one.
+    fn rest(&mut self, rest: Option<&Attachment>) -> Result<(), Error> {
+        let (began, mut separation) = (self.vertical.now(), None);
+        let vibration = *self.engines[0].system().vibration();
+        for (index, engine) in self.engines.iter_mut().enumerate() {
+            let (row, own) = (&mut self.rows[index / WIDTH], index % WIDTH);
+            let mut ledger = EnergyLedger::default();
+            if let Some(rest) = rest {
+                let state = DiskState {
+                    mode: Mode::Flight,
+                    height: vibration.height(began.phase),
+                    axial_velocity: vibration.velocity(began.phase) + rest.last_speed,
+                    angle: 0.0,
+                    angular_speed: row.speed[own],
+                };
+                ledger = engine.rest_after(began, state, rest).ledger;
+            }
+            let start = if rest.is_some() { 0.0 } else { engine.state().angle };
+            while let Some(record) = engine.advance()? {
+                ledger += record.ledger;
+                if record.event == Event::Separation {
+                    separation = Some(record.time);
+                    break;
+                }
+            }
+            let rotor = &mut self.window.rotors[index];
+            rotor.angle += engine.state().angle - start;
+            rotor.load_work += ledger.load_work;
+            rotor.friction_work += ledger.friction_work;
+            rotor.friction_loss += ledger.friction_loss;
+            row.speed[own] = engine.state().angular_speed;
+            if index == 0 {
+                self.window.axial.normal_work += ledger.normal_work;
+                self.window.axial.restitution_loss += ledger.restitution_loss;
+            }
+        }
+        if let Some(time) = separation {
+            self.vertical.separate(time)?;
+            let speed = self.vertical.launch().map_or(0.0, |launch| launch.relative_speed());
+            self.energy = self.energy_at(time, speed);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

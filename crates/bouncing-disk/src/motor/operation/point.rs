@@ -1,0 +1,154 @@
+//! What is known of a motor under a load.
+
+use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
+use bouncing_disk_core::read_checked;
+
+use crate::error::{Error, finite, not_negative};
+
+/// A number that was estimated from independent runs, with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEstimate"))]
+pub struct Estimate {
+    /// The estimate.
+    pub value: f64,
+    /// Its standard error: the standard deviation that estimates of as many runs with other seeds would have.
+    pub standard_error: f64,
+}
+
+read_checked!(Estimate as UncheckedEstimate { value: f64, standard_error: f64 });
+
+impl Estimate {
+    fn check(&self) -> Result<(), Error> {
+        finite("value", self.value)?;
+        not_negative("standard_error", self.standard_error)?;
+        Ok(())
+    }
+
+    /// The mean of independent values, at least one.
+    pub(crate) fn of(values: &[f64]) -> Result<Self, Error> {
+        let value = finite("estimate", mean(values))?;
+        let standard_error = standard_deviation(values) / (values.len() as f64).sqrt();
+        Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
+    }
+
+    /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not positive.
+    pub(crate) fn of_ratio(dividends: &[f64], divisors: &[f64]) -> Option<Self> {
+        let divisor = mean(divisors);
+        let value = mean(dividends) / divisor;
+        if !(divisor > 0.0 && value.is_finite()) {
+            return None;
+        }
+        let rests: Vec<f64> =
+            dividends.iter().zip(divisors).map(|(one, other)| one - value * other).collect();
+        let standard_error = standard_deviation(&rests) / divisor / (rests.len() as f64).sqrt();
+        standard_error.is_finite().then_some(Self { value, standard_error })
+    }
+}
+
+/// A motor in steady operation. All numbers are means over time and over the members of one ensemble of runs.
+///
+/// Energy is balanced: what the platform and the perturbation put in is the mechanical power, the two losses and what
+/// the disk has stored in the meantime.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct OperatingPoint {
+    /// Load torque T_L (N m); a positive one decelerates a positive rotation.
+    pub load_torque: f64,
+    /// Mean angular speed (rad/s).
+    pub speed: Estimate,
+    /// Mechanical power, load torque times mean speed (W); negative where the load drives the motor.
+    pub mechanical_power: Estimate,
+    /// Power that the platform puts in by normal forces and by friction (W).
+    pub input_power: Estimate,
+    /// Power lost in the restitution of impacts (W).
+    pub restitution_loss: Estimate,
+    /// Power lost in friction (W).
+    pub friction_loss: Estimate,
+    /// Mechanical power over the power put in; `None` where no power is put in, or the load drives the motor.
+    pub efficiency: Option<Estimate>,
+    /// Power that the perturbations of the relaunches put in (W): it is no part of the motor, and must be small.
+    pub perturbation_power: f64,
+    /// What the energy balance of all runs leaves, relative to the energy put in, or to that of a disk that moves with
+    /// the platform if that is more: zero but for rounding.
+    pub energy_residual: f64,
+    /// Time of one motor that was averaged over, of all members together (s).
+    pub averaged_time: f64,
+    /// Time that was left out as the start-up, of each member (s).
+    pub start_up: f64,
+    /// Impacts of all members together, those of summed chattering sequences and of the start-up not counted.
+    pub impacts: u64,
+}
+
+/// Why a steady operation is not known as well as was asked for when the impacts that were allowed had been spent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub enum Shortfall {
+    /// The standard error of the mean speed is too large.
+    Error {
+        /// It (rad/s).
+        standard_error: f64,
+        /// What was asked for (rad/s).
+        wanted: f64,
+    },
+    /// The speed still drifts: the early part of what was averaged differs from the late one.
+    Drift {
+        /// The late mean minus the early one (rad/s).
+        drift: f64,
+        /// The standard error of this difference (rad/s).
+        standard_error: f64,
+    },
+}
+
+/// What became of a motor under a load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub enum Operation {
+    /// It turns steadily, with the errors that were asked for.
+    Steady(OperatingPoint),
+    /// It was not followed long enough for them: what is known, and what it lacks.
+    Unsettled(OperatingPoint, Shortfall),
+    /// The load overpowers the motor: it is accelerated for ever, and has no mean speed.
+    Runaway {
+        /// Load torque T_L (N m).
+        load_torque: f64,
+        /// The largest torque mu m g a_e that friction can give on average (N m), whatever the motion.
+        largest_torque: f64,
+        /// The acceleration (rad/s^2) that it tends to: what friction cannot hold of the load.
+        acceleration: f64,
+    },
+}
+
+impl Operation {
+    /// The operating point, if it is known as well as was asked for.
+    #[must_use]
+    pub const fn steady(&self) -> Option<&OperatingPoint> {
+        match self {
+            Self::Steady(point) => Some(point),
+            Self::Unsettled(..) | Self::Runaway { .. } => None,
+        }
+    }
+
+    /// The operating point, however well it is known; `None` for a runaway, which has none.
+    #[must_use]
+    pub const fn point(&self) -> Option<&OperatingPoint> {
+        match self {
+            Self::Steady(point) | Self::Unsettled(point, _) => Some(point),
+            Self::Runaway { .. } => None,
+        }
+    }
+
+    /// The load torque T_L (N m).
+    #[must_use]
+    pub const fn load_torque(&self) -> f64 {
+        match self {
+            Self::Steady(point) | Self::Unsettled(point, _) => point.load_torque,
+            Self::Runaway { load_torque, .. } => *load_torque,
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The load that stops a motor, bracketed.
+
+use bouncing_disk_core::Observer;
+
+use super::ensemble::{LoadedMotor, operate};
+use super::point::{Estimate, Operation};
+use super::settings::OperatingSettings;
+use crate::error::Error;
+
+/// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
+const STEPS: usize = 16;
+
+/// A speed differs from zero beyond so many of its standard errors.
+const SIGNIFICANT: f64 = 3.0;
+
+/// The load torque at which the mean speed of a motor vanishes: the true stall, not the paper's alpha_ss/t_c
+/// ([`ExponentialFit::stall_acceleration`](crate::ExponentialFit::stall_acceleration)), which is an estimate from the
+/// transient without load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct StallLoad {
+    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation.
+    pub torque: Estimate,
+    /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
+    pub share: f64,
+    /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its speed, and
+    /// under the second it is surely driven back.
+    pub bracket: [f64; 2],
+    /// The mean speed without load (rad/s).
+    pub no_load_speed: Estimate,
+}
+
+/// The stall load of a motor; the load it has is not looked at.
+pub(crate) fn stall_load(
+    motor: &LoadedMotor,
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<StallLoad, Error> {
+    let largest = motor.largest_torque();
+    let under = |share: f64| motor.with_load(share * largest);
+    // Which way it turns is not known before.
+    let shares: Vec<f64> =
+        (0..2 * STEPS - 1).map(|k| (k as f64 - (STEPS - 1) as f64) / STEPS as f64).collect();
+    let motors = shares.iter().map(|&share| under(share)).collect::<Result<Vec<_>, _>>()?;
+    let first = operate(&motors, settings, observer)?;
+    let unloaded = speed_of(&first.operations[STEPS - 1]);
+    if !motor.turns(unloaded) || largest <= 0.0 {
+        let Estimate { value: speed, standard_error } = unloaded;
+        return Err(Error::DoesNotTurn { speed, standard_error });
+    }
+    let sign = 1.0_f64.copysign(unloaded.value);
+    // Steps away from no load, in the direction that brakes.
+    let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
+    let turns = |operation: &Operation| sign * speed_of(operation).value > 0.0;
+    let last = (0..STEPS).take_while(|&step| turns(&first.operations[braked(step)])).last().unwrap_or(0);
+    // At a share of 1 it runs away: a bit less than that brackets what the last step does not.
+    let (low, high) = (last as f64 / STEPS as f64, ((last + 1) as f64 / STEPS as f64).min(1.0 - 1e-6));
+
+    // One step more on either side, for a bracket that is sure.
+    let step = (high - low) / STEPS as f64;
+    let fine: Vec<f64> =
+        (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, 1.0 - 1e-6)).collect();
+    let motors = fine.iter().map(|&share| under(sign * share)).collect::<Result<Vec<_>, _>>()?;
+    let second = operate(&motors, settings, observer)?;
+    let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
+    let sure = |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
+    let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
+    let above = speeds.iter().position(|speed| sure(speed, -sign)).unwrap_or(fine.len() - 1);
+    let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
+    // Each member crosses zero for itself, on the straight line through its own speeds: they share their perturbations.
+    let members = second.speeds[below].len();
+    let crossings: Vec<f64> = (0..members)
+        .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
+        .collect();
+    let share = Estimate::of(&crossings)?;
+    Ok(StallLoad {
+        torque: Estimate {
+            value: sign * share.value * largest,
+            standard_error: share.standard_error * largest,
+        },
+        share: sign * share.value,
+        bracket: [sign * fine[below] * largest, sign * fine[above] * largest],
+        no_load_speed: unloaded,
+    })
+}
+
+const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };
+
+/// The speed; a motor that runs away has none, and no load here makes one do that.
+fn speed_of(operation: &Operation) -> Estimate {
+    operation.point().map_or(NO_SPEED, |point| point.speed)
+}
+
+/// Where the least-squares line through the speeds at the shares from one index to another vanishes.
+fn crossing(shares: &[f64], speed: impl Fn(usize) -> f64, (from, to): (usize, usize)) -> f64 {
+    let count = (to - from + 1) as f64;
+    let (mut x, mut y) = (0.0, 0.0);
+    for (k, share) in shares.iter().enumerate().take(to + 1).skip(from) {
+        x += share;
+        y += speed(k);
+    }
+    let (x, y) = (x / count, y / count);
+    let (mut square, mut product) = (0.0, 0.0);
+    for (k, share) in shares.iter().enumerate().take(to + 1).skip(from) {
+        square += (share - x) * (share - x);
+        product += (share - x) * (speed(k) - y);
+    }
+    x - y * square / product
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_vanishes_where_it_does() {
+        let shares = [0.1, 0.2, 0.3, 0.4, 0.5];
+        let of = |k: usize| 3.0 - 10.0 * shares[k];
+        assert!((crossing(&shares, of, (0, 4)) - 0.3).abs() < 1e-15);
+        assert!((crossing(&shares, of, (3, 4)) - 0.3).abs() < 1e-14);
+    }
+}
