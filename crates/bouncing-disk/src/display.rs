@@ -37,6 +37,11 @@ impl Display for Number {
     }
 }
 
+/// A number with six significant digits.
+pub(crate) fn number(value: f64) -> impl Display {
+    Number { value, digits: DIGITS }
+}
+
 /// Numbers with the precision that a formatter asks for.
 fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
     let digits = f.precision().unwrap_or(DIGITS);
