@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::display::number;
+use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::warning::MotorWarning;
 
@@ -49,7 +49,7 @@ impl Facts {
             write!(
                 f,
                 "\nthe preload is kept constant; in a flight it changes by at most {} %",
-                number(100.0 * bound)
+                rough(100.0 * bound)
             )?;
         }
         Ok(())

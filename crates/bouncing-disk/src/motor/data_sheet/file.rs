@@ -143,11 +143,8 @@ fn motor_of(entries: impl Iterator<Item = (String, usize, Value)>) -> Result<Mot
         }
     }
     let illegal = |error| {
-        let line = named(&error).and_then(|name| {
-            // A derived quantity, "mass = ...", is that of its first word.
-            let key = name.split(' ').next();
-            lines[FIELDS.iter().position(|field| Some(field.name) == key)?]
-        });
+        let line =
+            named(&error).and_then(|name| lines[FIELDS.iter().position(|field| field.name == name)?]);
         MotorFileError::Illegal { line, error }
     };
     for (field, given) in FIELDS.iter().zip(given) {
@@ -179,11 +176,16 @@ const EMPTY: MotorParameters = MotorParameters {
     load_torque: 0.0,
 };
 
-/// The field that an error is about, and that is in the text; of two the second.
-const fn named(error: &Error) -> Option<&'static str> {
+/// The field that an error is about, where it is one; of two the second, of several the one that is most likely wrong.
+fn named(error: &Error) -> Option<&'static str> {
     match *error {
+        Error::OutOfRange { field: "load" | "load_acceleration" | "torque", .. } => Some("load_torque"),
         Error::OutOfRange { field, .. } => Some(field),
         Error::BothGiven { other, .. } => Some(other),
+        // P = A omega^2/g.
+        Error::Core(bouncing_disk_core::Error::OutOfRange { field: "peak_acceleration", .. }) => {
+            Some("amplitude")
+        }
         _ => None,
     }
 }
@@ -227,3 +229,6 @@ impl<'a> Lines<'a> {
 fn given(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, f64, &'static str)> {
     FIELDS.iter().filter_map(|field| Some((field.name, (field.get)(sheet)?, field.unit)))
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
 
-use crate::display::number;
+use crate::display::rough;
 use crate::error::Error;
 use crate::motion::initial_condition::InitialCondition;
 use crate::motor::statistics::{EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
@@ -48,8 +48,11 @@ pub enum MotorRegime {
     LongChattering {
         /// Mean number of periods of the stator between two separations, of the perturbed motion.
         platform_periods: f64,
+        /// How many rests were seen: the mean of a few is rough.
+        rests: u64,
     },
-    /// The flights never repeat, the rotor never rests, and small differences grow.
+    /// The flights do not repeat, the rotor does not rest, and small differences grow, all within some 20 000 impacts:
+    /// the chaos may be a transient one.
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, positive.
         lyapunov_exponent: f64,
@@ -70,11 +73,12 @@ impl Display for MotorRegime {
                 write!(f, "periodic: {impacts} impacts in {platform_periods} periods")
             }
             Self::LowPeriodChattering(cycle) => write!(f, "low-period chattering: {cycle}"),
-            Self::LongChattering { platform_periods } => {
-                write!(f, "long chattering: {} periods from rest to rest", number(*platform_periods))
+            Self::LongChattering { platform_periods, rests } => {
+                let periods = rough(*platform_periods);
+                write!(f, "long chattering: {periods} periods from rest to rest in the mean of {rests}")
             }
             Self::Chaotic { lyapunov_exponent } => {
-                write!(f, "chaotic: Lyapunov exponent {} per impact", number(*lyapunov_exponent))
+                write!(f, "chaotic: Lyapunov exponent {} per impact", rough(*lyapunov_exponent))
             }
             Self::Undecided { impacts } => write!(f, "undecided after {impacts} impacts"),
         }
@@ -150,8 +154,9 @@ pub(super) fn regime(system: &DimensionlessSystem) -> Result<(MotorRegime, Optio
         OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => settled(system, 4 * EXAMINED_IMPACTS)?,
         class => class,
     };
-    let long =
-        seen.periods_between_rests().map(|platform_periods| MotorRegime::LongChattering { platform_periods });
+    let long = seen
+        .periods_between_rests()
+        .map(|platform_periods| MotorRegime::LongChattering { platform_periods, rests: seen.separations });
     let regime = match class {
         OrbitClass::AtRest => MotorRegime::NoLiftOff,
         OrbitClass::Periodic { period, platform_periods, .. } => {
@@ -160,7 +165,8 @@ pub(super) fn regime(system: &DimensionlessSystem) -> Result<(MotorRegime, Optio
         OrbitClass::Chattering(cycle) if survives(cycle, &seen) => MotorRegime::LowPeriodChattering(cycle),
         OrbitClass::Chattering(cycle) => {
             // A rest that the perturbed motion was not seen to repeat: the cycle is all that is known.
-            long.unwrap_or(MotorRegime::LongChattering { platform_periods: cycle.platform_periods as f64 })
+            let platform_periods = cycle.platform_periods as f64;
+            long.unwrap_or(MotorRegime::LongChattering { platform_periods, rests: 1 })
         }
         OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } => match (long, lyapunov_exponent) {
             (Some(long), _) => long,

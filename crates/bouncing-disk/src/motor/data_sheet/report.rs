@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::display::number;
+use crate::display::rough;
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::facts::{Facts, write_warnings};
@@ -78,7 +78,7 @@ impl Display for MotorReport {
         facts.write_forcing(f)?;
         write!(f, "\nregime: {}", self.regime)?;
         if let Some(periods) = self.periods_per_flight {
-            write!(f, "\na flight lasts {} periods in the mean", number(periods))?;
+            write!(f, "\na flight lasts {} periods in the mean", rough(periods))?;
         }
         facts.write_rest(f)?;
         write_warnings(f, &self.warnings)

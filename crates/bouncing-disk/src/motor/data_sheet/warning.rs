@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::display::number;
+use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::fields::{FIELDS, Field};
 
@@ -93,7 +93,7 @@ impl Display for MotorWarning {
             Self::PreloadChanges { bound } => write!(
                 f,
                 "the preload may change by {} % while the rotor flies (a bound); the model keeps it constant",
-                n(100.0 * bound)
+                rough(100.0 * bound)
             ),
         }
     }

@@ -54,8 +54,9 @@ fn refusal(error: &serde_json::Error) -> MotorFileError {
     let place = format!(" at line {} column {}", error.line(), error.column());
     MotorFileError::Syntax {
         format: "JSON",
-        line: error.line(),
-        column: error.column(),
+        // Before the first letter the reader counts from 0.
+        line: error.line().max(1),
+        column: error.column().max(1),
         reason: excerpt(whole.strip_suffix(&place).unwrap_or(&whole)),
     }
 }

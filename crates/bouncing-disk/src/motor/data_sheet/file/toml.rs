@@ -39,15 +39,15 @@ impl Motor {
 
 fn refusal(text: &str, error: &toml::de::Error) -> MotorFileError {
     let place = error.span().map_or(0, |span| span.start);
-    let before = text.get(..place).unwrap_or(text);
-    let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count()) + 1;
-    let there = error.span().and_then(|span| text.get(span)).map(excerpt).filter(|there| !there.is_empty());
+    let (before, after) = text.split_at_checked(place).unwrap_or((text, ""));
+    let begun = before.rsplit('\n').next().unwrap_or_default();
+    let rest = after.lines().next().unwrap_or_default();
     MotorFileError::Syntax {
         format: "TOML",
         line: Lines::new(text).at(place),
-        column,
-        reason: there
-            .map_or_else(|| error.message().to_owned(), |there| format!("{} at {there}", error.message())),
+        column: begun.chars().count() + 1,
+        // The line holds the key, which the reader does not always name.
+        reason: format!("{} in: {}", error.message(), excerpt(&format!("{begun}{rest}"))),
     }
 }
 
