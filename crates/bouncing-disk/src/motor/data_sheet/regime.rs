@@ -21,6 +21,15 @@ use crate::toss::single::TOSS_START;
 /// Impacts over which the perturbed motion is followed.
 const FOLLOWED_IMPACTS: u64 = 20_000;
 
+/// Impacts over which it is followed at most, if it has rested less than [`FEW_RESTS`] times.
+const MOST_IMPACTS: u64 = 10 * FOLLOWED_IMPACTS;
+
+/// See [`MOST_IMPACTS`].
+const FEW_RESTS: u64 = 16;
+
+/// Impacts in which a motion that does not rest settles before it is looked at.
+const SETTLING_IMPACTS: usize = 100_000;
+
 /// Size of the relaunch perturbation (units of g/omega): that of `TransientSettings`.
 const PERTURBATION: f64 = 1.0e-3;
 
@@ -51,7 +60,7 @@ pub enum MotorRegime {
         /// How many rests were seen: the mean of a few is rough.
         rests: u64,
     },
-    /// The flights do not repeat, the rotor does not rest, and small differences grow, all within some 20 000 impacts:
+    /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000 impacts:
     /// the chaos may be a transient one.
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, positive.
@@ -104,7 +113,7 @@ impl Seen {
         let launch = Launch::new(separation, perturbation())?;
         let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
         let (mut seen, mut time, mut impacts) = (Self::default(), 0.0, 0);
-        while impacts < FOLLOWED_IMPACTS {
+        while impacts < FOLLOWED_IMPACTS || seen.separations < FEW_RESTS && impacts < MOST_IMPACTS {
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
                     let duration = impact.duration();
@@ -151,7 +160,7 @@ pub(super) fn regime(system: &DimensionlessSystem) -> Result<(MotorRegime, Optio
     let class = settled(system, 0)?;
     // A motion that has not settled is given the time to do so, if it is not one that rests.
     let class = match class {
-        OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => settled(system, 4 * EXAMINED_IMPACTS)?,
+        OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => settled(system, SETTLING_IMPACTS)?,
         class => class,
     };
     let long = seen

@@ -222,7 +222,8 @@ fn told(sheet: MotorParameters) -> Vec<String> {
 #[test]
 fn the_traps_of_units_are_told() {
     assert_eq!(told(designers()), [""; 0]);
-    let traps: [(&str, fn(&mut MotorParameters), &str); 12] = [
+    type Change = fn(&mut MotorParameters);
+    let traps: [(&str, Change, &str); 12] = [
         ("drive_frequency", |sheet| sheet.drive_frequency = 40e3 * TAU, "an angular frequency in rad/s"),
         ("drive_frequency", |sheet| sheet.drive_frequency = 40e3 / TAU, "divided by 2 pi"),
         ("drive_frequency", |sheet| sheet.drive_frequency = 40.0, "in kHz"),
@@ -364,6 +365,19 @@ fn regimes_are_those_that_are_known() {
             MotorRegime::Periodic { impacts: orbit.period(), platform_periods: orbit.platform_periods };
         assert_eq!(regime_of(forcing, restitution), expected);
     }
+    // A long cycle of rests, 4393 impacts without perturbation, and a periodic motion that settles slowly.
+    let vertical = |peak_acceleration: f64, restitution: f64| {
+        let system = ForcingParameters {
+            axial_forcing: peak_acceleration / PI,
+            angular_forcing: 1.0,
+            phase_lag: 0.0,
+            restitution,
+        };
+        regime(&system.build().expect("legal")).expect("no failure").0
+    };
+    let long = vertical(1.5, 0.9);
+    assert!(matches!(long, MotorRegime::LongChattering { rests: 1.., .. }), "{long:?}");
+    assert_eq!(vertical(1.05, 0.999), MotorRegime::Periodic { impacts: 2, platform_periods: 8 });
     // Chaos, whose exponent the core's sweep finds from another start.
     let map = ImpactMap::new(Vibration::from_axial_forcing(5.0).expect("legal"), 0.9).expect("legal");
     let state = ImpactState::from_normalised(1.0, 30.0).expect("legal");
