@@ -7,15 +7,16 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Phase, Watch};
 
 use crate::display::rough;
 use crate::error::Error;
 use crate::motion::initial_condition::InitialCondition;
 use crate::motor::statistics::{EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
+use crate::motor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
-use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
+use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss_observed};
 use crate::toss::single::TOSS_START;
 
 /// Impacts over which the perturbed motion is followed.
@@ -107,13 +108,17 @@ struct Seen {
 
 impl Seen {
     /// Follows a rotor from rest through its relaunches, each with a small random speed.
-    fn of(map: &ImpactMap, separation: Phase) -> Result<Self, Error> {
+    fn of(map: &ImpactMap, separation: Phase, observer: &dyn Observer) -> Result<Self, Error> {
+        let watch = Watch::begin(observer, 0, MOST_IMPACTS)?;
+        let mut work = watch.work();
         let mut random = SplitMix64::new(SEED);
         let mut perturbation = || PERTURBATION * random.unit();
         let launch = Launch::new(separation, perturbation())?;
         let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
         let (mut seen, mut time, mut impacts) = (Self::default(), 0.0, 0);
         while impacts < FOLLOWED_IMPACTS || seen.separations < FEW_RESTS && impacts < MOST_IMPACTS {
+            watch.set_done(impacts);
+            work.spend(FLIGHTS_OF_EVENT)?;
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
                     let duration = impact.duration();
@@ -136,6 +141,7 @@ impl Seen {
                 Some(_) | None => break,
             }
         }
+        watch.end();
         Ok(seen)
     }
 
@@ -151,16 +157,21 @@ impl Seen {
 }
 
 /// The regime, and the mean number of the stator's periods in a long flight.
-pub(super) fn regime(system: &DimensionlessSystem) -> Result<(MotorRegime, Option<f64>), Error> {
+pub(super) fn regime(
+    system: &DimensionlessSystem,
+    observer: &dyn Observer,
+) -> Result<(MotorRegime, Option<f64>), Error> {
     let map = system.map();
     let Some(separation) = map.vibration().separation_phase() else {
         return Ok((MotorRegime::NoLiftOff, None));
     };
-    let seen = Seen::of(map, separation)?;
-    let class = settled(system, 0)?;
+    let seen = Seen::of(map, separation, observer)?;
+    let class = settled(system, 0, observer)?;
     // A motion that has not settled is given the time to do so, if it is not one that rests.
     let class = match class {
-        OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => settled(system, SETTLING_IMPACTS)?,
+        OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => {
+            settled(system, SETTLING_IMPACTS, observer)?
+        }
         class => class,
     };
     let long = seen
@@ -193,7 +204,11 @@ fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
 }
 
 /// What the unperturbed motion from rest has settled on. It is followed without its rotation, which never acts on it.
-fn settled(system: &DimensionlessSystem, transient_impacts: usize) -> Result<OrbitClass, Error> {
+fn settled(
+    system: &DimensionlessSystem,
+    transient_impacts: usize,
+    observer: &dyn Observer,
+) -> Result<OrbitClass, Error> {
     let vertical =
         DimensionlessParameters { twist_speed: 0.0, friction: 0.0, load: 0.0, ..system.parameters() };
     let settings = MultiTossSettings {
@@ -203,5 +218,5 @@ fn settled(system: &DimensionlessSystem, transient_impacts: usize) -> Result<Orb
         ..MultiTossSettings::default()
     };
     let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
-    Ok(multi_toss(vertical.build()?, start, settings)?.class)
+    Ok(multi_toss_observed(vertical.build()?, start, settings, observer)?.class)
 }

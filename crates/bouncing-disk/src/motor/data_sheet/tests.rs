@@ -3,7 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::mem::discriminant;
 
-use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Vibration, lyapunov_exponents};
+use bouncing_disk_core::{
+    ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration, lyapunov_exponents,
+};
 use proptest::prelude::*;
 
 use super::fields::FIELDS;
@@ -318,7 +320,7 @@ fn a_spring_that_is_too_stiff_for_the_flights_is_told() {
 fn regime_of(axial_forcing: f64, restitution: f64) -> MotorRegime {
     let system =
         ForcingParameters { axial_forcing, angular_forcing: 1.0, phase_lag: 0.0, restitution }.build();
-    regime(&system.expect("legal")).expect("no failure").0
+    regime(&system.expect("legal"), &Unobserved).expect("no failure").0
 }
 
 #[test]
@@ -332,7 +334,7 @@ fn a_stator_that_never_falls_away_throws_nothing() {
             restitution: 0.5,
             load: 0.0,
         };
-        regime(&system.build().expect("legal")).expect("no failure")
+        regime(&system.build().expect("legal"), &Unobserved).expect("no failure")
     };
     for gentle in [0.0, 5e-324, 0.5, 1.0] {
         assert_eq!(at(gentle), (MotorRegime::NoLiftOff, None), "{gentle}");
@@ -373,7 +375,7 @@ fn regimes_are_those_that_are_known() {
             phase_lag: 0.0,
             restitution,
         };
-        regime(&system.build().expect("legal")).expect("no failure").0
+        regime(&system.build().expect("legal"), &Unobserved).expect("no failure").0
     };
     let long = vertical(1.5, 0.9);
     assert!(matches!(long, MotorRegime::LongChattering { rests: 1.., .. }), "{long:?}");
@@ -428,6 +430,14 @@ fn reports_tell_what_there_is() {
     assert!(slippery.to_string().contains("Gamma_T = infinite"), "{slippery}");
     let plain = designers().build().expect("legal").report().expect("no failure");
     assert!(!plain.to_string().contains("spring") && !plain.to_string().contains("warning"), "{plain}");
+}
+
+#[test]
+fn a_report_can_be_stopped() {
+    let motor = designers().build().expect("legal");
+    let stop = |_: Progress| std::ops::ControlFlow::Break(());
+    let stopped = motor.report_observed(&stop);
+    assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))), "{stopped:?}");
 }
 
 /// The same report each time: it has no state, and its perturbations a fixed seed. It does not see the rotation.
