@@ -1,7 +1,8 @@
-//! A motor as its data sheet describes it: frequency in Hz, preload in N, a load in N m. It builds a [`System`].
+//! A motor as its data sheet describes it: frequency in Hz, preload in N, a load in N m. It builds a
+//! [`System`].
 //!
-//! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data sheets are
-//! read and written as JSON and TOML (`file.rs`).
+//! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data
+//! sheets are read and written as JSON and TOML (`file.rs`).
 
 mod facts;
 mod fields;
@@ -19,9 +20,11 @@ use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::motor::data_sheet::rise_bound::highest_rise;
 use crate::parameters::system::System;
 
-/// A motor with a legal data sheet: a [`System`] and what a system does not know, its mass and its preload as a force.
+/// A motor with a legal data sheet: a [`System`] and what a system does not know, its mass and its preload as
+/// a force.
 ///
-/// Printed, it shows what follows from the data sheet without computing a motion; [`Motor::report`] adds the regime.
+/// Printed, it shows what follows from the data sheet without computing a motion; [`Motor::report`] adds the
+/// regime.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -56,8 +59,8 @@ impl Motor {
         self.parameters
     }
 
-    /// The same motor with another data sheet. Who changes from one alternative to the other, say from a preload
-    /// acceleration to a force, sets the first to `None`.
+    /// The same motor with another data sheet. Who changes from one alternative to the other, say from a
+    /// preload acceleration to a force, sets the first to `None`.
     ///
     /// # Errors
     /// Those of [`MotorParameters::build`].
@@ -98,8 +101,8 @@ impl Motor {
         self.parameters.load_torque
     }
 
-    /// mu m g a_e (N m): what friction gives if it pushes one way all the time. The normal force is the preload in the
-    /// mean, whatever the motion, so that no motor gives more.
+    /// mu m g a_e (N m): what friction gives if it pushes one way all the time. The normal force is the
+    /// preload in the mean, whatever the motion, so that no motor gives more.
     #[must_use]
     pub fn largest_torque(&self) -> f64 {
         let disk = self.system.disk();
@@ -112,16 +115,17 @@ impl Motor {
         self.parameters.spring_constant.map(|constant| self.preload_force() / constant)
     }
 
-    /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of a motor
-    /// that starts from rest and of every attractor (docs/numerics/motors.md, "How high a rotor flies").
+    /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of
+    /// a motor that starts from rest and of every attractor (docs/numerics/motors.md, "How high a rotor
+    /// flies").
     #[must_use]
     pub fn highest_rise(&self) -> f64 {
         let system = &self.system;
         highest_rise(system.peak_acceleration(), system.disk().restitution()) * system.scales().length
     }
 
-    /// A bound on the relative change of the spring's force during a flight: k [`Self::highest_rise`]/F; `None` without
-    /// a spring. The engine keeps the preload constant; above 1 % there is a warning.
+    /// A bound on the relative change of the spring's force during a flight: k [`Self::highest_rise`]/F;
+    /// `None` without a spring. The engine keeps the preload constant; above 1 % there is a warning.
     #[must_use]
     pub fn preload_change_bound(&self) -> Option<f64> {
         self.static_deflection().map(|deflection| self.highest_rise() / deflection)

@@ -1,5 +1,5 @@
-//! The fields of a data sheet: their names, units and symbols, and what such motors have. The ranges and where they come
-//! from are in docs/numerics/motors.md, "What such motors have".
+//! The fields of a data sheet: their names, units and symbols, and what such motors have. The ranges and
+//! where they come from are in docs/numerics/motors.md, "What such motors have".
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,7 +1,7 @@
 //! Data sheets as text: what JSON and TOML have in common, and the errors that name key and line.
 //!
-//! A format gives the keys with their values and lines (`file/json.rs`, `file/toml.rs`); what they mean is decided here,
-//! once for both.
+//! A format gives the keys with their values and lines (`file/json.rs`, `file/toml.rs`); what they mean is
+//! decided here, once for both.
 
 #[cfg(feature = "json")]
 mod json;
@@ -21,8 +21,8 @@ use nearest::nearest;
 /// Most characters of a text of others that an error repeats.
 const LONGEST_EXCERPT: usize = 60;
 
-/// What can go wrong with the text of a data sheet. Every variant says where; keys are shown as they are escaped in Rust,
-/// so that none can disturb a terminal.
+/// What can go wrong with the text of a data sheet. Every variant says where; keys are shown as they are
+/// escaped in Rust, so that none can disturb a terminal.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum MotorFileError {
@@ -176,7 +176,8 @@ const EMPTY: MotorParameters = MotorParameters {
     load_torque: 0.0,
 };
 
-/// The field that an error is about, where it is one; of two the second, of several the one that is most likely wrong.
+/// The field that an error is about, where it is one; of two the second, of several the one that is most
+/// likely wrong.
 fn named(error: &Error) -> Option<&'static str> {
     match *error {
         Error::OutOfRange { field: "load" | "load_acceleration" | "torque", .. } => Some("load_torque"),

@@ -43,18 +43,19 @@ pub struct MotorParameters {
     pub rotor_thickness: Option<f64>,
     /// Effective contact radius a_e (m), positive: where the friction force acts.
     pub contact_radius: f64,
-    /// Radius of gyration a_g (m), positive. Default: that of a solid disc, R/sqrt(2), where a rotor radius is given.
+    /// Radius of gyration a_g (m), positive. Default: that of a solid disc, R/sqrt(2), where a rotor radius
+    /// is given.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub gyration_radius: Option<f64>,
-    /// Preload F (N), positive: all of the force that presses the rotor onto the stator. Its weight is not added; where
-    /// it helps, add it. The paper's g is F/m.
+    /// Preload F (N), positive: all of the force that presses the rotor onto the stator. Its weight is not
+    /// added; where it helps, add it. The paper's g is F/m.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_force: Option<f64>,
     /// Preload acceleration g = F/m (m/s^2), positive; in place of the force.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_acceleration: Option<f64>,
-    /// Constant k of the spring that makes the preload (N/m), positive. No default: without one there is no static
-    /// deflection and no bound on the change of the preload. The motion does not depend on it.
+    /// Constant k of the spring that makes the preload (N/m), positive. No default: without one there is no
+    /// static deflection and no bound on the change of the preload. The motion does not depend on it.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub spring_constant: Option<f64>,
     /// Coefficient of friction mu, static and kinetic, not negative.
@@ -89,8 +90,8 @@ impl MotorParameters {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the field, its value and its legal range; [`Error::NeitherGiven`] and
-    /// [`Error::BothGiven`] name two fields of which exactly one is needed, [`Error::NotGiven`] the radius or thickness
-    /// that a density needs. Those of [`System::new`] if the combination is out of range.
+    /// [`Error::BothGiven`] name two fields of which exactly one is needed, [`Error::NotGiven`] the radius or
+    /// thickness that a density needs. Those of [`System::new`] if the combination is out of range.
     pub fn build(self) -> Result<Motor, Error> {
         self.check_ranges()?;
         let angular_frequency = TAU * self.drive_frequency;

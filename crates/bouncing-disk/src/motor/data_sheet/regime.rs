@@ -1,7 +1,7 @@
 //! What the rotor does up and down: whether it lifts off at all, and whether its flights repeat.
 //!
-//! Judged from motions, not from formulas: from the orbit that the model repeats without perturbation, and from a
-//! perturbed one that says whether it survives (docs/numerics/motors.md, "Regime").
+//! Judged from motions, not from formulas: from the orbit that the model repeats without perturbation, and
+//! from a perturbed one that says whether it survives (docs/numerics/motors.md, "Regime").
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -37,8 +37,8 @@ const PERTURBATION: f64 = 1.0e-3;
 /// Seed of the perturbations.
 const SEED: u64 = 1;
 
-/// What the rotor does up and down after it was at rest on the stator. Other motions may exist beside this one, for a
-/// rotor that is thrown.
+/// What the rotor does up and down after it was at rest on the stator. Other motions may exist beside this
+/// one, for a rotor that is thrown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MotorRegime {
@@ -51,24 +51,25 @@ pub enum MotorRegime {
         /// Periods of the stator in a round.
         platform_periods: u64,
     },
-    /// The rotor comes to rest after few flights, and a perturbed one repeats the same round: a trap, in which the speed
-    /// rises along a ramp.
+    /// The rotor comes to rest after few flights, and a perturbed one repeats the same round: a trap, in
+    /// which the speed rises along a ramp.
     LowPeriodChattering(ChatteringCycle),
-    /// The rotor comes to rest now and then, after many flights or after a number that a small perturbation changes.
+    /// The rotor comes to rest now and then, after many flights or after a number that a small perturbation
+    /// changes.
     LongChattering {
         /// Mean number of periods of the stator between two separations, of the perturbed motion.
         platform_periods: f64,
         /// How many rests were seen: the mean of a few is rough.
         rests: u64,
     },
-    /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000 impacts:
-    /// the chaos may be a transient one.
+    /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000
+    /// impacts: the chaos may be a transient one.
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, positive.
         lyapunov_exponent: f64,
     },
-    /// The flights do not repeat, the rotor does not rest, and small differences do not grow within so many impacts: a
-    /// motion that settles slowly, or a very long period.
+    /// The flights do not repeat, the rotor does not rest, and small differences do not grow within so many
+    /// impacts: a motion that settles slowly, or a very long period.
     Undecided {
         /// Impacts that were looked at.
         impacts: usize,
@@ -203,7 +204,8 @@ fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
     cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)
 }
 
-/// What the unperturbed motion from rest has settled on. It is followed without its rotation, which never acts on it.
+/// What the unperturbed motion from rest has settled on. It is followed without its rotation, which never
+/// acts on it.
 fn settled(
     system: &DimensionlessSystem,
     transient_impacts: usize,

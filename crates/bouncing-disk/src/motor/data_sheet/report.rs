@@ -11,7 +11,8 @@ use crate::motor::data_sheet::facts::{Facts, write_warnings};
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 
-/// What follows from a data sheet, and what the motor does ([`Motor::report`]). Printed, it has several lines.
+/// What follows from a data sheet, and what the motor does ([`Motor::report`]). Printed, it has several
+/// lines.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MotorReport {
@@ -23,22 +24,24 @@ pub struct MotorReport {
     pub peak_acceleration: f64,
     /// What the rotor does up and down.
     pub regime: MotorRegime,
-    /// Mean number of the stator's periods in a flight, over the flights longer than half a period: of the short ones a
-    /// chatter has infinitely many. From a perturbed motion of 20 000 to 200 000 impacts. `None` where no flight is that long.
+    /// Mean number of the stator's periods in a flight, over the flights longer than half a period: of the
+    /// short ones a chatter has infinitely many. From a perturbed motion of 20 000 to 200 000 impacts. `None`
+    /// where no flight is that long.
     pub periods_per_flight: Option<f64>,
     /// mu m g a_e (N m), which no motor exceeds in the mean.
     pub largest_torque: f64,
     /// Static deflection of the preload's spring (m); `None` without a spring.
     pub static_deflection: Option<f64>,
-    /// A bound on the relative change of the preload in a flight, which the model keeps constant; `None` without a
-    /// spring ([`Motor::preload_change_bound`]).
+    /// A bound on the relative change of the preload in a flight, which the model keeps constant; `None`
+    /// without a spring ([`Motor::preload_change_bound`]).
     pub preload_change_bound: Option<f64>,
     /// What is unlikely to be meant.
     pub warnings: Vec<MotorWarning>,
 }
 
 impl Motor {
-    /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and says what it does.
+    /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and says what it
+    /// does.
     ///
     /// # Errors
     /// Those of the core, for a flight that lasts longer than it can count.
@@ -46,11 +49,12 @@ impl Motor {
         self.report_observed(&Unobserved)
     }
 
-    /// [`Self::report`] with an observer; the items are the impacts of up to three motions, each counted from 0.
+    /// [`Self::report`] with an observer; the items are the impacts of up to three motions, each counted from
+    /// 0.
     ///
     /// # Errors
-    /// Those of [`Self::report`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
+    /// Those of [`Self::report`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+    /// the observer breaks.
     pub fn report_observed(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         let (regime, periods_per_flight) = regime(self.system().dimensionless(), observer)?;
         let Facts {

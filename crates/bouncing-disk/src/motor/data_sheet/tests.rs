@@ -390,7 +390,8 @@ fn regimes_are_those_that_are_known() {
     assert!((lyapunov_exponent / expected - 1.0).abs() < 0.1, "{lyapunov_exponent} {expected}");
 }
 
-/// The mean time between rests is that of the ensembles, which are computed by other code, with other random numbers.
+/// The mean time between rests is that of the ensembles, which are computed by other code, with other random
+/// numbers.
 #[test]
 fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
     let motor = Motor::paper_70_khz();
@@ -440,7 +441,8 @@ fn a_report_can_be_stopped() {
     assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))), "{stopped:?}");
 }
 
-/// The same report each time: it has no state, and its perturbations a fixed seed. It does not see the rotation.
+/// The same report each time: it has no state, and its perturbations a fixed seed. It does not see the
+/// rotation.
 #[test]
 fn reports_do_not_depend_on_what_turns() {
     let motor = designers().build().expect("legal");

@@ -100,11 +100,11 @@ impl Display for MotorWarning {
 }
 
 impl Motor {
-    /// What is legal in the data sheet and yet unlikely to be meant, in the order of the fields; then what follows from
-    /// several of them. Zeros are taken as meant.
+    /// What is legal in the data sheet and yet unlikely to be meant, in the order of the fields; then what
+    /// follows from several of them. Zeros are taken as meant.
     ///
-    /// A number that is usual in a wrong unit, too, is found by nobody: 40 kHz given as 40e3 where an angular frequency
-    /// of 40e3 rad/s was meant.
+    /// A number that is usual in a wrong unit, too, is found by nobody: 40 kHz given as 40e3 where an angular
+    /// frequency of 40e3 rad/s was meant.
     #[must_use]
     pub fn warnings(&self) -> Vec<MotorWarning> {
         let sheet = self.parameters();

@@ -9,8 +9,8 @@ use super::{Lines, MotorFileError, Value, excerpt, given, motor_of, without_mark
 use crate::motor::data_sheet::Motor;
 
 impl Motor {
-    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::MotorParameters), in SI units. `null`
-    /// is the same as a field that is not there, a byte-order mark before the text is accepted.
+    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::MotorParameters), in SI
+    /// units. `null` is the same as a field that is not there, a byte-order mark before the text is accepted.
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -21,8 +21,9 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`MotorFileError`] for a text that is no such object, keys that are unknown or there twice, values that are no
-    /// numbers, and what [`MotorParameters::build`](crate::MotorParameters::build) refuses; with the line.
+    /// [`MotorFileError`] for a text that is no such object, keys that are unknown or there twice, values
+    /// that are no numbers, and what [`MotorParameters::build`](crate::MotorParameters::build) refuses; with
+    /// the line.
     pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
         let text = without_mark(text);
         let mut reader = serde_json::Deserializer::from_str(text);
@@ -38,8 +39,8 @@ impl Motor {
         }))
     }
 
-    /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those of
-    /// [`MotorParameters`](crate::MotorParameters); JSON has no place for them.
+    /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those
+    /// of [`MotorParameters`](crate::MotorParameters); JSON has no place for them.
     #[must_use]
     pub fn to_json(&self) -> String {
         let lines: Vec<_> =
@@ -69,7 +70,8 @@ fn value(text: &str) -> Value {
         Some(b'[') => Value::Other("a list"),
         Some(b't' | b'f') => Value::Other("true or false"),
         Some(b'n') => Value::Nothing,
-        // Every number of JSON is one of Rust. One that no double holds becomes infinite, which no range contains.
+        // Every number of JSON is one of Rust. One that no double holds becomes infinite, which no range
+        // contains.
         _ => text.parse().map_or(Value::Other("no number"), Value::Number),
     }
 }

@@ -8,8 +8,9 @@ const LONGEST_KEY: usize = 64;
 /// Shortest part of a name that may stand for it: "load" for "load_torque".
 const SHORTEST_PART: usize = 4;
 
-/// The known key that is most like this one: that of the symbol or the other name that it is; that with the fewest
-/// changes of a letter, if they are less than half of its letters; that which it is a part of, or which is a part of it.
+/// The known key that is most like this one: that of the symbol or the other name that it is; that with the
+/// fewest changes of a letter, if they are less than half of its letters; that which it is a part of, or
+/// which is a part of it.
 pub(super) fn nearest(key: &str) -> Option<&'static str> {
     if key.is_empty() || key.len() > LONGEST_KEY {
         return None;
@@ -32,8 +33,8 @@ pub(super) fn nearest(key: &str) -> Option<&'static str> {
     part.map(|field| field.name).or_else(|| (2 * near.0 < key.chars().count()).then_some(near.1))
 }
 
-/// The fewest letters to insert, to remove or to replace, two neighbours that are exchanged counting once (the optimal
-/// string alignment distance).
+/// The fewest letters to insert, to remove or to replace, two neighbours that are exchanged counting once
+/// (the optimal string alignment distance).
 fn distance(one: &str, other: &str) -> usize {
     let (one, other): (Vec<char>, Vec<char>) = (one.chars().collect(), other.chars().collect());
     let mut before_last: Vec<usize> = Vec::new();

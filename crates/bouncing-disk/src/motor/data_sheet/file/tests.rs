@@ -56,7 +56,8 @@ fn check_common(read: fn(&str) -> Result<Motor, MotorFileError>, write: fn(&[(&s
         );
     }
     assert!(replaced("mass", ("mass", "0")).to_string().contains("mass = 0"));
-    // A combination, P, is told at the amplitude; a key in place of another makes two faults, one of which is told.
+    // A combination, P, is told at the amplitude; a key in place of another makes two faults, one of which is
+    // told.
     let error = replaced("amplitude", ("amplitude", "1e3"));
     assert!(
         matches!(error, MotorFileError::Illegal { line: Some(line), .. } if line == first + 1),

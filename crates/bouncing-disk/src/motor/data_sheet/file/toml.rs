@@ -8,11 +8,12 @@ use super::{Lines, MotorFileError, Value, excerpt, given, motor_of, without_mark
 use crate::motor::data_sheet::Motor;
 
 impl Motor {
-    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::MotorParameters), in SI units. A
-    /// byte-order mark before the text is accepted.
+    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::MotorParameters), in SI
+    /// units. A byte-order mark before the text is accepted.
     ///
     /// # Errors
-    /// As `Motor::from_json`. A key that is there twice is an error of the format, [`MotorFileError::Syntax`].
+    /// As `Motor::from_json`. A key that is there twice is an error of the format,
+    /// [`MotorFileError::Syntax`].
     pub fn from_toml(text: &str) -> Result<Self, MotorFileError> {
         let text = without_mark(text);
         let table = DeTable::parse(text).map_err(|error| refusal(text, &error))?;
