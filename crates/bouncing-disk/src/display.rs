@@ -37,6 +37,16 @@ impl Display for Number {
     }
 }
 
+/// A number with six significant digits.
+pub(crate) fn number(value: f64) -> impl Display {
+    Number { value, digits: DIGITS }
+}
+
+/// A number with three significant digits: a statistic, or a bound.
+pub(crate) fn rough(value: f64) -> impl Display {
+    Number { value, digits: 3 }
+}
+
 /// Numbers with the precision that a formatter asks for.
 fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
     let digits = f.precision().unwrap_or(DIGITS);

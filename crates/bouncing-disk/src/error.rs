@@ -60,6 +60,28 @@ pub enum Error {
         /// Load torque in units of m g a_e.
         load: f64,
     },
+    /// A parameter that is needed, and has no default, is not there.
+    #[error("{field} is not given")]
+    NotGiven {
+        /// The name of the parameter.
+        field: &'static str,
+    },
+    /// One of two parameters is needed, and neither is there.
+    #[error("neither {one} nor {other} is given; one of them is needed")]
+    NeitherGiven {
+        /// The name of the first.
+        one: &'static str,
+        /// The name of the second.
+        other: &'static str,
+    },
+    /// Two parameters that say the same thing, perhaps differently.
+    #[error("both {one} and {other} are given, which exclude each other; leave one of them out")]
+    BothGiven {
+        /// The name of the first.
+        one: &'static str,
+        /// The name of the second.
+        other: &'static str,
+    },
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),

@@ -21,6 +21,7 @@
 //! | without units | [`DimensionlessSystem`], [`ForcingParameters`], [`Scales`] |
 //! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
+//! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | the motor | [`transient`], [`transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
@@ -31,6 +32,8 @@
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//! | `json` | yes | a motor's data sheet as JSON |
+//! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
@@ -67,6 +70,13 @@ pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot}
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
 pub use motor::brake::{Braking, friction_from_braking};
+pub use motor::data_sheet::Motor;
+#[cfg(any(feature = "json", feature = "toml"))]
+pub use motor::data_sheet::file::MotorFileError;
+pub use motor::data_sheet::parameters::MotorParameters;
+pub use motor::data_sheet::regime::MotorRegime;
+pub use motor::data_sheet::report::MotorReport;
+pub use motor::data_sheet::warning::MotorWarning;
 pub use motor::ensemble::{
     MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members, ensemble_observed,
 };

@@ -1,7 +1,8 @@
-//! The motor: speed transients, ensembles of them and their statistics, fits, the balance of the impulse,
+//! The motor: its data sheet, speed transients, ensembles of them and their statistics, fits, the balance of the impulse,
 //! stall, and braking.
 
 pub(crate) mod brake;
+pub(crate) mod data_sheet;
 pub(crate) mod ensemble;
 pub(crate) mod fit;
 pub(crate) mod impulse;

@@ -3,7 +3,7 @@
 pub(crate) mod dimensionless;
 pub(crate) mod disk;
 pub(crate) mod platform;
-mod presets;
+pub(crate) mod presets;
 pub(crate) mod scales;
 pub(crate) mod stroke;
 pub(crate) mod system;

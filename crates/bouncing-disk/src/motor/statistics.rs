@@ -22,9 +22,9 @@ pub const LARGEST_RESIDUAL: f64 = 0.25;
 
 /// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
 /// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
-const LOCKED_WITHIN: f64 = 0.05;
+pub(crate) const LOCKED_WITHIN: f64 = 0.05;
 /// See [`LOCKED_WITHIN`].
-const LOCKED_FLIGHTS: usize = 8;
+pub(crate) const LOCKED_FLIGHTS: usize = 8;
 
 /// Impacts in which an unperturbed cycle is looked for: one of up to half of them is found.
 pub const EXAMINED_IMPACTS: usize = 2_048;

@@ -28,13 +28,16 @@ const DOUGH: DiskParameters = DiskParameters {
 };
 
 /// Drive frequency (Hz) of the paper's motor, the "70" that Table III prints as g.
-const DRIVE_FREQUENCY: f64 = 70e3;
+pub(crate) const DRIVE_FREQUENCY: f64 = 70e3;
+
+/// Amplitude of the stator's height (m) of Table III.
+pub(crate) const STATOR_AMPLITUDE: f64 = 1e-8;
 
 /// The largest angular speed of the stator (rad/s) of Table III.
-const STATOR_SPEED: f64 = 30.0;
+pub(crate) const STATOR_SPEED: f64 = 30.0;
 
 /// The rotor of Table III under its own weight.
-const ROTOR: DiskParameters = DiskParameters {
+pub(crate) const ROTOR: DiskParameters = DiskParameters {
     contact_radius: 1.25e-3,
     gyration_radius: 6.3e-3,
     friction: 0.1,
@@ -86,7 +89,7 @@ impl System {
     pub fn motor() -> Self {
         let angular_frequency = TAU * DRIVE_FREQUENCY;
         let stator = PlatformParameters {
-            amplitude: 1e-8,
+            amplitude: STATOR_AMPLITUDE,
             twist_amplitude: STATOR_SPEED / angular_frequency,
             angular_frequency,
             phase_lag: 0.0,

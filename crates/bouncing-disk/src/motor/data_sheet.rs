@@ -1,0 +1,156 @@
+//! A motor as its data sheet describes it: frequency in Hz, preload in N, a load in N m. It builds a
+//! [`System`].
+//!
+//! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data
+//! sheets are read and written as JSON and TOML (`file.rs`).
+
+mod facts;
+mod fields;
+#[cfg(any(feature = "json", feature = "toml"))]
+pub(crate) mod file;
+pub(crate) mod parameters;
+mod presets;
+pub(crate) mod regime;
+pub(crate) mod report;
+mod rise_bound;
+pub(crate) mod warning;
+
+use crate::error::Error;
+use crate::motor::data_sheet::parameters::MotorParameters;
+use crate::motor::data_sheet::rise_bound::highest_rise;
+use crate::parameters::system::System;
+
+/// A motor with a legal data sheet: a [`System`] and what a system does not know, its mass and its preload as
+/// a force.
+///
+/// Printed, it shows what follows from the data sheet without computing a motion; [`Motor::report`] adds the
+/// regime.
+///
+/// ```
+/// use bouncing_disk::Motor;
+///
+/// // The paper's motor under a spring that presses with 5 N, in place of its own weight.
+/// let motor = Motor::paper_70_khz().with(|sheet| {
+///     sheet.preload_acceleration = None;
+///     sheet.preload_force = Some(5.0);
+/// })?;
+/// assert_eq!(motor.preload_acceleration().round(), 152.0);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "MotorParameters", into = "MotorParameters"))]
+pub struct Motor {
+    parameters: MotorParameters,
+    system: System,
+    mass: f64,
+}
+
+impl Motor {
+    /// The platform and the disk.
+    #[must_use]
+    pub const fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The data sheet, to be changed and built again.
+    #[must_use]
+    pub const fn parameters(&self) -> MotorParameters {
+        self.parameters
+    }
+
+    /// The same motor with another data sheet. Who changes from one alternative to the other, say from a
+    /// preload acceleration to a force, sets the first to `None`.
+    ///
+    /// # Errors
+    /// Those of [`MotorParameters::build`].
+    pub fn with(&self, change: impl FnOnce(&mut MotorParameters)) -> Result<Self, Error> {
+        let mut parameters = self.parameters;
+        change(&mut parameters);
+        parameters.build()
+    }
+
+    /// Mass m of the rotor (kg), given or from density and size.
+    #[must_use]
+    pub const fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Moment of inertia m a_g^2 (kg m^2).
+    #[must_use]
+    pub fn inertia(&self) -> f64 {
+        let gyration = self.system.disk().gyration_radius();
+        self.mass * gyration * gyration
+    }
+
+    /// Preload as an acceleration g (m/s^2).
+    #[must_use]
+    pub const fn preload_acceleration(&self) -> f64 {
+        self.system.disk().preload_acceleration()
+    }
+
+    /// Preload as a force m g (N).
+    #[must_use]
+    pub fn preload_force(&self) -> f64 {
+        self.parameters.preload_force.unwrap_or_else(|| self.mass * self.preload_acceleration())
+    }
+
+    /// Load torque T_L (N m).
+    #[must_use]
+    pub const fn load_torque(&self) -> f64 {
+        self.parameters.load_torque
+    }
+
+    /// mu m g a_e (N m): what friction gives if it pushes one way all the time. The normal force is the
+    /// preload in the mean, whatever the motion, so that no motor gives more.
+    #[must_use]
+    pub fn largest_torque(&self) -> f64 {
+        let disk = self.system.disk();
+        disk.friction() * self.preload_force() * disk.contact_radius()
+    }
+
+    /// Static deflection of the preload's spring, F/k (m); `None` without a spring.
+    #[must_use]
+    pub fn static_deflection(&self) -> Option<f64> {
+        self.parameters.spring_constant.map(|constant| self.preload_force() / constant)
+    }
+
+    /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of
+    /// a motor that starts from rest and of every attractor (docs/numerics/motors.md, "How high a rotor
+    /// flies").
+    #[must_use]
+    pub fn highest_rise(&self) -> f64 {
+        let system = &self.system;
+        highest_rise(system.peak_acceleration(), system.disk().restitution()) * system.scales().length
+    }
+
+    /// A bound on the relative change of the spring's force during a flight: k [`Self::highest_rise`]/F;
+    /// `None` without a spring. The engine keeps the preload constant; above 1 % there is a warning.
+    #[must_use]
+    pub fn preload_change_bound(&self) -> Option<f64> {
+        self.static_deflection().map(|deflection| self.highest_rise() / deflection)
+    }
+}
+
+impl TryFrom<MotorParameters> for Motor {
+    type Error = Error;
+
+    fn try_from(parameters: MotorParameters) -> Result<Self, Error> {
+        parameters.build()
+    }
+}
+
+impl From<Motor> for MotorParameters {
+    fn from(motor: Motor) -> Self {
+        motor.parameters
+    }
+}
+
+impl From<&Motor> for System {
+    fn from(motor: &Motor) -> Self {
+        motor.system
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,224 @@
+//! What the rotor does up and down: whether it lifts off at all, and whether its flights repeat.
+//!
+//! Judged from motions, not from formulas: from the orbit that the model repeats without perturbation, and
+//! from a perturbed one that says whether it survives (docs/numerics/motors.md, "Regime").
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Phase, Watch};
+
+use crate::display::rough;
+use crate::error::Error;
+use crate::motion::initial_condition::InitialCondition;
+use crate::motor::statistics::{EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
+use crate::motor::transient::FLIGHTS_OF_EVENT;
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
+use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
+use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss_observed};
+use crate::toss::single::TOSS_START;
+
+/// Impacts over which the perturbed motion is followed.
+const FOLLOWED_IMPACTS: u64 = 20_000;
+
+/// Impacts over which it is followed at most, if it has rested less than [`FEW_RESTS`] times.
+const MOST_IMPACTS: u64 = 10 * FOLLOWED_IMPACTS;
+
+/// See [`MOST_IMPACTS`].
+const FEW_RESTS: u64 = 16;
+
+/// Impacts in which a motion that does not rest settles before it is looked at.
+const SETTLING_IMPACTS: usize = 100_000;
+
+/// Size of the relaunch perturbation (units of g/omega): that of `TransientSettings`.
+const PERTURBATION: f64 = 1.0e-3;
+
+/// Seed of the perturbations.
+const SEED: u64 = 1;
+
+/// What the rotor does up and down after it was at rest on the stator. Other motions may exist beside this
+/// one, for a rotor that is thrown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum MotorRegime {
+    /// The stator never falls away under the rotor (P <= 1): it is carried and never thrown.
+    NoLiftOff,
+    /// The flights repeat, without rest.
+    Periodic {
+        /// Impacts in a round.
+        impacts: usize,
+        /// Periods of the stator in a round.
+        platform_periods: u64,
+    },
+    /// The rotor comes to rest after few flights, and a perturbed one repeats the same round: a trap, in
+    /// which the speed rises along a ramp.
+    LowPeriodChattering(ChatteringCycle),
+    /// The rotor comes to rest now and then, after many flights or after a number that a small perturbation
+    /// changes.
+    LongChattering {
+        /// Mean number of periods of the stator between two separations, of the perturbed motion.
+        platform_periods: f64,
+        /// How many rests were seen: the mean of a few is rough.
+        rests: u64,
+    },
+    /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000
+    /// impacts: the chaos may be a transient one.
+    Chaotic {
+        /// Growth rate of a small vertical perturbation per impact, positive.
+        lyapunov_exponent: f64,
+    },
+    /// The flights do not repeat, the rotor does not rest, and small differences do not grow within so many
+    /// impacts: a motion that settles slowly, or a very long period.
+    Undecided {
+        /// Impacts that were looked at.
+        impacts: usize,
+    },
+}
+
+impl Display for MotorRegime {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoLiftOff => f.write_str("no lift-off"),
+            Self::Periodic { impacts, platform_periods } => {
+                write!(f, "periodic: {impacts} impacts in {platform_periods} periods")
+            }
+            Self::LowPeriodChattering(cycle) => write!(f, "low-period chattering: {cycle}"),
+            Self::LongChattering { platform_periods, rests } => {
+                let periods = rough(*platform_periods);
+                write!(f, "long chattering: {periods} periods from rest to rest in the mean of {rests}")
+            }
+            Self::Chaotic { lyapunov_exponent } => {
+                write!(f, "chaotic: Lyapunov exponent {} per impact", rough(*lyapunov_exponent))
+            }
+            Self::Undecided { impacts } => write!(f, "undecided after {impacts} impacts"),
+        }
+    }
+}
+
+/// What a perturbed motion was seen to do.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    long_flights: u64,
+    /// Radians in long flights.
+    flown: f64,
+    separations: u64,
+    /// Radians from the first separation to the last one.
+    elapsed: f64,
+}
+
+impl Seen {
+    /// Follows a rotor from rest through its relaunches, each with a small random speed.
+    fn of(map: &ImpactMap, separation: Phase, observer: &dyn Observer) -> Result<Self, Error> {
+        let watch = Watch::begin(observer, 0, MOST_IMPACTS)?;
+        let mut work = watch.work();
+        let mut random = SplitMix64::new(SEED);
+        let mut perturbation = || PERTURBATION * random.unit();
+        let launch = Launch::new(separation, perturbation())?;
+        let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
+        let (mut seen, mut time, mut impacts) = (Self::default(), 0.0, 0);
+        while impacts < FOLLOWED_IMPACTS || seen.separations < FEW_RESTS && impacts < MOST_IMPACTS {
+            watch.set_done(impacts);
+            work.spend(FLIGHTS_OF_EVENT)?;
+            match orbit.advance()? {
+                Some(OrbitEvent::Impact(impact)) => {
+                    let duration = impact.duration();
+                    time += duration;
+                    if duration > LONG_FLIGHT {
+                        seen.long_flights += 1;
+                        seen.flown += duration;
+                    }
+                    impacts += 1;
+                }
+                Some(OrbitEvent::Attachment(attachment)) => {
+                    let accumulation = attachment.accumulation;
+                    let ahead = separation.angle() - accumulation.phase.angle();
+                    time += accumulation.duration + if ahead > 0.0 { ahead } else { ahead + TAU };
+                    orbit.perturb_launch(perturbation())?;
+                    seen.separations += 1;
+                    seen.elapsed = time;
+                }
+                // No other event exists, and a rotor that was thrown once is thrown again after every rest.
+                Some(_) | None => break,
+            }
+        }
+        watch.end();
+        Ok(seen)
+    }
+
+    /// Mean periods of the stator in a long flight.
+    fn periods_per_flight(&self) -> Option<f64> {
+        (self.long_flights > 0).then(|| self.flown / (TAU * self.long_flights as f64))
+    }
+
+    /// Mean periods of the stator between two separations.
+    fn periods_between_rests(&self) -> Option<f64> {
+        (self.separations > 0).then(|| self.elapsed / (TAU * self.separations as f64))
+    }
+}
+
+/// The regime, and the mean number of the stator's periods in a long flight.
+pub(super) fn regime(
+    system: &DimensionlessSystem,
+    observer: &dyn Observer,
+) -> Result<(MotorRegime, Option<f64>), Error> {
+    let map = system.map();
+    let Some(separation) = map.vibration().separation_phase() else {
+        return Ok((MotorRegime::NoLiftOff, None));
+    };
+    let seen = Seen::of(map, separation, observer)?;
+    let class = settled(system, 0, observer)?;
+    // A motion that has not settled is given the time to do so, if it is not one that rests.
+    let class = match class {
+        OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => {
+            settled(system, SETTLING_IMPACTS, observer)?
+        }
+        class => class,
+    };
+    let long = seen
+        .periods_between_rests()
+        .map(|platform_periods| MotorRegime::LongChattering { platform_periods, rests: seen.separations });
+    let regime = match class {
+        OrbitClass::AtRest => MotorRegime::NoLiftOff,
+        OrbitClass::Periodic { period, platform_periods, .. } => {
+            MotorRegime::Periodic { impacts: period, platform_periods }
+        }
+        OrbitClass::Chattering(cycle) if survives(cycle, &seen) => MotorRegime::LowPeriodChattering(cycle),
+        OrbitClass::Chattering(cycle) => {
+            // A rest that the perturbed motion was not seen to repeat: the cycle is all that is known.
+            let platform_periods = cycle.platform_periods as f64;
+            long.unwrap_or(MotorRegime::LongChattering { platform_periods, rests: 1 })
+        }
+        OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } => match (long, lyapunov_exponent) {
+            (Some(long), _) => long,
+            (None, Some(exponent)) if exponent > 0.0 => MotorRegime::Chaotic { lyapunov_exponent: exponent },
+            (None, _) => MotorRegime::Undecided { impacts },
+        },
+    };
+    Ok((regime, seen.periods_per_flight()))
+}
+
+/// Whether the perturbed motion repeats a short cycle, judged as `MotorStatistics` does.
+fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
+    let near = |periods: f64| (periods / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN;
+    cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)
+}
+
+/// What the unperturbed motion from rest has settled on. It is followed without its rotation, which never
+/// acts on it.
+fn settled(
+    system: &DimensionlessSystem,
+    transient_impacts: usize,
+    observer: &dyn Observer,
+) -> Result<OrbitClass, Error> {
+    let vertical =
+        DimensionlessParameters { twist_speed: 0.0, friction: 0.0, load: 0.0, ..system.parameters() };
+    let settings = MultiTossSettings {
+        policy: ChatterPolicy::Complete,
+        transient_impacts,
+        examined_impacts: EXAMINED_IMPACTS,
+        ..MultiTossSettings::default()
+    };
+    let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
+    Ok(multi_toss_observed(vertical.build()?, start, settings, observer)?.class)
+}

@@ -1,0 +1,90 @@
+//! How high a rotor can fly: a bound for all flights, derived in docs/numerics/motors.md, "How high a rotor
+//! flies".
+
+/// Share by which the bound is raised for the rounding of its own few operations.
+const ROUNDING: f64 = 1.0e-12;
+
+/// A bound on the upward speed after any impact (units of g/omega), for peak acceleration P >= 0 and a
+/// restitution r in [0, 1): V = (P + r sqrt(P^2 + 4 P (1 - r)/(1 + r)))/(1 - r).
+pub(super) fn highest_speed(peak_acceleration: f64, restitution: f64) -> f64 {
+    let (p, r) = (peak_acceleration, restitution);
+    let root = (p * p + 4.0 * p * (1.0 - r) / (1.0 + r)).sqrt();
+    (p + r * root) / (1.0 - r) * (1.0 + ROUNDING)
+}
+
+/// A bound on the height above the middle of the platform's motion (units of g/omega^2): P + V^2/2.
+pub(super) fn highest_rise(peak_acceleration: f64, restitution: f64) -> f64 {
+    let speed = highest_speed(peak_acceleration, restitution);
+    // A rotor that never leaves the platform from rest rises with it; the bound holds for those that were
+    // thrown, too.
+    (peak_acceleration + 0.5 * speed * speed) * (1.0 + ROUNDING)
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::numerics::random::SplitMix64;
+    use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Vibration};
+
+    use super::*;
+
+    const RESTITUTIONS: [f64; 6] = [0.0, 0.1, 0.5, 0.8, 0.95, 1.0 - 1e-9];
+
+    /// The bound is where the worst case repeats itself: its closed form solves the equation that it comes
+    /// from.
+    #[test]
+    fn the_bound_is_the_fixed_point_of_the_worst_case() {
+        for r in [0.0, 0.1, 0.5, 0.8, 0.95] {
+            for p in [0.0, 1e-300, 1e-3, 0.5, 1.0, 3.0, 200.0, 1e8] {
+                let mut speed = 0.0_f64;
+                for _ in 0..2_000 {
+                    speed = (1.0 + r) * p + r * (speed * speed + 4.0 * p).sqrt();
+                }
+                let bound = highest_speed(p, r);
+                assert!((bound - speed).abs() <= 1e-11 * speed, "{p} {r}: {bound} {speed}");
+            }
+        }
+    }
+
+    /// The largest upward speed and height of an orbit of many impacts from rest.
+    fn largest(p: f64, r: f64) -> (f64, f64) {
+        let vibration = Vibration::new(p).expect("legal");
+        let map = ImpactMap::new(vibration, r).expect("legal");
+        let start = Launch::new(vibration.separation_phase().expect("P > 1"), 0.0).expect("legal");
+        let mut orbit = map.orbit_from_launch(start, ChatterPolicy::Complete);
+        let mut random = SplitMix64::new(7);
+        let (mut fastest, mut highest) = (0.0_f64, 0.0_f64);
+        for _ in 0..20_000 {
+            if let Some(launch) = orbit.launch() {
+                let upwards = launch.relative_speed() + vibration.velocity(launch.phase());
+                fastest = fastest.max(upwards);
+                let rise = 0.5 * upwards.max(0.0) * upwards;
+                highest = highest.max(vibration.height(launch.phase()) + rise);
+            }
+            if let Some(OrbitEvent::Attachment(_)) = orbit.advance().expect("no failure") {
+                // Other members of an ensemble: the speed from rest stays below that of the platform.
+                orbit.perturb_launch(1e-9 * random.unit()).expect("legal");
+            }
+        }
+        (fastest, highest)
+    }
+
+    #[test]
+    fn no_orbit_from_rest_exceeds_the_bound() {
+        for r in RESTITUTIONS {
+            for p in [1.0 + 1e-9, 1.1, 1.5, 2.0, 5.0, 20.0, 200.0, 1e5] {
+                let (fastest, highest) = largest(p, r);
+                assert!(fastest <= highest_speed(p, r) + 1e-9, "{p} {r}: {fastest}");
+                assert!(highest <= highest_rise(p, r) + 1e-9, "{p} {r}: {highest}");
+            }
+        }
+    }
+
+    /// The bound is of use: a lively orbit comes near it.
+    #[test]
+    fn some_orbits_come_near_the_bound() {
+        for r in [0.0, 0.1, 0.5] {
+            let (fastest, _) = largest(200.0, r);
+            assert!(fastest > 0.5 * highest_speed(200.0, r), "{r}: {fastest}");
+        }
+    }
+}

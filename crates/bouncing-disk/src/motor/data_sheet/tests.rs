@@ -1,0 +1,530 @@
+//! The data sheet: what is legal, what is told, and what follows.
+
+use std::f64::consts::{PI, TAU};
+use std::mem::discriminant;
+
+use bouncing_disk_core::{
+    ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration, lyapunov_exponents,
+};
+use proptest::prelude::*;
+
+use super::fields::FIELDS;
+use super::*;
+use crate::motor::data_sheet::regime::{MotorRegime, regime};
+use crate::motor::data_sheet::warning::MotorWarning;
+use crate::motor::ensemble::ensemble;
+use crate::motor::transient::TransientSettings;
+use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
+
+/// The motor of the issue's traps: 40 kHz, 0.5 um, 20 g, 5 N, 12 rad/s, 30 degrees.
+fn designers() -> MotorParameters {
+    MotorParameters {
+        drive_frequency: 40e3,
+        amplitude: 0.5e-6,
+        peak_angular_speed: Some(12.0),
+        phase_lag: PI / 6.0,
+        mass: Some(0.02),
+        preload_force: Some(5.0),
+        preload_acceleration: None,
+        ..Motor::paper_70_khz().parameters()
+    }
+}
+
+/// A rotor by density and size, with all that is optional.
+fn disc() -> MotorParameters {
+    MotorParameters {
+        mass: None,
+        density: Some(2_700.0),
+        rotor_radius: Some(0.01),
+        rotor_thickness: Some(0.005),
+        gyration_radius: None,
+        twist_amplitude: Some(4e-5),
+        peak_angular_speed: None,
+        spring_constant: Some(400.0),
+        load_torque: 1e-5,
+        ..designers()
+    }
+}
+
+#[test]
+fn the_preset_is_the_motor_of_table_iii_to_the_last_bit() {
+    let motor = Motor::paper_70_khz();
+    assert_eq!(motor.system(), &System::motor());
+    // Also the signs of zeros, which compare equal.
+    assert_eq!(format!("{:?}", motor.system()), format!("{:?}", System::motor()));
+    assert!(motor.warnings().is_empty());
+    assert!((motor.mass() - 0.0329).abs() < 1e-4, "{}", motor.mass());
+    let fast = Motor::paper_184_khz();
+    assert!(fast.warnings().is_empty());
+    let forcing = fast.system().axial_forcing() / motor.system().axial_forcing();
+    assert!((forcing - (184.0_f64 / 70.0) * (184.0 / 70.0)).abs() < 1e-13, "{forcing}");
+    let same = fast.with(|sheet| sheet.drive_frequency = 70e3).expect("legal");
+    assert_eq!(same, motor);
+}
+
+/// Whatever is legal, of a pair that excludes each other exactly one is needed.
+#[test]
+fn alternatives_are_given_once() {
+    type Set = fn(&mut MotorParameters, Option<f64>);
+    let pairs: [(&str, Set, &str, Set); 3] = [
+        (
+            "peak_angular_speed",
+            |sheet, value| sheet.peak_angular_speed = value,
+            "twist_amplitude",
+            |sheet, value| sheet.twist_amplitude = value,
+        ),
+        ("mass", |sheet, value| sheet.mass = value, "density", |sheet, value| sheet.density = value),
+        (
+            "preload_force",
+            |sheet, value| sheet.preload_force = value,
+            "preload_acceleration",
+            |sheet, value| sheet.preload_acceleration = value,
+        ),
+    ];
+    for (one, set_one, other, set_other) in pairs {
+        let mut sheet = designers();
+        set_one(&mut sheet, Some(1.0));
+        set_other(&mut sheet, Some(1.0));
+        assert_eq!(sheet.build(), Err(Error::BothGiven { one, other }));
+        set_one(&mut sheet, None);
+        set_other(&mut sheet, None);
+        assert_eq!(sheet.build(), Err(Error::NeitherGiven { one, other }));
+    }
+    let sheet = MotorParameters { gyration_radius: None, ..designers() };
+    assert_eq!(sheet.build(), Err(Error::NeitherGiven { one: "gyration_radius", other: "rotor_radius" }));
+    for (sheet, field) in [
+        (MotorParameters { rotor_radius: None, gyration_radius: Some(0.007), ..disc() }, "rotor_radius"),
+        (MotorParameters { rotor_thickness: None, ..disc() }, "rotor_thickness"),
+    ] {
+        assert_eq!(sheet.build(), Err(Error::NotGiven { field }));
+    }
+    let unread = MotorParameters { rotor_thickness: Some(0.005), ..designers() };
+    assert_eq!(unread.build(), Err(Error::BothGiven { one: "mass", other: "rotor_thickness" }));
+}
+
+#[test]
+fn a_disc_has_the_mass_and_the_radius_of_gyration_of_a_solid_one() {
+    let motor = disc().build().expect("legal");
+    assert!((motor.mass() - 2_700.0 * PI * 1e-4 * 0.005).abs() < 1e-15);
+    let gyration = motor.system().disk().gyration_radius();
+    assert!((gyration * gyration - 0.5e-4).abs() < 1e-18);
+    assert!((motor.inertia() - 0.5 * motor.mass() * 1e-4).abs() < 1e-18);
+    let ring = motor.with(|sheet| sheet.gyration_radius = Some(0.0098)).expect("legal");
+    assert!((ring.system().disk().gyration_radius() - 0.0098).abs() < 1e-18);
+}
+
+#[test]
+fn force_speed_and_torque_become_those_of_the_system() {
+    let motor = MotorParameters { load_torque: 2e-4, ..designers() }.build().expect("legal");
+    let (platform, disk) = (motor.system().platform(), motor.system().disk());
+    assert!((platform.angular_frequency() - TAU * 40e3).abs() < 1e-9);
+    assert!((platform.peak_angular_speed() - 12.0).abs() < 1e-14);
+    // F/m, to which no weight is added.
+    assert!((motor.preload_acceleration() - 250.0).abs() < 1e-12);
+    assert!((motor.preload_force() - 5.0).abs() < 1e-15);
+    // The largest torque of the issue: 5 N, 0.1, 1.25 mm.
+    assert!((motor.largest_torque() - 6.25e-4).abs() < 1e-18);
+    assert!((disk.load_acceleration() * motor.inertia() - 2e-4).abs() < 1e-18);
+    assert!((motor.load_torque() - 2e-4).abs() < 1e-20);
+    let accelerated = motor
+        .with(|sheet| {
+            sheet.preload_force = None;
+            sheet.preload_acceleration = Some(250.0);
+        })
+        .expect("legal");
+    assert!((accelerated.preload_force() - 5.0).abs() < 1e-14);
+    assert_eq!(motor.static_deflection(), None);
+    assert_eq!(motor.preload_change_bound(), None);
+}
+
+/// Every field at every seam: an error that names it, or a motor without a number that is none.
+#[test]
+fn every_field_is_checked_at_every_seam() {
+    // What a combination is out of range by.
+    const COMBINED: [&str; 6] =
+        ["twist_speed", "moment of inertia", "load", "load_acceleration", "friction", "twist_amplitude"];
+    for base in [designers(), disc()] {
+        let motor = base.build().expect("legal");
+        for field in FIELDS.iter().filter(|field| (field.get)(&base).is_some()) {
+            for value in [
+                f64::NAN,
+                f64::INFINITY,
+                f64::NEG_INFINITY,
+                -1.0,
+                -0.0,
+                0.0,
+                5e-324,
+                1e-310,
+                f64::MIN_POSITIVE,
+                1e-160,
+                1.0,
+                1e160,
+                f64::MAX,
+            ] {
+                let place = format!("{} = {value:e}", field.name);
+                match motor.with(|sheet| set(sheet, field.name, value)) {
+                    Err(Error::OutOfRange { field: named, .. }) => {
+                        let derived = named.contains(field.name)
+                            || named.starts_with("unit of")
+                            || COMBINED.contains(&named);
+                        assert!(derived, "{place}: {named}");
+                    }
+                    Err(Error::Core(bouncing_disk_core::Error::OutOfRange { field: named, .. })) => {
+                        assert!(named == "peak_acceleration", "{place}: {named}");
+                    }
+                    Err(error) => panic!("{place}: {error}"),
+                    Ok(motor) => {
+                        assert!(value.is_finite(), "{place}");
+                        assert!(motor.mass() > 0.0 && motor.preload_force() > 0.0, "{place}");
+                        assert!(motor.largest_torque().is_finite(), "{place}");
+                        // What is told does not fail, whatever it tells.
+                        assert!(!motor.to_string().is_empty());
+                    }
+                }
+            }
+            let negative = motor.with(|sheet| set(sheet, field.name, -1.0));
+            assert_eq!(
+                negative.is_ok(),
+                ["phase_lag", "load_torque"].contains(&field.name),
+                "{}",
+                field.name
+            );
+        }
+    }
+}
+
+fn set(sheet: &mut MotorParameters, name: &str, value: f64) {
+    match name {
+        "drive_frequency" => sheet.drive_frequency = value,
+        "amplitude" => sheet.amplitude = value,
+        "peak_angular_speed" => sheet.peak_angular_speed = Some(value),
+        "twist_amplitude" => sheet.twist_amplitude = Some(value),
+        "phase_lag" => sheet.phase_lag = value,
+        "mass" => sheet.mass = Some(value),
+        "density" => sheet.density = Some(value),
+        "rotor_radius" => sheet.rotor_radius = Some(value),
+        "rotor_thickness" => sheet.rotor_thickness = Some(value),
+        "contact_radius" => sheet.contact_radius = value,
+        "gyration_radius" => sheet.gyration_radius = Some(value),
+        "preload_force" => sheet.preload_force = Some(value),
+        "preload_acceleration" => sheet.preload_acceleration = Some(value),
+        "spring_constant" => sheet.spring_constant = Some(value),
+        "friction" => sheet.friction = value,
+        "restitution" => sheet.restitution = value,
+        "load_torque" => sheet.load_torque = value,
+        other => panic!("{other} is no field"),
+    }
+}
+
+/// What each of these data sheets is warned of: the names of fields, or of what follows from several.
+fn told(sheet: MotorParameters) -> Vec<String> {
+    sheet.build().expect("legal").warnings().iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_traps_of_units_are_told() {
+    assert_eq!(told(designers()), [""; 0]);
+    type Change = fn(&mut MotorParameters);
+    let traps: [(&str, Change, &str); 12] = [
+        ("drive_frequency", |sheet| sheet.drive_frequency = 40e3 * TAU, "an angular frequency in rad/s"),
+        ("drive_frequency", |sheet| sheet.drive_frequency = 40e3 / TAU, "divided by 2 pi"),
+        ("drive_frequency", |sheet| sheet.drive_frequency = 40.0, "in kHz"),
+        (
+            "preload_acceleration",
+            |sheet| {
+                sheet.preload_force = None;
+                sheet.preload_acceleration = Some(5.0);
+            },
+            "a force in N",
+        ),
+        ("contact_radius", |sheet| sheet.contact_radius = 13.5, "in mm"),
+        ("gyration_radius", |sheet| sheet.gyration_radius = Some(13.5), "in mm"),
+        ("rotor_radius", |sheet| sheet.rotor_radius = Some(13.5), "in mm"),
+        ("amplitude", |sheet| sheet.amplitude = 0.05, "in um"),
+        ("mass", |sheet| sheet.mass = Some(20.0), "in g"),
+        ("phase_lag", |sheet| sheet.phase_lag = -30.0, "in degrees"),
+        ("peak_angular_speed", |sheet| sheet.peak_angular_speed = Some(3_000.0), "in rpm"),
+        ("spring_constant", |sheet| sheet.spring_constant = Some(1e-3), "factor 1000"),
+    ];
+    for (field, change, meant) in traps {
+        let mut sheet = designers();
+        change(&mut sheet);
+        let told = told(sheet);
+        assert!(
+            told.iter().any(|text| text.starts_with(&format!("{field} = ")) && text.contains(meant)),
+            "{field}: {told:?}"
+        );
+    }
+}
+
+/// What is usual ends where it is said to end; and where a value is far outside, too.
+#[test]
+fn warnings_begin_where_they_are_said_to() {
+    let of = |constant: f64| {
+        let stiff = MotorParameters { spring_constant: Some(constant), ..designers() };
+        let warnings = stiff.build().expect("legal").warnings();
+        warnings.iter().any(|warning| matches!(warning, MotorWarning::FarOutside { .. }))
+    };
+    assert!(!of(10.0) && !of(1e7) && !of(0.01) && !of(1e10));
+    assert!(of(0.01_f64.next_down()) && of(1e10_f64.next_up()) && of(5e-324) && of(1e300));
+    let readings = |force: f64| {
+        let motor = MotorParameters { preload_force: Some(force), ..designers() }.build().expect("legal");
+        motor.warnings().len()
+    };
+    assert_eq!([0.1, 500.0, 500.0_f64.next_up()].map(readings), [0, 0, 1]);
+    // Nothing moves, nothing rubs: taken as meant.
+    let still = MotorParameters {
+        amplitude: 0.0,
+        peak_angular_speed: Some(0.0),
+        friction: 0.0,
+        restitution: 0.0,
+        ..designers()
+    };
+    assert_eq!(told(still), [""; 0]);
+    let motor = designers().build().expect("legal");
+    let overloaded = |torque: f64| motor.with(|sheet| sheet.load_torque = torque).expect("legal").warnings();
+    let largest = motor.largest_torque();
+    assert!(overloaded(largest).is_empty() && overloaded(-largest).is_empty());
+    for torque in [largest.next_up(), -1.0] {
+        let warnings = overloaded(torque);
+        assert!(matches!(warnings[..], [MotorWarning::Overload { .. }]), "{warnings:?}");
+    }
+    let narrow = MotorParameters { rotor_radius: Some(1e-3), ..designers() };
+    let named: Vec<_> = told(narrow).iter().map(|text| text[..8].to_owned()).collect();
+    assert_eq!(named, ["contact_", "gyration"]);
+}
+
+#[test]
+fn a_spring_that_is_too_stiff_for_the_flights_is_told() {
+    let motor = designers().build().expect("legal");
+    let rise = motor.highest_rise();
+    // k rise/F = 1 %.
+    let soft = 0.01 * 5.0 / rise;
+    let bound = |constant: f64| {
+        let motor = motor.with(|sheet| sheet.spring_constant = Some(constant)).expect("legal");
+        (motor.preload_change_bound().expect("a spring"), motor.warnings())
+    };
+    let (gentle, none) = bound(0.999 * soft);
+    assert!(gentle < 0.01 && gentle > 0.0099 && none.is_empty(), "{gentle} {none:?}");
+    let (hard, told) = bound(1.001 * soft);
+    assert!(hard > 0.01 && told == [MotorWarning::PreloadChanges { bound: hard }], "{hard} {told:?}");
+    let motor = motor.with(|sheet| sheet.spring_constant = Some(2_000.0)).expect("legal");
+    assert!((motor.static_deflection().expect("a spring") - 2.5e-3).abs() < 1e-17);
+    // The formula by hand, in SI: V = (U + r sqrt(U^2 + 4 A g (1-r)/(1+r)))/(1-r), with U = A omega.
+    let (speed, g, r): (f64, f64, f64) = (0.5e-6 * TAU * 40e3, 250.0, 0.5);
+    let launch = (speed + r * (speed * speed + 4.0 * 0.5e-6 * g * (1.0 - r) / (1.0 + r)).sqrt()) / (1.0 - r);
+    let expected = 0.5e-6 + launch * launch / (2.0 * g);
+    assert!((rise / expected - 1.0).abs() < 1e-10, "{rise} {expected}");
+}
+
+fn regime_of(axial_forcing: f64, restitution: f64) -> MotorRegime {
+    let system =
+        ForcingParameters { axial_forcing, angular_forcing: 1.0, phase_lag: 0.0, restitution }.build();
+    regime(&system.expect("legal"), &Unobserved).expect("no failure").0
+}
+
+#[test]
+fn a_stator_that_never_falls_away_throws_nothing() {
+    let at = |peak_acceleration: f64| {
+        let system = DimensionlessParameters {
+            peak_acceleration,
+            twist_speed: 1.0,
+            phase_lag: 0.0,
+            friction: 0.1,
+            restitution: 0.5,
+            load: 0.0,
+        };
+        regime(&system.build().expect("legal"), &Unobserved).expect("no failure")
+    };
+    for gentle in [0.0, 5e-324, 0.5, 1.0] {
+        assert_eq!(at(gentle), (MotorRegime::NoLiftOff, None), "{gentle}");
+    }
+    for lively in [1.0_f64.next_up(), 1.0 + 1e-9, 1.01] {
+        let (regime, _) = at(lively);
+        assert!(
+            matches!(regime, MotorRegime::LowPeriodChattering(cycle) if cycle.is_single_toss()),
+            "{lively}: {regime:?}"
+        );
+    }
+}
+
+/// Against what the core and the paper say of these parameters, each in another way.
+#[test]
+fn regimes_are_those_that_are_known() {
+    let low = |regime: &MotorRegime| matches!(regime, MotorRegime::LowPeriodChattering(_));
+    assert!(low(&regime_of(0.48, 0.5)), "{:?}", regime_of(0.48, 0.5));
+    // Without restitution every impact is the end of a round.
+    assert!(low(&regime_of(60.0, 0.0)), "{:?}", regime_of(60.0, 0.0));
+    // A periodic motion without rest, which the core finds by iterating and refining.
+    for (forcing, restitution) in [(0.7, 0.3), (1.0, 0.5)] {
+        let vibration = Vibration::from_axial_forcing(forcing).expect("legal");
+        let map = ImpactMap::new(vibration, restitution).expect("legal");
+        let start = Launch::new(vibration.separation_phase().expect("P > 1"), 0.0).expect("legal");
+        let impact = vibration.first_impact(start).expect("lands");
+        let orbit =
+            map.settled_orbit(impact.into(), 10_000, 64, 1e-9).expect("no failure").expect("periodic");
+        let expected =
+            MotorRegime::Periodic { impacts: orbit.period(), platform_periods: orbit.platform_periods };
+        assert_eq!(regime_of(forcing, restitution), expected);
+    }
+    // A long cycle of rests, 4393 impacts without perturbation, and a periodic motion that settles slowly.
+    let vertical = |peak_acceleration: f64, restitution: f64| {
+        let system = ForcingParameters {
+            axial_forcing: peak_acceleration / PI,
+            angular_forcing: 1.0,
+            phase_lag: 0.0,
+            restitution,
+        };
+        regime(&system.build().expect("legal"), &Unobserved).expect("no failure").0
+    };
+    let long = vertical(1.5, 0.9);
+    assert!(matches!(long, MotorRegime::LongChattering { rests: 1.., .. }), "{long:?}");
+    assert_eq!(vertical(1.05, 0.999), MotorRegime::Periodic { impacts: 2, platform_periods: 8 });
+    // Chaos, whose exponent the core's sweep finds from another start.
+    let map = ImpactMap::new(Vibration::from_axial_forcing(5.0).expect("legal"), 0.9).expect("legal");
+    let state = ImpactState::from_normalised(1.0, 30.0).expect("legal");
+    let expected = lyapunov_exponents(&[(map, state)], 100, 5_000).expect("no failure")[0].expect("no rest");
+    let MotorRegime::Chaotic { lyapunov_exponent } = regime_of(5.0, 0.9) else {
+        panic!("{:?}", regime_of(5.0, 0.9))
+    };
+    assert!((lyapunov_exponent / expected - 1.0).abs() < 0.1, "{lyapunov_exponent} {expected}");
+}
+
+/// The mean time between rests is that of the ensembles, which are computed by other code, with other random
+/// numbers.
+#[test]
+fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
+    let motor = Motor::paper_70_khz();
+    let MotorRegime::LongChattering { platform_periods, rests } = motor.report().expect("no failure").regime
+    else {
+        panic!("{:?}", motor.report())
+    };
+    let settings = TransientSettings { duration: 5.0, intervals: 10, ..TransientSettings::default() };
+    let runs = ensemble(motor.system(), &settings, 8).expect("no failure");
+    let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
+    let expected = 8.0 * 5.0 * 70e3 / separations as f64;
+    // Waiting times scatter by about their mean.
+    let tolerance = 4.0 / (rests as f64).sqrt();
+    assert!(tolerance < 0.4, "{rests}");
+    assert!((platform_periods / expected - 1.0).abs() < tolerance, "{platform_periods} {expected} {rests}");
+}
+
+#[test]
+fn reports_tell_what_there_is() {
+    let motor = disc().build().expect("legal");
+    let report = motor.report().expect("no failure");
+    let text = report.to_string();
+    for line in
+        ["Gamma = ", "Gamma_T = ", "P = ", "regime: ", "a flight lasts ", "largest torque", "deflection"]
+    {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    assert_eq!(report.warnings, motor.warnings());
+    for warning in &report.warnings {
+        assert!(text.contains(&format!("\nwarning: {warning}")), "{text}");
+    }
+    // What the motor prints by itself are the report's lines without the motion.
+    for line in motor.to_string().lines() {
+        assert!(text.lines().any(|other| other == line), "{line}: {text}");
+    }
+    let slippery = motor.with(|sheet| sheet.friction = 0.0).expect("legal");
+    assert!(slippery.to_string().contains("Gamma_T = infinite"), "{slippery}");
+    let plain = designers().build().expect("legal").report().expect("no failure");
+    assert!(!plain.to_string().contains("spring") && !plain.to_string().contains("warning"), "{plain}");
+}
+
+#[test]
+fn a_report_can_be_stopped() {
+    let motor = designers().build().expect("legal");
+    let stop = |_: Progress| std::ops::ControlFlow::Break(());
+    let stopped = motor.report_observed(&stop);
+    assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))), "{stopped:?}");
+}
+
+/// The same report each time: it has no state, and its perturbations a fixed seed. It does not see the
+/// rotation.
+#[test]
+fn reports_do_not_depend_on_what_turns() {
+    let motor = designers().build().expect("legal");
+    let report = motor.report().expect("no failure");
+    assert_eq!(motor.report().expect("no failure"), report);
+    let turned = motor
+        .with(|sheet| {
+            sheet.friction = 0.7;
+            sheet.phase_lag = 2.0;
+            sheet.peak_angular_speed = Some(100.0);
+            sheet.load_torque = 1e-4;
+        })
+        .expect("legal");
+    let other = turned.report().expect("no failure");
+    assert_eq!((other.regime, other.periods_per_flight), (report.regime, report.periods_per_flight));
+}
+
+#[test]
+fn errors_and_warnings_are_of_one_kind_each() {
+    let both = Error::BothGiven { one: "mass", other: "density" };
+    let neither = Error::NeitherGiven { one: "mass", other: "density" };
+    assert_ne!(discriminant(&both), discriminant(&neither));
+    for (error, words) in [
+        (both, ["both mass", "and density"]),
+        (neither, ["neither mass", "nor density"]),
+        (Error::NotGiven { field: "friction" }, ["friction", "not given"]),
+    ] {
+        let text = error.to_string();
+        assert!(words.iter().all(|word| text.contains(word)), "{text}");
+    }
+}
+
+#[cfg(feature = "json")]
+mod stored {
+    use super::*;
+
+    fn through_serde(motor: &Motor) {
+        let text = serde_json::to_string(motor).expect("writes");
+        assert_eq!(serde_json::from_str::<Motor>(&text).expect("legal"), *motor);
+        // What serde writes is a data sheet, too.
+        assert_eq!(Motor::from_json(&text), Ok(*motor));
+        let mut binary = Vec::new();
+        ciborium::into_writer(motor, &mut binary).expect("writes");
+        assert_eq!(ciborium::from_reader::<Motor, _>(&*binary).expect("legal"), *motor);
+    }
+
+    #[test]
+    fn what_serde_reads_is_checked() {
+        for sheet in [designers(), disc()] {
+            through_serde(&sheet.build().expect("legal"));
+        }
+        let text = Motor::paper_70_khz().to_json();
+        for (from, to, complaint) in [
+            ("0.5", "1.5", "restitution"),
+            ("\"load_torque\"", "\"load_torqe\"", "load_torqe"),
+            ("\"preload_acceleration\"", "\"spring_constant\"", "preload_force"),
+            ("\"friction\": 0.1,", "", "friction"),
+        ] {
+            let error = serde_json::from_str::<Motor>(&text.replace(from, to)).expect_err(to);
+            assert!(error.to_string().contains(complaint), "{error}");
+        }
+    }
+}
+
+proptest! {
+    /// Written and read again, a data sheet has the same bits.
+    #[test]
+    fn files_are_exact(
+        frequency in 1e3_f64..1e6, amplitude in 0.0_f64..1e-5, lag in -10.0_f64..10.0, mass in 1e-4_f64..1.0,
+        force in 1e-3_f64..1e3, spring in proptest::option::of(1.0_f64..1e9), friction in 0.0_f64..1.0,
+        restitution in 0.0_f64..0.99, torque in -1.0_f64..1.0, by_density in any::<bool>(),
+    ) {
+        let base = if by_density { disc() } else { MotorParameters { mass: Some(mass), ..designers() } };
+        let sheet = MotorParameters {
+            drive_frequency: frequency, amplitude, phase_lag: lag, preload_force: Some(force),
+            spring_constant: spring, friction, restitution, load_torque: torque, ..base
+        };
+        let Ok(motor) = sheet.build() else { return Ok(()) };
+        #[cfg(feature = "json")]
+        prop_assert_eq!(Motor::from_json(&motor.to_json()), Ok(motor));
+        #[cfg(feature = "toml")]
+        prop_assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor));
+        prop_assert_eq!(motor.parameters(), sheet);
+    }
+}

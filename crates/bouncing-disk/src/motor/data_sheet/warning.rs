@@ -1,0 +1,152 @@
+//! What is legal in a data sheet and yet unlikely to be meant.
+
+use std::fmt::{self, Display, Formatter};
+
+use crate::display::{number, rough};
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::fields::{FIELDS, Field};
+
+/// A value this many times outside of what such motors have is far outside.
+const FAR: f64 = 1.0e3;
+
+/// A bound on the change of the preload above this is told.
+const LARGEST_CHANGE: f64 = 0.01;
+
+/// What is legal and yet unlikely to be meant, or beyond what the model assumes ([`Motor::warnings`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum MotorWarning {
+    /// A value is outside of what such motors have, and inside if it is read in another unit.
+    OtherUnit {
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The unit of the field.
+        unit: &'static str,
+        /// The least and the largest value that such motors have.
+        usual: (f64, f64),
+        /// What it may be: "a length in mm".
+        meant: &'static str,
+    },
+    /// A value is a factor 1000 outside of what such motors have.
+    FarOutside {
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// The unit of the field.
+        unit: &'static str,
+        /// The least and the largest value that such motors have.
+        usual: (f64, f64),
+    },
+    /// The contact radius or the radius of gyration is larger than the rotor.
+    OutsideRotor {
+        /// The field.
+        field: &'static str,
+        /// Its value (m).
+        value: f64,
+        /// The radius of the rotor (m).
+        rotor_radius: f64,
+    },
+    /// The load is larger than the largest torque of the motor: the load drives the rotor.
+    Overload {
+        /// The load torque (N m).
+        load_torque: f64,
+        /// mu m g a_e (N m).
+        largest_torque: f64,
+    },
+    /// The spring's force may change by more than 1 % while the rotor flies; the engine keeps it constant.
+    PreloadChanges {
+        /// The bound on the relative change ([`Motor::preload_change_bound`]).
+        bound: f64,
+    },
+}
+
+impl Display for MotorWarning {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = number;
+        match *self {
+            Self::OtherUnit { field, value, unit, usual: (low, high), meant } => write!(
+                f,
+                "{field} = {} {unit} is outside of what such motors have, {} to {} {unit}: is it {meant}?",
+                n(value),
+                n(low),
+                n(high)
+            ),
+            Self::FarOutside { field, value, unit, usual: (low, high) } => write!(
+                f,
+                "{field} = {} {unit} is more than a factor 1000 outside of what such motors have, {} to {} {unit}",
+                n(value),
+                n(low),
+                n(high)
+            ),
+            Self::OutsideRotor { field, value, rotor_radius } => {
+                write!(f, "{field} = {} m is larger than rotor_radius = {} m", n(value), n(rotor_radius))
+            }
+            Self::Overload { load_torque, largest_torque } => write!(
+                f,
+                "load_torque = {} N m is more than the largest torque of the motor, mu m g a_e = {} N m",
+                n(load_torque),
+                n(largest_torque)
+            ),
+            Self::PreloadChanges { bound } => write!(
+                f,
+                "the preload may change by {} % while the rotor flies (a bound); the model keeps it constant",
+                rough(100.0 * bound)
+            ),
+        }
+    }
+}
+
+impl Motor {
+    /// What is legal in the data sheet and yet unlikely to be meant, in the order of the fields; then what
+    /// follows from several of them. Zeros are taken as meant.
+    ///
+    /// A number that is usual in a wrong unit, too, is found by nobody: 40 kHz given as 40e3 where an angular
+    /// frequency of 40e3 rad/s was meant.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<MotorWarning> {
+        let sheet = self.parameters();
+        let mut warnings: Vec<_> = FIELDS
+            .iter()
+            .filter_map(|field| (field.get)(&sheet).and_then(|value| of_field(field, value)))
+            .collect();
+        if let Some(rotor_radius) = sheet.rotor_radius {
+            let disk = self.system().disk();
+            let lengths =
+                [("contact_radius", disk.contact_radius()), ("gyration_radius", disk.gyration_radius())];
+            warnings.extend(
+                lengths
+                    .into_iter()
+                    .filter(|(_, value)| *value > rotor_radius)
+                    .map(|(field, value)| MotorWarning::OutsideRotor { field, value, rotor_radius }),
+            );
+        }
+        let (load_torque, largest_torque) = (self.load_torque(), self.largest_torque());
+        if load_torque.abs() > largest_torque {
+            warnings.push(MotorWarning::Overload { load_torque, largest_torque });
+        }
+        let changes = self.preload_change_bound().filter(|bound| *bound > LARGEST_CHANGE);
+        warnings.extend(changes.map(|bound| MotorWarning::PreloadChanges { bound }));
+        warnings
+    }
+}
+
+fn of_field(field: &Field, value: f64) -> Option<MotorWarning> {
+    let usual = field.usual?;
+    let size = value.abs();
+    let inside = |size: f64, (low, high): (f64, f64)| (low..=high).contains(&size);
+    if size == 0.0 || inside(size, usual) {
+        return None;
+    }
+    let Field { name, unit, .. } = *field;
+    let meant = field.readings.iter().find(|reading| inside(size * reading.factor, reading.usual));
+    meant.map_or_else(
+        || {
+            let far = size * FAR < usual.0 || size > usual.1 * FAR;
+            far.then_some(MotorWarning::FarOutside { field: name, value, unit, usual })
+        },
+        |reading| Some(MotorWarning::OtherUnit { field: name, value, unit, usual, meant: reading.meant }),
+    )
+}
