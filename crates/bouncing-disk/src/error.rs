@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::motor::fit_refusal::FitRefusal;
+
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation.
@@ -33,6 +35,12 @@ pub enum Error {
         duration: f64,
         /// The largest duration in radians.
         limit: f64,
+    },
+    /// A curve gives no fit that could be trusted.
+    #[error("the curve is not fitted: {reason}")]
+    FitRefused {
+        /// Why, with the numbers.
+        reason: FitRefusal,
     },
     /// An error of the math core.
     #[error(transparent)]
