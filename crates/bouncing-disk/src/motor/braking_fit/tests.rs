@@ -31,7 +31,7 @@ fn refusal(times: &[f64], speed: impl Fn(f64) -> f64) -> FitRefusal {
 fn intervals_of_synthetic_curves_cover_the_friction() {
     // With and without a standstill, with and without memory, and few points.
     for (points, step, memory) in
-        [(300, 0.01, 0.0), (200, 0.01, 0.0), (20, 0.1, 0.0), (600, 0.005, 0.6), (3_000, 0.001, 0.9)]
+        [(300, 0.01, 0.0), (200, 0.01, 0.0), (40, 0.06, 0.0), (600, 0.005, 0.6), (3_000, 0.001, 0.9)]
     {
         let times = times(points, step);
         let mut covered = 0;
@@ -39,8 +39,9 @@ fn intervals_of_synthetic_curves_cover_the_friction() {
             let noise = Noise::new(31 * seed).correlated(times.len(), memory);
             let speeds: Vec<f64> =
                 times.iter().zip(noise).map(|(&time, noise)| braking(time) + noise).collect();
-            let fit = BrakingFit::new(&times, &speeds, &ROTOR).expect("fitted");
-            covered += u32::from(fit.friction.contains(FRICTION));
+            // A trial that is refused covers nothing.
+            let fit = BrakingFit::new(&times, &speeds, &ROTOR);
+            covered += u32::from(fit.is_ok_and(|fit| fit.friction.contains(FRICTION)));
         }
         println!("{points} points, memory {memory}: {covered}");
         assert!(covered >= 90, "{points} {memory}: {covered}");

@@ -52,18 +52,18 @@ fn a_duration_that_is_too_short_is_refused_where_members_alone_give_nonsense() {
     );
 }
 
-/// Every duration has the same answer: the one of the longest runs of all trials together. Intervals of 95 % miss now and then,
-/// so that not each of them can hold it; the seeds are the first ones that were tried.
+/// Every duration has the same answer: the one of the longest runs of all trials together. Intervals of 95 % miss now and then, so
+/// that not each of them can hold it.
 #[test]
 fn fits_that_are_accepted_agree_whatever_the_duration() {
-    let durations = [(0.06, 100), (0.1, 100), (0.1, 400), (0.2, 200), (0.4, 400), (0.8, 600)];
+    let durations = [(0.06, 100), (0.1, 100), (0.2, 200), (0.4, 400)];
     let (mut fits, mut longest) = (Vec::new(), Vec::new());
-    for trial in 0..6 {
+    for trial in 0..20 {
         for ((duration, intervals), seed) in durations.into_iter().zip(1..) {
             let curves = curves(duration, intervals, 32, 10_000 * trial + 1_000 * seed);
             let fit = TransientFit::new(&curves, &FitSettings::default());
             fits.push(fit.unwrap_or_else(|error| panic!("{duration}: {error}")));
-            if seed == 6 {
+            if seed == 4 {
                 longest.extend(curves);
             }
         }
@@ -74,76 +74,24 @@ fn fits_that_are_accepted_agree_whatever_the_duration() {
     };
     let covered = [holding(TransientFit::steady_speed), holding(TransientFit::time_constant)];
     println!("{covered:?} of {} {truth:?}", fits.len());
-    assert!(covered.iter().all(|&count| count >= 33), "{covered:?} of {}", fits.len());
+    assert!(covered.iter().all(|&count| count >= 72), "{covered:?} of {}", fits.len());
     assert!(fits.iter().all(|fit| fit.steady_speed().high < STATOR_SPEED));
 }
 
-/// The truth is the fit of the mean over all members of all trials, whose error is a tenth of a trial's. A trial that is
-/// refused covers nothing.
+/// The truth is the fit of the mean over very many starting phases and perturbations. A trial that is refused covers nothing.
 #[test]
 fn intervals_of_motor_transients_cover_the_fit_of_a_huge_ensemble() {
-    for (members, duration, intervals) in [(8, 0.2, 160), (16, 0.2, 160), (24, 0.1, 80)] {
-        let all: Vec<Vec<SpeedCurve>> =
-            (1..=100).map(|trial| curves(duration, intervals, members, 1_000 * trial)).collect();
-        let truth = TransientFit::new(&all.concat(), &FitSettings::default()).expect("fitted");
-        let (mut covered, mut refused) = ([0; 2], 0);
-        for curves in &all {
-            let x = TransientFit::new(curves, &FitSettings::default());
-            if let Err(e) = x {
-                refused += 1;
-                println!("{e}")
-            } else if let Ok(f) = x {
-                if !f.steady_speed().contains(truth.steady_speed().value) {
-                    println!("{:?}", f.steady_speed())
-                }
-            }
-            if let Ok(fit) = TransientFit::new(curves, &FitSettings::default()) {
+    let truth = TransientFit::new(&curves(0.1, 80, 1_600, 900_000), &FitSettings::default()).expect("fitted");
+    for members in [16, 32] {
+        let mut covered = [0; 2];
+        for trial in 1..=100 {
+            let curves = curves(0.1, 80, members, 1_000 * trial);
+            if let Ok(fit) = TransientFit::new(&curves, &FitSettings::default()) {
                 covered[0] += u32::from(fit.steady_speed().contains(truth.steady_speed().value));
                 covered[1] += u32::from(fit.time_constant().contains(truth.time_constant().value));
             }
         }
-        println!("{members} members, {duration} s: {covered:?} {refused} {truth:?}");
-        if false {
-            assert!(true)
-        };
-        if false {
-            panic!("{members}: {covered:?}");
-        }
-    }
-}
-#[test]
-#[ignore]
-fn explore() {
-    let truth =
-        TransientFit::new(&curves(0.8, 600, 4_000, 999_000_000), &FitSettings::default()).expect("fitted");
-    println!("truth {truth:?}");
-    for (k, (duration, intervals)) in
-        [(0.06, 100), (0.1, 100), (0.2, 200), (0.4, 400), (0.8, 600)].into_iter().enumerate()
-    {
-        for members in [8, 32] {
-            let own =
-                TransientFit::new(&curves(duration, intervals, 4_000, 888_000_000), &FitSettings::default())
-                    .expect("fitted");
-            let mut c = [0, 0, 0, 0, 0];
-            for trial in 1..=200 {
-                let curves =
-                    curves(duration, intervals, members, 100_000 * trial + 1_000_000_000 * (k as u64 + 1));
-                if let Ok(fit) = TransientFit::new(
-                    &curves,
-                    &FitSettings { largest_residual: 0.3, ..FitSettings::default() },
-                ) {
-                    c[0] += u32::from(fit.steady_speed().contains(truth.steady_speed().value));
-                    c[1] += u32::from(fit.time_constant().contains(truth.time_constant().value));
-                    c[2] += u32::from(fit.steady_speed().contains(own.steady_speed().value));
-                    c[3] += u32::from(fit.time_constant().contains(own.time_constant().value));
-                    c[4] += 1;
-                }
-            }
-            println!(
-                "{duration} {intervals} {members} {:?} {:?} {c:?} of 200",
-                own.steady_speed(),
-                own.time_constant()
-            );
-        }
+        println!("{members} members: {covered:?}");
+        assert!(covered.iter().all(|&count| count >= 90), "{members}: {covered:?}");
     }
 }
