@@ -9,7 +9,7 @@ use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{Mode, SlipDirection};
 use crate::motion::transition::{EventKind, ModeKind, Transition};
 use crate::motor::ensemble::Spread;
-use crate::motor::estimate::Estimate;
+use crate::motor::interval_estimate::IntervalEstimate;
 use crate::motor::fit::{ExponentialFit, RampFit};
 use crate::motor::statistics::MotorStatistics;
 use crate::parameters::disk::Disk;
@@ -44,7 +44,7 @@ fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
     move |value| Number { value, digits }
 }
 
-impl Display for Estimate {
+impl Display for IntervalEstimate {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let n = numbers(f);
         write!(f, "{} (95 %: {} to {})", n(self.value), n(self.low), n(self.high))
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn an_estimate_shows_its_interval() {
-        let estimate = Estimate { value: 12.3456, low: 11.0, high: 1.3e8 };
+        let estimate = IntervalEstimate { value: 12.3456, low: 11.0, high: 1.3e8 };
         assert_eq!(format!("{estimate:.3}"), "12.3 (95 %: 11 to 1.3e8)");
     }
 }

@@ -22,7 +22,7 @@
 //! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | the motor | [`transient`], [`transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
-//! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`Estimate`], [`FitRefusal`] |
+//! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
@@ -74,7 +74,7 @@ pub use motor::braking_fit::{BrakingFit, BrakingRotor};
 pub use motor::ensemble::{
     MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members, ensemble_observed,
 };
-pub use motor::estimate::Estimate;
+pub use motor::interval_estimate::IntervalEstimate;
 pub use motor::fit::{ExponentialFit, RampFit};
 pub use motor::fit_refusal::FitRefusal;
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};

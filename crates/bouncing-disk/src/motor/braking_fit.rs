@@ -9,7 +9,7 @@ use crate::error::{Error, check, not_negative, positive, within_limit};
 use crate::motor::brake::{Braking, friction_from_braking};
 use crate::motor::correlation::correlation_time;
 use crate::motor::ensemble::MAX_SPEEDS;
-use crate::motor::estimate::{Estimate, student_quantile};
+use crate::motor::interval_estimate::{IntervalEstimate, student_quantile};
 use crate::motor::fit::check_curve;
 use crate::motor::fit_refusal::FitRefusal;
 
@@ -94,10 +94,10 @@ impl BrakingRotor {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedFit"))]
 pub struct BrakingFit {
     /// Angular deceleration -alpha_brake (rad/s^2), positive whichever way the disk turns.
-    pub deceleration: Estimate,
+    pub deceleration: IntervalEstimate,
     /// Coefficient of friction mu, by Eq. (17). Its interval is that of the deceleration: what is uncertain of the
     /// rotor is not in it.
-    pub friction: Estimate,
+    pub friction: IntervalEstimate,
     /// Last time of the sliding part (s), which begins with the first point.
     pub sliding_until: f64,
     /// Points of the sliding part.
@@ -109,8 +109,8 @@ pub struct BrakingFit {
 }
 
 read_checked!(BrakingFit as UncheckedFit {
-    deceleration: Estimate,
-    friction: Estimate,
+    deceleration: IntervalEstimate,
+    friction: IntervalEstimate,
     sliding_until: f64,
     points: usize,
     correlation_time: f64,
@@ -179,8 +179,8 @@ impl BrakingFit {
             return refused(FitRefusal::NotBraking { deceleration, low });
         }
         let [deceleration, low, high] = [deceleration, low, deceleration + reach].map(|own| own * slope_unit);
-        let deceleration = Estimate::about(deceleration, low, high)?;
-        let friction = Estimate::about(
+        let deceleration = IntervalEstimate::about(deceleration, low, high)?;
+        let friction = IntervalEstimate::about(
             rotor.friction(deceleration.value)?,
             rotor.friction(deceleration.low)?,
             rotor.friction(deceleration.high)?,

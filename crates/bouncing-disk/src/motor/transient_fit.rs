@@ -18,7 +18,7 @@ use self::resamples::{Intervals, Resampled, Resamples};
 use self::shape_grid::{ShapeGrid, exponential, ramp};
 use crate::error::{Error, check, not_negative, positive, within_limit};
 use crate::motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS};
-use crate::motor::estimate::Estimate;
+use crate::motor::interval_estimate::IntervalEstimate;
 use crate::motor::fit::{ExponentialFit, RampFit, check_curve};
 use crate::motor::fit_refusal::FitRefusal;
 use crate::motor::statistics::RiseForm;
@@ -97,13 +97,13 @@ read_checked!(FitSettings as UncheckedSettings {
 pub struct RiseEstimate {
     /// Steady speed alpha_ss (rad/s). It depends on the duration where the speed creeps on after the rise: it is
     /// the plateau up to the end of the curve.
-    pub steady_speed: Estimate,
+    pub steady_speed: IntervalEstimate,
     /// Time constant t_c of the exponential, or the time t_r at which the ramp ends (s). It depends on the duration
     /// where the rise has another form: it is the constant that is best on the whole for a curve of this length.
-    pub constant: Estimate,
+    pub constant: IntervalEstimate,
     /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not the load that
     /// stops the motor. It depends on the duration as both of its parts do.
-    pub stall_acceleration: Estimate,
+    pub stall_acceleration: IntervalEstimate,
     /// Root mean square of the residuals (rad/s).
     pub residual: f64,
 }
@@ -124,9 +124,9 @@ impl RiseEstimate {
 }
 
 read_checked!(RiseEstimate as UncheckedRise {
-    steady_speed: Estimate,
-    constant: Estimate,
-    stall_acceleration: Estimate,
+    steady_speed: IntervalEstimate,
+    constant: IntervalEstimate,
+    stall_acceleration: IntervalEstimate,
     residual: f64,
 });
 
@@ -193,20 +193,20 @@ impl TransientFit {
 
     /// Steady speed alpha_ss (rad/s) of the exponential.
     #[must_use]
-    pub const fn steady_speed(&self) -> Estimate {
+    pub const fn steady_speed(&self) -> IntervalEstimate {
         self.exponential.steady_speed
     }
 
     /// Time constant t_c (s) of the exponential.
     #[must_use]
-    pub const fn time_constant(&self) -> Estimate {
+    pub const fn time_constant(&self) -> IntervalEstimate {
         self.exponential.constant
     }
 
     /// The paper's stall acceleration alpha_ss/t_c (rad/s^2) of the exponential: an estimate, not the load that stops
     /// the motor.
     #[must_use]
-    pub const fn stall_acceleration(&self) -> Estimate {
+    pub const fn stall_acceleration(&self) -> IntervalEstimate {
         self.exponential.stall_acceleration
     }
 

@@ -69,7 +69,7 @@ fn fits_that_are_accepted_agree_whatever_the_duration() {
         }
     }
     let truth = TransientFit::new(&longest, &FitSettings::default()).expect("fitted");
-    let holding = |of: fn(&TransientFit) -> Estimate| {
+    let holding = |of: fn(&TransientFit) -> IntervalEstimate| {
         fits.iter().filter(|fit| of(fit).contains(of(&truth).value)).count()
     };
     let covered = [holding(TransientFit::steady_speed), holding(TransientFit::time_constant)];

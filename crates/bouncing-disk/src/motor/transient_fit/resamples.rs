@@ -6,7 +6,7 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 
 use super::shape_grid::{CONSTANTS, Rise, ShapeGrid};
 use crate::error::Error;
-use crate::motor::estimate::Estimate;
+use crate::motor::interval_estimate::IntervalEstimate;
 use crate::motor::fit_refusal::FitRefusal;
 
 /// The share of the resampled curves that may have no fit on the grid: less than the share beyond an end of the interval.
@@ -26,9 +26,9 @@ pub(super) trait Resampled {
 
 /// A fit with intervals: steady speed, constant and their quotient.
 pub(super) struct Intervals {
-    pub(super) steady_speed: Estimate,
-    pub(super) constant: Estimate,
-    pub(super) stall_acceleration: Estimate,
+    pub(super) steady_speed: IntervalEstimate,
+    pub(super) constant: IntervalEstimate,
+    pub(super) stall_acceleration: IntervalEstimate,
 }
 
 /// The fits of resampled curves.
@@ -72,14 +72,14 @@ impl Resamples {
             (value + self.widening * (low - centre), value + self.widening * (high - centre))
         };
         let (low, high) = about(steady * scale, &|rise| rise.steady);
-        let steady_speed = Estimate::about(steady, low / scale, high / scale)?;
+        let steady_speed = IntervalEstimate::about(steady, low / scale, high / scale)?;
         let (low, high) = about(ln(constant), &|rise| rise.log_constant);
-        let time_constant = Estimate::about(constant, exp(low), exp(high))?;
+        let time_constant = IntervalEstimate::about(constant, exp(low), exp(high))?;
         // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in it.
         let log = ln(constant);
         let (low, high) = about(steady * scale, &|rise| rise.steady * exp(log - rise.log_constant));
         let (low, high) = (low / scale / constant, high / scale / constant);
-        let stall_acceleration = Estimate::about(steady / constant, low, high)?;
+        let stall_acceleration = IntervalEstimate::about(steady / constant, low, high)?;
         Ok(Intervals { steady_speed, constant: time_constant, stall_acceleration })
     }
 

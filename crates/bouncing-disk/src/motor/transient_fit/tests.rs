@@ -314,7 +314,7 @@ fn curves_of_any_size_have_intervals() {
         let times: Vec<f64> = ordinary.iter().map(|value| value * time).collect();
         let runs: Vec<Vec<f64>> =
             runs.iter().map(|run| run.iter().map(|value| value * speed).collect()).collect();
-        let near = |own: Estimate, expected: Estimate, unit: f64| {
+        let near = |own: IntervalEstimate, expected: IntervalEstimate, unit: f64| {
             let (low, high) = if unit > 0.0 { (own.low, own.high) } else { (own.high, own.low) };
             for (own, expected) in [(own.value, expected.value), (low, expected.low), (high, expected.high)] {
                 assert!((own / unit / expected - 1.0).abs() < 1e-5, "{time} {speed}: {own} {expected}");

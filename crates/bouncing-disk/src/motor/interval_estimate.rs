@@ -24,8 +24,8 @@ const STUDENT_QUANTILES: [f64; 10] = [
 /// An estimated value and the 95 % interval about it, in the unit that stands with the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEstimate"))]
-pub struct Estimate {
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedIntervalEstimate"))]
+pub struct IntervalEstimate {
     /// The estimate, finite.
     pub value: f64,
     /// Lower end of the 95 % interval, finite, not above the value.
@@ -34,13 +34,13 @@ pub struct Estimate {
     pub high: f64,
 }
 
-read_checked!(Estimate as UncheckedEstimate {
+read_checked!(IntervalEstimate as UncheckedIntervalEstimate {
     value: f64,
     low: f64,
     high: f64,
 });
 
-impl Estimate {
+impl IntervalEstimate {
     fn check(&self) -> Result<(), Error> {
         finite("value", self.value)?;
         finite("low", self.low)?;
@@ -137,16 +137,16 @@ mod tests {
 
     #[test]
     fn an_interval_holds_its_value() {
-        let estimate = Estimate::about(2.0, 2.5, 1.0).expect("finite");
-        assert_eq!(estimate, Estimate { value: 2.0, low: 2.0, high: 2.0 });
+        let estimate = IntervalEstimate::about(2.0, 2.5, 1.0).expect("finite");
+        assert_eq!(estimate, IntervalEstimate { value: 2.0, low: 2.0, high: 2.0 });
         assert!(estimate.contains(2.0) && !estimate.contains(2.1) && !estimate.contains(f64::NAN));
-        let wide = Estimate { value: 1.0, low: 0.5, high: 2.0 };
+        let wide = IntervalEstimate { value: 1.0, low: 0.5, high: 2.0 };
         assert!(wide.agrees_with(&estimate) && estimate.agrees_with(&wide));
-        assert!(!wide.agrees_with(&Estimate { value: 3.0, low: 2.1, high: 4.0 }));
+        assert!(!wide.agrees_with(&IntervalEstimate { value: 3.0, low: 2.1, high: 4.0 }));
         for bad in [f64::NAN, f64::INFINITY] {
             assert!(
-                Estimate::about(bad, 0.0, 1.0).is_err()
-                    && Estimate::about(0.0, -1.0, bad.abs() + bad).is_err() == bad.is_infinite()
+                IntervalEstimate::about(bad, 0.0, 1.0).is_err()
+                    && IntervalEstimate::about(0.0, -1.0, bad.abs() + bad).is_err() == bad.is_infinite()
             );
         }
     }
@@ -154,10 +154,10 @@ mod tests {
     #[cfg(feature = "serde")]
     #[test]
     fn an_estimate_that_is_read_is_legal() {
-        let estimate = Estimate { value: 2.0, low: 1.5, high: 2.5 };
+        let estimate = IntervalEstimate { value: 2.0, low: 1.5, high: 2.5 };
         let text = serde_json::to_string(&estimate).expect("writes");
-        assert_eq!(serde_json::from_str::<Estimate>(&text).expect("legal"), estimate);
-        assert!(serde_json::from_str::<Estimate>(&text.replace("1.5", "2.25")).is_err());
-        assert!(serde_json::from_str::<Estimate>(&text.replace("2.5", "1.75")).is_err());
+        assert_eq!(serde_json::from_str::<IntervalEstimate>(&text).expect("legal"), estimate);
+        assert!(serde_json::from_str::<IntervalEstimate>(&text.replace("1.5", "2.25")).is_err());
+        assert!(serde_json::from_str::<IntervalEstimate>(&text.replace("2.5", "1.75")).is_err());
     }
 }
