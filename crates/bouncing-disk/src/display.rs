@@ -10,6 +10,7 @@ use crate::motion::state::{Mode, SlipDirection};
 use crate::motion::transition::{EventKind, ModeKind, Transition};
 use crate::motor::ensemble::Spread;
 use crate::motor::fit::{ExponentialFit, RampFit};
+use crate::motor::interval_estimate::IntervalEstimate;
 use crate::motor::statistics::MotorStatistics;
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
@@ -51,6 +52,13 @@ pub(crate) fn rough(value: f64) -> impl Display {
 fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
     let digits = f.precision().unwrap_or(DIGITS);
     move |value| Number { value, digits }
+}
+
+impl Display for IntervalEstimate {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(f, "{} (95 %: {} to {})", n(self.value), n(self.low), n(self.high))
+    }
 }
 
 impl Display for Platform {
@@ -313,5 +321,11 @@ mod tests {
         for value in [f64::NAN, f64::INFINITY, 0.0, -1e300] {
             assert!(!Number { value, digits: 3 }.to_string().is_empty());
         }
+    }
+
+    #[test]
+    fn an_estimate_shows_its_interval() {
+        let estimate = IntervalEstimate { value: 12.3456, low: 11.0, high: 1.3e8 };
+        assert_eq!(format!("{estimate:.3}"), "12.3 (95 %: 11 to 1.3e8)");
     }
 }

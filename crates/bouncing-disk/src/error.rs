@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::motor::fit_refusal::FitRefusal;
+
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation.
@@ -81,6 +83,12 @@ pub enum Error {
         one: &'static str,
         /// The name of the second.
         other: &'static str,
+    },
+    /// A curve gives no fit that could be trusted.
+    #[error("the curve is not fitted: {reason}")]
+    FitRefused {
+        /// Why, with the numbers.
+        reason: FitRefusal,
     },
     /// An error of the math core.
     #[error(transparent)]

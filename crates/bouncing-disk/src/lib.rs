@@ -23,6 +23,8 @@
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | the motor | [`transient`], [`transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
+//! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
+//! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
 //! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`; `StorageError` |
@@ -35,6 +37,7 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
+//! | `csv` | no | measured speeds from comma-separated files |
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
 //! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
@@ -70,6 +73,7 @@ pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot}
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
 pub use motor::brake::{Braking, friction_from_braking};
+pub use motor::braking_fit::{BrakingFit, BrakingRotor};
 pub use motor::data_sheet::Motor;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use motor::data_sheet::file::MotorFileError;
@@ -81,13 +85,19 @@ pub use motor::ensemble::{
     MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members, ensemble_observed,
 };
 pub use motor::fit::{ExponentialFit, RampFit};
+pub use motor::fit_refusal::FitRefusal;
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
+pub use motor::interval_estimate::IntervalEstimate;
+#[cfg(feature = "csv")]
+pub use motor::measured_speeds::error::MeasuredSpeedsError;
+pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
 };
 pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
+pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
 pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};

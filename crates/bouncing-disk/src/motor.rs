@@ -1,11 +1,16 @@
-//! The motor: its data sheet, speed transients, ensembles of them and their statistics, fits, the balance of the impulse,
-//! stall, and braking.
+//! The motor: its data sheet, its steady operation under a load, speed transients and ensembles of them, fits with and
+//! without intervals, the balance of the impulse, stall, and braking.
 
 pub(crate) mod brake;
+pub(crate) mod braking_fit;
+pub(crate) mod correlation;
 pub(crate) mod data_sheet;
 pub(crate) mod ensemble;
 pub(crate) mod fit;
+pub(crate) mod fit_refusal;
 pub(crate) mod impulse;
+pub(crate) mod interval_estimate;
+pub(crate) mod measured_speeds;
 pub(crate) mod operation;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
@@ -13,4 +18,5 @@ pub(crate) mod shared_orbit;
 pub(crate) mod stall;
 pub(crate) mod statistics;
 pub(crate) mod transient;
+pub(crate) mod transient_fit;
 pub(crate) mod transients;

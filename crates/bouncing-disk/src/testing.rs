@@ -94,3 +94,30 @@ pub(crate) fn motion() -> impl Strategy<Value = (DimensionlessSystem, InitialCon
         (Just(system), start(system), Just(policy))
     })
 }
+
+/// Seeded normal numbers, for data that are labelled synthetic.
+pub(crate) struct Noise(bouncing_disk_core::numerics::random::SplitMix64);
+
+impl Noise {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(bouncing_disk_core::numerics::random::SplitMix64::new(seed))
+    }
+
+    /// The next number of mean 0 and deviation 1 (Box and Muller).
+    pub(crate) fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * bouncing_disk_core::elementary::ln(1.0 - self.0.unit())).sqrt();
+        radius * bouncing_disk_core::elementary::cos(TAU * self.0.unit())
+    }
+
+    /// Numbers of deviation 1 of which each remembers the share `memory` of the one before.
+    pub(crate) fn correlated(&mut self, count: usize, memory: f64) -> Vec<f64> {
+        let mut value = self.normal();
+        let fresh = (1.0 - memory * memory).sqrt();
+        (0..count)
+            .map(|_| {
+                value = memory * value + fresh * self.normal();
+                value
+            })
+            .collect()
+    }
+}

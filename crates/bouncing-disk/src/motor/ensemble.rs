@@ -67,7 +67,8 @@ pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// An ensemble of transients of one motor.
 ///
-/// One that is read has members, and a fit for each.
+/// One that is read has members, and a fit for each. Their fits mean nothing where the duration is too short or the
+/// sampling too coarse: [`TransientFit`](crate::TransientFit) of the curves says so, and fits their mean.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedEnsemble"))]

@@ -19,6 +19,9 @@ const WIDEST_STEP: f64 = 1.0;
 const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
+///
+/// It fits whatever it is given, and says nothing of its error: [`TransientFit`](crate::TransientFit) has intervals, and
+/// refuses curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedExponentialFit"))]
@@ -72,6 +75,13 @@ impl ExponentialFit {
         Ok(Self { steady_speed, time_constant, residual })
     }
 
+    /// The shortest and the longest time constant (s) that the search reaches for these times.
+    pub(crate) fn searched(times: &[f64]) -> (f64, f64) {
+        let last = times[times.len() - 1];
+        let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(last);
+        (0.1 * first, 100.0 * last)
+    }
+
     /// The fitted speed (rad/s) at `time` (s).
     #[must_use]
     pub fn speed(&self, time: f64) -> f64 {
@@ -92,6 +102,8 @@ impl ExponentialFit {
 }
 
 /// The fit of alpha_ss min(t/t_r, 1): the piecewise linear rise of low-period chattering orbits (Fig. 12).
+///
+/// [`TransientFit`](crate::TransientFit) compares it with the exponential, with intervals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedRampFit"))]
@@ -131,10 +143,13 @@ impl RampFit {
     /// # Errors
     /// As [`ExponentialFit::new_observed`].
     pub fn new_observed(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
-        observed(observer, |work| {
-            let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0), work)?;
-            Ok(Self { steady_speed, rise_time, residual })
-        })
+        observed(observer, |work| Self::counted(times, speeds, work))
+    }
+
+    /// [`Self::new`] as a part of a longer call.
+    pub(crate) fn counted(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<Self, Error> {
+        let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0), work)?;
+        Ok(Self { steady_speed, rise_time, residual })
     }
 
     /// The fitted speed (rad/s) at `time` (s).

@@ -1,0 +1,138 @@
+//! Why a fit was refused.
+
+/// Why a curve gives no fit that could be trusted. Every reason carries the numbers that it was judged by.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitRefusal {
+    /// The curve has too few points.
+    #[error("it has {points} points where {least} are needed: sample it more often")]
+    TooFewPoints {
+        /// Points of the curve, or of its part that counts.
+        points: usize,
+        /// The fewest that are fitted.
+        least: usize,
+    },
+    /// There are too few members for their scatter to say what the error is.
+    #[error(
+        "it has {members} members where {least} are needed: compute more, or fit a single curve as a measured one"
+    )]
+    TooFewMembers {
+        /// Members that were given.
+        members: usize,
+        /// The fewest that are resampled.
+        least: usize,
+    },
+    /// The curve does not rise: its fitted steady speed is zero, and a time constant has no meaning.
+    #[error(
+        "the speed stays zero, so that there is no time constant: take a smaller load or a stronger stator"
+    )]
+    NoRise,
+    /// The fitted time constant lies where the search for it ends: the curve does not determine it.
+    #[error(
+        "the time constant {time_constant:?} s lies at the limit of its search, {shortest:?} to {longest:?} s: the \
+         speed is a straight line or constant, so take another duration"
+    )]
+    AtSearchLimit {
+        /// Fitted time constant t_c (s).
+        time_constant: f64,
+        /// Lower limit of the search (s).
+        shortest: f64,
+        /// Upper limit of the search (s).
+        longest: f64,
+    },
+    /// The curve ends before its speed has settled.
+    #[error(
+        "its duration {duration:?} s is less than {least:?} times the time constant, which is or may be {time_constant:?} \
+         s: take a longer one"
+    )]
+    TooShort {
+        /// Last time of the curve (s).
+        duration: f64,
+        /// Time constant t_c (s): the fitted one, or, where `least` is 1, the upper end of its interval.
+        time_constant: f64,
+        /// The fewest time constants that a curve must last.
+        least: f64,
+    },
+    /// The curve has too few points while its speed rises.
+    #[error(
+        "only {points} of its points lie within the time constant {time_constant:?} s where {least} are needed: take \
+         shorter intervals, or a shorter duration"
+    )]
+    TooCoarse {
+        /// Points up to the fitted time constant.
+        points: usize,
+        /// Fitted time constant t_c (s).
+        time_constant: f64,
+        /// The fewest points.
+        least: usize,
+    },
+    /// The members hardly fly within the time constant: what looks like a plateau is a flight, during which no speed changes.
+    #[error(
+        "{flights:?} flights within the time constant {time_constant:?} s are too few where {least:?} are needed: what \
+         looks like a plateau is a flight, so take a longer duration"
+    )]
+    TooFewFlights {
+        /// Flights of a member within the time constant, on average.
+        flights: f64,
+        /// Fitted time constant t_c (s).
+        time_constant: f64,
+        /// The fewest flights.
+        least: f64,
+    },
+    /// The curve has another form, or scatters too much.
+    #[error(
+        "its residual {residual:?} rad/s is more than {largest:?} of the steady speed {steady_speed:?} rad/s: take \
+         more members, or allow a larger residual"
+    )]
+    Residual {
+        /// Root mean square of the residuals (rad/s).
+        residual: f64,
+        /// Fitted steady speed alpha_ss (rad/s).
+        steady_speed: f64,
+        /// The largest share of the steady speed that is accepted.
+        largest: f64,
+    },
+    /// The residuals remember each other for so long that the curve holds too few independent ones.
+    #[error(
+        "its residuals are correlated over {correlated_points:?} of its {points} points, too many to tell the error: \
+         take a longer curve or repeat it"
+    )]
+    Correlated {
+        /// Integrated correlation time of the residuals, in points.
+        correlated_points: f64,
+        /// Points of the curve, or of its part that counts.
+        points: usize,
+    },
+    /// Many of the resampled curves have no time constant near that of the curve.
+    #[error(
+        "{astray} of {resamples} resampled curves have a time constant five times as long or as short: take more \
+         members or a longer duration"
+    )]
+    Undetermined {
+        /// Resampled curves whose time constant is out of reach.
+        astray: usize,
+        /// All resampled curves.
+        resamples: usize,
+    },
+    /// The speed does not fall, or its fall is not told apart from none.
+    #[error(
+        "the deceleration {deceleration:?} rad/s^2 is not above zero by its interval, which begins at {low:?} rad/s^2"
+    )]
+    NotBraking {
+        /// Fitted angular deceleration (rad/s^2).
+        deceleration: f64,
+        /// Lower end of its 95 % interval (rad/s^2).
+        low: f64,
+    },
+    /// The speed does not fall along a straight line.
+    #[error(
+        "the deceleration changes from {first_half:?} to {last_half:?} rad/s^2 while the disk slides: give the part \
+         of the curve in which nothing but friction brakes"
+    )]
+    NotStraight {
+        /// Angular deceleration in the first half of the sliding part (rad/s^2).
+        first_half: f64,
+        /// Angular deceleration in its last half (rad/s^2).
+        last_half: f64,
+    },
+}

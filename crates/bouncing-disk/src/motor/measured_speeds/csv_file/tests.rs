@@ -1,0 +1,184 @@
+use std::fs;
+
+use super::*;
+
+fn read(text: impl AsRef<[u8]>) -> Result<MeasuredSpeeds, Fault> {
+    MeasuredSpeeds::from_csv_reader("demo.csv", text.as_ref())
+}
+
+fn fault(text: impl AsRef<[u8]>) -> String {
+    read(text).expect_err("malformed").to_string()
+}
+
+fn fault_of(line: &str) -> String {
+    fault(format!("time_s,speed_rad_s\n0,0\n{line}\n"))
+}
+
+const PLAIN: &str = "time_s,speed_rad_s\n0,0\n0.5,3.25\n1e0,-4e-1\n";
+
+#[test]
+fn plain_values_are_read_in_any_dress() {
+    let expected = read(PLAIN).expect("well formed");
+    let run = MeasuredRun { member: 0, times: vec![0.0, 0.5, 1.0], speeds: vec![0.0, 3.25, -0.4] };
+    assert_eq!(expected.runs(), [run]);
+    for text in [
+        format!("\u{feff}{PLAIN}"),
+        PLAIN.replace('\n', "\r\n"),
+        format!("\u{feff}{}", PLAIN.replace('\n', "\r\n")),
+        PLAIN.trim_end().to_owned(),
+        format!("# of 3 May\n\n{}\n   \n# the end; really\n", PLAIN.replace('\n', "\n\n# remark\n")),
+        "\"time_s\", \"speed_rad_s\" \n 0 ,\"0\"\n\"0.5\", \"3.25\"\n1e0,-0.4\n".to_owned(),
+        "speed_rad_s,time_s\n0,0\n3.25,0.5\n-0.4,1\n".to_owned(),
+        "time_s,member,speed_rad_s\n0,0,-0\n0.5,0,3.25\n1,0,-0.4\n".to_owned(),
+    ] {
+        assert_eq!(read(&text).unwrap_or_else(|error| panic!("{text:?}: {error}")), expected, "{text:?}");
+    }
+}
+
+#[test]
+fn runs_follow_each_other_or_alternate() {
+    let follow = "member,time_s,speed_rad_s\n7,0,1\n7,1,2\n7,2,3\n2,0,4\n2,1,5\n2,2,6\n";
+    let alternate = "member,time_s,speed_rad_s\n2,0,4\n7,0,1\n2,1,5\n7,1,2\n7,2,3\n2,2,6\n";
+    let runs = read(follow).expect("well formed");
+    assert_eq!(runs, read(alternate).expect("well formed"));
+    assert_eq!(runs.runs().iter().map(|run| run.member).collect::<Vec<_>>(), [2, 7]);
+    assert_eq!(runs.runs()[0].speeds, [4.0, 5.0, 6.0]);
+}
+
+#[test]
+fn a_wrong_header_is_named() {
+    let legal = "time_s, speed_rad_s and, for repeated runs, member";
+    assert_eq!(fault(""), format!("\"demo.csv\" is empty; its first line must name the columns: {legal}"));
+    assert_eq!(fault("\u{feff}"), fault(""));
+    assert_eq!(fault("\n# nothing\r\n\r\n"), fault(""));
+    assert_eq!(
+        fault("time_s,speed\n0,0\n"),
+        format!(
+            "\"demo.csv\", line 1, field 2: there is no column \"speed\"; legal are {legal}. Remove the column, or put a # \
+             before a line of remarks"
+        )
+    );
+    assert_eq!(
+        fault("# mine\ntime_s,member\n0,0\n"),
+        "\"demo.csv\", line 2: the column \"speed_rad_s\" is missing; the header must have time_s and speed_rad_s"
+    );
+    assert!(fault("speed_rad_s\n0\n").contains("the column \"time_s\" is missing"));
+    assert!(fault("time_s,speed_rad_s,time_s\n").contains("field 3: the column \"time_s\" is there again"));
+    assert!(fault("time_s;speed_rad_s\n0;0\n").contains("line 1: the columns are separated by ';'"));
+    assert!(fault("time_s\tspeed_rad_s\n0\t0\n").contains("line 1: the columns are separated by '\\t'"));
+    // Numbers without a header.
+    assert!(fault("0,1\n1,2\n").contains("line 1, field 1: there is no column \"0\""));
+    // The text of a file is shown without doing anything.
+    assert!(fault("time_s,\u{1b}]0;x\u{7}\n").contains("separated by ';'"));
+    assert!(fault("time_s,\u{1b}[2J\n").contains("\"\\u{1b}[2J\""));
+    assert!(fault(format!("time_s,{}\n", "x".repeat(5_000))).len() < 300);
+}
+
+#[test]
+fn a_wrong_line_is_named_with_what_to_do() {
+    assert_eq!(
+        fault_of("0.1,fast"),
+        "\"demo.csv\", line 3, field 2 (speed_rad_s): \"fast\" is not legal; legal is a finite number (rad/s)"
+    );
+    for text in ["", "NaN", "inf", "-infinity", "1e999", "1e-400", "0x10", "1 2", "1.2.3", "−1"] {
+        assert!(fault_of(&format!("0.1,{text}")).contains("line 3, field 2 (speed_rad_s)"), "{text}");
+        assert!(fault_of(&format!("{text},1")).contains("line 3, field 1 (time_s)"), "{text}");
+    }
+    assert!(fault_of("-0.1,1").contains("legal is a number, finite and not negative (s)"));
+    assert_eq!(
+        fault_of("\"0,5\",1"),
+        "\"demo.csv\", line 3, field 1 (time_s): \"0,5\" has a decimal comma; write a decimal point"
+    );
+    assert_eq!(
+        fault_of("0,5,1,25"),
+        "\"demo.csv\", line 3: it has 4 fields where the header has 2; write numbers with a decimal point, not a comma"
+    );
+    assert!(fault_of("0.5").contains("it has 1 fields where the header has 2"));
+    assert!(fault_of("0,5;1,25").contains("line 3: the columns are separated by ';'"));
+    assert!(fault_of("0.5,\"1").contains("line 3, field 2: a quotation mark is not closed"));
+    assert!(fault_of("0.5,\"1\n2\"").contains("line 3, field 2: a quotation mark is not closed"));
+    for member in ["-1", "1.5", "4294967296", "", "a"] {
+        let text = format!("time_s,speed_rad_s,member\n0,0,{member}\n");
+        assert!(fault(text).contains("line 2, field 3 (member)"), "{member}");
+    }
+}
+
+#[test]
+fn times_that_do_not_rise_are_named() {
+    for (time, told) in [("0.25", "0.25"), ("0.5", "0.5"), ("0", "0.0")] {
+        assert_eq!(
+            fault(format!("time_s,speed_rad_s\n0,0\n\n0.5,1\n{time},2\n")),
+            format!(
+                "\"demo.csv\", line 5, field 1 (time_s): {told} follows 0.5 in the run of member 0; sort the lines by time, \
+                 remove repeated ones, or number the runs in a column member"
+            )
+        );
+    }
+    let runs = "member,time_s,speed_rad_s\n1,0,0\n2,5,0\n1,1,0\n2,5,0\n";
+    assert!(fault(runs).contains("line 5, field 2 (time_s): 5.0 follows 5.0 in the run of member 2"));
+}
+
+#[test]
+fn too_little_and_other_encodings_are_refused() {
+    assert!(
+        fault("time_s,speed_rad_s\n")
+            .contains("the run of member 0 has 0 lines of numbers where 3 are needed")
+    );
+    assert!(fault("time_s,speed_rad_s\n0,0\n1,1\n").contains("has 2 lines"));
+    assert!(
+        fault("member,time_s,speed_rad_s\n1,0,0\n1,1,0\n1,2,0\n9,0,0\n").contains("member 9 has 1 lines")
+    );
+    assert!(fault(b"time_s,speed_rad_s\n0,\xb5\n").contains("line 2: byte 3 is not text in UTF-8"));
+    assert!(fault(b"\xff\xfet\0i\0").contains("line 1: byte 1 is not text in UTF-8"));
+}
+
+#[test]
+fn a_million_lines_are_read_and_a_huge_line_is_not() {
+    let mut text = String::from("time_s,speed_rad_s\n");
+    for i in 0..1_000_000 {
+        text.push_str(&format!("{}.{:06},12.5\n", i / 1_000_000, i % 1_000_000));
+    }
+    let read_back = read(&text).expect("well formed");
+    let run = &read_back.runs()[0];
+    assert_eq!((run.times.len(), run.times[999_999], run.speeds[500_000]), (1_000_000, 0.999_999, 12.5));
+    for sign in [",", "0", "\""] {
+        let text = format!("time_s,speed_rad_s\n{}\n", sign.repeat(1 << 22));
+        assert!(fault(text).contains("line 2: it is longer than 65536 bytes"), "{sign}");
+    }
+    let endless = MeasuredSpeeds::from_csv_reader("endless", io::repeat(b'0')).expect_err("never ends");
+    assert!(matches!(endless, Fault::Unreadable { .. }), "{endless}");
+    let text = "0,0\n".repeat(20 << 20);
+    assert!(matches!(read(text), Err(Fault::Unreadable { .. })), "80 MiB");
+}
+
+#[test]
+fn only_regular_files_are_read() {
+    let folder = std::env::temp_dir().join(format!("bouncing-disk-speeds-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("writable");
+    let file = folder.join("speeds.csv");
+    fs::write(&file, PLAIN).expect("writable");
+    assert_eq!(MeasuredSpeeds::from_csv(&file).expect("well formed"), read(PLAIN).expect("well formed"));
+    fs::write(&file, "time_s\n").expect("writable");
+    let told = MeasuredSpeeds::from_csv(&file).expect_err("malformed").to_string();
+    assert!(told.contains("speeds.csv\", line 1"), "{told}");
+    let reason = |path: &Path| match MeasuredSpeeds::from_csv(path) {
+        Err(Fault::Unreadable { source, .. }) => source,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(reason(&folder.join("none.csv")).kind(), io::ErrorKind::NotFound);
+    assert_eq!(reason(&folder).to_string(), "it is a folder; legal is a regular file");
+    #[cfg(unix)]
+    {
+        let told = reason(Path::new("/dev/zero")).to_string();
+        assert_eq!(told, "it is a pipe, socket or device; legal is a regular file");
+        let socket = folder.join("socket");
+        let _socket = std::os::unix::net::UnixListener::bind(&socket).expect("writable");
+        assert_eq!(reason(&socket).to_string(), "it is a pipe, socket or device; legal is a regular file");
+        // A named pipe would wait for a writer for ever; only a program of the system makes one.
+        let pipe = folder.join("pipe");
+        if std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
+            assert_eq!(reason(&pipe).to_string(), "it is a pipe, socket or device; legal is a regular file");
+        }
+    }
+    fs::remove_dir_all(folder).expect("removable");
+}

@@ -1,0 +1,206 @@
+//! What can be wrong with a file of measured speeds. These errors are not among those of [`Error`], which can be copied and
+//! compared: texts of a file can not.
+
+use crate::error::Error;
+
+/// A fault in a file of measured speeds, with what to do about it. Lines and fields are counted from 1; texts of files are
+/// shortened, and shown as they are escaped in Rust, so that none can disturb a terminal.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeasuredSpeedsError {
+    /// The system refuses, or what is there is no regular file or too large.
+    #[error("{file:?} cannot be read")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// What was reported.
+        source: std::io::Error,
+    },
+    /// The file is not text in UTF-8.
+    #[error("{file:?}, line {line}: byte {byte} is not text in UTF-8; save the file as UTF-8")]
+    NotText {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The byte in the line.
+        byte: usize,
+    },
+    /// A line is longer than any of numbers.
+    #[error("{file:?}, line {line}: it is longer than {most} bytes; end each line of numbers by a line end")]
+    LongLine {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The most bytes of a line.
+        most: usize,
+    },
+    /// There is no header.
+    #[error("{file:?} is empty; its first line must name the columns: {legal}", legal = super::csv_file::HEADER)]
+    Empty {
+        /// The file.
+        file: String,
+    },
+    /// The columns are not separated by commas.
+    #[error(
+        "{file:?}, line {line}: the columns are separated by {separator:?}; separate them by commas, and write numbers \
+         with a decimal point"
+    )]
+    Separator {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// What separates them.
+        separator: char,
+    },
+    /// A quotation mark begins a field and nothing ends it on the line.
+    #[error(
+        "{file:?}, line {line}, field {field}: a quotation mark is not closed on its line; close or remove it"
+    )]
+    OpenQuote {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The field.
+        field: usize,
+    },
+    /// The header has a name that is not known.
+    #[error(
+        "{file:?}, line {line}, field {field}: there is no column {name:?}; legal are {legal}. Remove the column, or \
+         put a # before a line of remarks",
+        legal = super::csv_file::HEADER
+    )]
+    UnknownColumn {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The field.
+        field: usize,
+        /// The name found, shortened.
+        name: String,
+    },
+    /// The header has a name twice.
+    #[error(
+        "{file:?}, line {line}, field {field}: the column {name:?} is there again; remove one of the two"
+    )]
+    RepeatedColumn {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The second field of the name.
+        field: usize,
+        /// The name.
+        name: &'static str,
+    },
+    /// The header lacks a name.
+    #[error(
+        "{file:?}, line {line}: the column {name:?} is missing; the header must have time_s and speed_rad_s"
+    )]
+    MissingColumn {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The name.
+        name: &'static str,
+    },
+    /// A line has more or fewer fields than the header.
+    #[error(
+        "{file:?}, line {line}: it has {fields} fields where the header has {columns}; write numbers with a decimal \
+         point, not a comma"
+    )]
+    Fields {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// Fields of the line.
+        fields: usize,
+        /// Columns of the header.
+        columns: usize,
+    },
+    /// A number is written with a decimal comma.
+    #[error(
+        "{file:?}, line {line}, field {field} ({name}): {value:?} has a decimal comma; write a decimal point"
+    )]
+    DecimalComma {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The field.
+        field: usize,
+        /// The name of the column.
+        name: &'static str,
+        /// The text of the field, shortened.
+        value: String,
+    },
+    /// A field is no number, or none that is legal in its column.
+    #[error("{file:?}, line {line}, field {field} ({name}): {value:?} is not legal; legal is {legal}")]
+    NotLegal {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The field.
+        field: usize,
+        /// The name of the column.
+        name: &'static str,
+        /// The text of the field, shortened.
+        value: String,
+        /// The legal values.
+        legal: &'static str,
+    },
+    /// A time does not rise within its run.
+    #[error(
+        "{file:?}, line {line}, field {field} (time_s): {time:?} follows {previous:?} in the run of member {member}; sort \
+         the lines by time, remove repeated ones, or number the runs in a column member"
+    )]
+    NotRising {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The field.
+        field: usize,
+        /// The time (s).
+        time: f64,
+        /// The one before it in the run (s).
+        previous: f64,
+        /// The number of the run; 0 where there is only one.
+        member: u32,
+    },
+    /// A run has too few lines.
+    #[error(
+        "{file:?}: the run of member {member} has {points} lines of numbers where {least} are needed; add lines, or remove \
+         the run"
+    )]
+    TooFewPoints {
+        /// The file.
+        file: String,
+        /// The number of the run; 0 where there is only one.
+        member: u32,
+        /// Its lines.
+        points: usize,
+        /// The fewest.
+        least: usize,
+    },
+    /// There are more lines of numbers than are read.
+    #[error("{file:?}, line {line}: there are more than {most} lines of numbers; average neighbouring ones")]
+    TooLong {
+        /// The file.
+        file: String,
+        /// The first line too many.
+        line: usize,
+        /// The most.
+        most: usize,
+    },
+    /// An error of the model.
+    #[error(transparent)]
+    Model(#[from] Error),
+}
