@@ -19,7 +19,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, Phase, Vibration};
     /// // On a still platform the flights after an impact at speed v last (5/2) v^(4/5) together, where x = v^(1/5).
-    /// let law = KuwabaraKono::new(0.5, 0.63298)?;
+    /// let law = KuwabaraKono::new(0.5, 0.25)?;
     /// let map = ImpactMap::with_law(Vibration::new(0.0)?, law);
     /// let bound = map.comes_to_rest_within(ImpactState::new(Phase::new(1.0)?, -1e-5)?).expect("still");
     /// assert!((bound - 2.5e-4).abs() < 1e-8);

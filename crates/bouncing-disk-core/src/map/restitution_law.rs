@@ -44,8 +44,8 @@ pub trait RestitutionLaw: Clone + Debug {
     /// A value outside its range, or none, ends the motion with [`Error::IllegalRestitution`] at that impact.
     fn restitution(&self, impact_speed: f64) -> f64;
 
-    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). At speed 0 it may be infinite: there
-    /// it counts only in the product with the speed, which is taken as 0.
+    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal number, at speed
+    /// 0 above all, it may be infinite: what counts is its product with the speed, which is taken as 0 there.
     fn derivative(&self, impact_speed: f64) -> f64;
 
     /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this speed,
@@ -155,7 +155,7 @@ pub(crate) fn restitution_of<L: RestitutionLaw>(law: &L, impact_speed: f64) -> R
 /// The derivative of the launch speed r(v) v by the impact speed v, which is the restitution of a constant law.
 pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Result<f64, Error> {
     let restitution = restitution_of(law, impact_speed)?;
-    if law.constant(Internal).is_some() || impact_speed <= 0.0 {
+    if law.constant(Internal).is_some() || impact_speed < f64::MIN_POSITIVE {
         return Ok(restitution);
     }
     let slope = restitution + impact_speed * law.derivative(impact_speed);
@@ -165,7 +165,7 @@ pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Res
         Err(Error::OutOfRange {
             field: "derivative of the launch speed by the impact speed",
             value: slope,
-            legal: "finite, as the derivative of a law of restitution is above speed 0",
+            legal: "finite, for a law of restitution has a derivative above speed 0",
         })
     }
 }

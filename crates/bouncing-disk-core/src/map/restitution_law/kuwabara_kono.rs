@@ -24,7 +24,7 @@ const NEWTON_STEPS: u32 = 20;
 /// // Half of the speed is left at |w_A| = 2 g/omega, more of it at lower speeds.
 /// let law = KuwabaraKono::new(0.5, 2.0)?;
 /// assert!((law.restitution(2.0) - 0.5).abs() < 1e-15);
-/// assert!(law.restitution(0.02) > 0.75 && law.restitution(0.0) == 1.0);
+/// assert!(law.restitution(0.02) > 0.7 && law.restitution(0.0) == 1.0);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,9 +70,10 @@ impl KuwabaraKono {
         self.reference_speed
     }
 
-    /// x of r + x r^(3/5) = 1.
+    /// x of r + x r^(3/5) = 1; where no double holds it, the largest one, at which no rebound is left.
     fn dissipation(&self, impact_speed: f64) -> f64 {
-        self.scale * pow(impact_speed, 0.2)
+        let x = self.scale * pow(impact_speed, 0.2);
+        if x > f64::MAX { f64::MAX } else { x }
     }
 }
 
@@ -113,7 +114,7 @@ impl RestitutionLaw for KuwabaraKono {
     /// With r/(1 - r) = r^(2/5)/x <= 1/x the integral is at most (5/4) |w_A|/x.
     fn rebound_sum(&self, impact_speed: f64) -> Option<f64> {
         if impact_speed > 0.0 {
-            Some(1.25 * impact_speed / self.dissipation(impact_speed))
+            Some(1.25 * (impact_speed / self.dissipation(impact_speed)))
         } else {
             Some(0.0)
         }
