@@ -1,4 +1,5 @@
-//! Laws of restitution from a user's side: steps, derivatives, orbits and cuts of the impact map under any law.
+//! Laws of restitution from a user's side: steps, derivatives, orbits and cuts of the impact map under any
+//! law.
 
 mod paper;
 
@@ -73,8 +74,8 @@ fn bits(state: ImpactState) -> [u64; 4] {
     [phase.angle(), phase.sin(), phase.cos(), state.velocity()].map(f64::to_bits)
 }
 
-/// The derivative of the map in dual numbers, for a law given in dual numbers: the impact time is pulled along by Newton
-/// steps on the gap.
+/// The derivative of the map in dual numbers, for a law given in dual numbers: the impact time is pulled
+/// along by Newton steps on the gap.
 fn dual_derivative(
     vibration: &Vibration,
     from: ImpactState,
@@ -151,7 +152,8 @@ proptest! {
         }
     }
 
-    /// A law that is constant but unknown to the library gives the bits of the constant one, up to the cut and after it.
+    /// A law that is constant but unknown to the library gives the bits of the constant one, up to the cut
+    /// and after it.
     #[test]
     fn a_users_constant_law_gives_the_bits_of_the_constant_one(
         forcing in 0.05_f64..6.0, restitution in 0.0_f64..0.95, angle in 0.0..TAU, speed in 0.0_f64..4.0,
@@ -178,8 +180,8 @@ proptest! {
         }
     }
 
-    /// A cut of a viscoelastic chatter is in error by no more than it says, and not by much less: against the impacts one
-    /// by one, until what is left is 1 % of the bound.
+    /// A cut of a viscoelastic chatter is in error by no more than it says, and not by much less: against the
+    /// impacts one by one, until what is left is 1 % of the bound.
     #[test]
     fn the_error_of_a_cut_is_that_of_the_impacts_left_out(
         forcing in 0.0_f64..3.0, reference in 0.1_f64..0.95, reference_speed in 0.01_f64..10.0,

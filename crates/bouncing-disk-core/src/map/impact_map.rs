@@ -99,9 +99,9 @@ impl From<&Impact> for ImpactState {
 
 /// The vertical impact map: vibration of the platform and law of restitution.
 ///
-/// Closed forms, the proof of rest, periodic orbits, batches and basins are those of a constant restitution, the paper's
-/// law. Under [another one](Self::with_law) there are steps and their derivatives, iterates, and orbits that end a
-/// chatter by a cut.
+/// Closed forms, the proof of rest, periodic orbits, batches and basins are those of a constant restitution,
+/// the paper's law. Under [another one](Self::with_law) there are steps and their derivatives, iterates, and
+/// orbits that end a chatter by a cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedMap<L>"))]
@@ -199,8 +199,9 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok(-self.restitution_at(0.0 - velocity)? * velocity)
     }
 
-    /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is followed through ever
-    /// smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::state_after`] end a chatter.
+    /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is
+    /// followed through ever smaller impacts until its speed underflows. [`Self::orbit`] and
+    /// [`Self::state_after`] end a chatter.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), those of
@@ -257,8 +258,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok(state)
     }
 
-    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity), in radians and units
-    /// of g/omega. Column-major: `x_axis` is the derivative by the phase.
+    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity), in
+    /// radians and units of g/omega. Column-major: `x_axis` is the derivative by the phase.
     ///
     /// It is singular at a graze (impact velocity zero): the entries are infinite there.
     ///
@@ -281,8 +282,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok((impact, self.derivative_by_slope(state, impact.into(), impact.duration(), slope)))
     }
 
-    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`; `slope` is
-    /// that of the launch speed by the impact speed.
+    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`;
+    /// `slope` is that of the launch speed by the impact speed.
     fn derivative_by_slope(&self, state: ImpactState, next: ImpactState, h: f64, slope: f64) -> DMat2 {
         let p = self.vibration.peak_acceleration();
         let (s, c) = (state.phase.sin(), state.phase.cos());
@@ -302,9 +303,9 @@ impl<L: RestitutionLaw> ImpactMap<L> {
 
     /// The orbit that starts with the impact in `state`; the first item is the next event.
     ///
-    /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law it is an error
-    /// of the first event, and so is a restitution outside its range. [`ChatterPolicy::Cut`] ends a chatter under every
-    /// law; what it leaves out is the `error_bound` of the [`Attachment`].
+    /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law it
+    /// is an error of the first event, and so is a restitution outside its range. [`ChatterPolicy::Cut`] ends
+    /// a chatter under every law; what it leaves out is the `error_bound` of the [`Attachment`].
     #[must_use]
     pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit<L> {
         Orbit::after_impact(self.clone(), policy, state)
@@ -349,8 +350,9 @@ pub enum OrbitEvent {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttachment"))]
 pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] the last impact itself,
-    /// with duration zero. A constant restitution has no bound on what was cut off (`error_bound` is infinite unless
-    /// the speed was 0); another law has that of [`ImpactMap::comes_to_rest_within`], infinite where there is none.
+    /// with duration zero. A constant restitution has no bound on what was cut off (`error_bound` is infinite
+    /// unless the speed was 0); another law has that of [`ImpactMap::comes_to_rest_within`], infinite where
+    /// there is none.
     pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega: what the chatter started from.
     pub last_speed: f64,
@@ -429,8 +431,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         orbit
     }
 
-    /// What follows an impact at `phase` with relative `velocity`, which a launch with `speed` follows, after a flight of
-    /// `duration`.
+    /// What follows an impact at `phase` with relative `velocity`, which a launch with `speed` follows, after
+    /// a flight of `duration`.
     fn after(&mut self, phase: Phase, velocity: f64, speed: f64, duration: f64) -> Next {
         match self.policy {
             ChatterPolicy::Complete => {
@@ -458,8 +460,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         }
     }
 
-    /// Bound on the time (rad) that the disk would bounce on after an impact that a cut ends; none is given for a constant
-    /// restitution, where [`ChatterPolicy::Complete`] knows better.
+    /// Bound on the time (rad) that the disk would bounce on after an impact that a cut ends; none is given
+    /// for a constant restitution, where [`ChatterPolicy::Complete`] knows better.
     fn error_of_cut(&self, phase: Phase, velocity: f64) -> f64 {
         match self.map.restitution.constant(Internal) {
             Some(_) => f64::INFINITY,
@@ -506,17 +508,13 @@ impl<L: RestitutionLaw> Orbit<L> {
     /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the next flight waits
     /// for it.
     #[inline(never)]
-    fn settle(&mut self, (angle, sin, cos): (f64, f64, f64), velocity: f64, speed: f64, duration: f64) {
+    fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, speed: f64, duration: f64) {
         self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, speed, duration);
     }
 
     #[inline]
-    fn report(&mut self, impact: Impact) -> Result<Option<OrbitEvent>, Error> {
+    fn report(&mut self, impact: Impact, speed: f64) -> OrbitEvent {
         let phase = impact.phase;
-        let speed = match self.map.rebound_speed(impact.velocity) {
-            Ok(speed) => speed,
-            Err(error) => return self.fail(error),
-        };
         // Stored in place: nearly every impact, and the next flight waits for it.
         if self.policy == ChatterPolicy::Complete
             && let Some(restitution) = self.map.restitution.constant(Internal)
@@ -526,9 +524,9 @@ impl<L: RestitutionLaw> Orbit<L> {
         } else {
             // Only flights far below one period count as short.
             let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-            self.settle((phase.angle(), phase.sin(), phase.cos()), impact.velocity, speed, duration);
+            self.settle(phase.angle(), phase.sin(), phase.cos(), impact.velocity, speed, duration);
         }
-        Ok(Some(OrbitEvent::Impact(impact)))
+        OrbitEvent::Impact(impact)
     }
 
     /// Ends the orbit with an error.
@@ -541,16 +539,22 @@ impl<L: RestitutionLaw> Orbit<L> {
     /// The next event, or `None` after the end of the orbit.
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] in place of the impact whose restitution the
-    /// law does not give; [`Error::NoClosedForm`]. The orbit has ended after one.
+    /// Those of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] in place of the impact whose
+    /// restitution the law does not give; [`Error::NoClosedForm`]. The orbit has ended after one.
     #[inline]
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         match self.next {
             Next::Launch(phase, speed) => match self.map.vibration.impact_after(phase, speed) {
-                Ok(impact) => self.report(impact),
+                Ok(impact) => match self.map.rebound_speed(impact.velocity) {
+                    Ok(speed) => Ok(Some(self.report(impact, speed))),
+                    Err(error) => self.fail(error),
+                },
                 Err(error) => self.fail(error),
             },
-            Next::Report(impact) => self.report(impact),
+            Next::Report(impact) => match self.map.rebound_speed(impact.velocity) {
+                Ok(speed) => Ok(Some(self.report(impact, speed))),
+                Err(error) => self.fail(error),
+            },
             Next::Fail(error) => self.fail(error),
             Next::Attach(accumulation, last_speed) => {
                 let separation = self

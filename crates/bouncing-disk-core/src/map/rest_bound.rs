@@ -10,11 +10,11 @@ const ROUNDING: f64 = 1.0e-12;
 const WINDOWS: u32 = 4;
 
 impl<L: RestitutionLaw> ImpactMap<L> {
-    /// A time (rad) within which the disk comes to rest after an impact, for good until the platform falls away: a
-    /// bound on the error of a cut that puts the disk on the platform at this impact. `None` where no bound is known:
-    /// where the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or where the chatter is so long that the pull
-    /// 1 - P sin tau may change by much. For the pull that P and the carried pair give
-    /// (docs/numerics/restitution.md, "The error of a cut").
+    /// A time (rad) within which the disk comes to rest after an impact, for good until the platform falls
+    /// away: a bound on the error of a cut that puts the disk on the platform at this impact. `None` where no
+    /// bound is known: where the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or where the
+    /// chatter is so long that the pull 1 - P sin tau may change by much. For the pull that P and the carried
+    /// pair give (docs/numerics/restitution.md, "The error of a cut").
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, Phase, Vibration};

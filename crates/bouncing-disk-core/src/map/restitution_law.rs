@@ -1,5 +1,5 @@
-//! Laws of restitution: which share of its speed an impact leaves to the disk, and what users implement for one of
-//! their own. Derived in docs/numerics/restitution.md.
+//! Laws of restitution: which share of its speed an impact leaves to the disk, and what users implement for
+//! one of their own. Derived in docs/numerics/restitution.md.
 
 use core::fmt::{self, Debug, Display};
 
@@ -9,8 +9,8 @@ pub(crate) mod kuwabara_kono;
 
 /// A law of restitution: which share of the relative axial speed an impact leaves.
 ///
-/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::KuwabaraKono) that of viscoelastic bodies. A law of one's own
-/// needs two methods:
+/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::KuwabaraKono) that of viscoelastic bodies. A law of
+/// one's own needs two methods:
 ///
 /// ```
 /// use bouncing_disk_core::{ImpactMap, ImpactState, RestitutionLaw, Vibration};
@@ -38,29 +38,30 @@ pub(crate) mod kuwabara_kono;
 /// The same speed must always give the same restitution; that it lies in [0, 1] is checked at every impact.
 /// Nothing is checked beyond one value: a law that grows with the speed, or that jumps, is followed as it is.
 pub trait RestitutionLaw: Clone + Debug {
-    /// The coefficient of restitution, in [0, 1], of an impact with the relative axial speed |w_A| >= 0 (units of
-    /// g/omega).
+    /// The coefficient of restitution, in [0, 1], of an impact with the relative axial speed |w_A| >= 0
+    /// (units of g/omega).
     ///
     /// A value outside its range, or none, ends the motion with [`Error::IllegalRestitution`] at that impact.
     fn restitution(&self, impact_speed: f64) -> f64;
 
-    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal number, at speed
-    /// 0 above all, it may be infinite: what counts is its product with the speed, which is taken as 0 there.
+    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal
+    /// number, at speed 0 above all, it may be infinite: what counts is its product with the speed, which is
+    /// taken as 0 there.
     fn derivative(&self, impact_speed: f64) -> f64;
 
-    /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this speed,
-    /// until it rests: for a law that does not grow with the speed, the integral of r/(1 - r) over the speeds from 0 to
-    /// this one, or anything above it. The error of a cut follows from it
+    /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this
+    /// speed, until it rests: for a law that does not grow with the speed, the integral of r/(1 - r) over the
+    /// speeds from 0 to this one, or anything above it. The error of a cut follows from it
     /// ([`ImpactMap::comes_to_rest_within`](crate::ImpactMap::comes_to_rest_within)).
     ///
-    /// `None`, the default, for a law that may grow with the speed and for one of which nothing is known: its cuts have
-    /// no bound.
+    /// `None`, the default, for a law that may grow with the speed and for one of which nothing is known: its
+    /// cuts have no bound.
     fn rebound_sum(&self, _impact_speed: f64) -> Option<f64> {
         None
     }
 
-    /// The restitution of every speed, where it is the same and known to be legal. [`Constant`] alone has one, as no
-    /// other crate can name the argument: the closed forms of a chatter rely on it.
+    /// The restitution of every speed, where it is the same and known to be legal. [`Constant`] alone has
+    /// one, as no other crate can name the argument: the closed forms of a chatter rely on it.
     #[doc(hidden)]
     #[inline(always)]
     fn constant(&self, _: Internal) -> Option<f64> {
@@ -152,7 +153,8 @@ pub(crate) fn restitution_of<L: RestitutionLaw>(law: &L, impact_speed: f64) -> R
     }
 }
 
-/// The derivative of the launch speed r(v) v by the impact speed v, which is the restitution of a constant law.
+/// The derivative of the launch speed r(v) v by the impact speed v, which is the restitution of a constant
+/// law.
 pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Result<f64, Error> {
     let restitution = restitution_of(law, impact_speed)?;
     if law.constant(Internal).is_some() || impact_speed < f64::MIN_POSITIVE {

@@ -37,9 +37,9 @@ enum Stage {
 
 /// The motion of a disk as a lazy sequence of [`EventRecord`]s.
 ///
-/// The sequence ends where nothing more can happen (a disk that rests and sticks for ever) and after an error. A
-/// disk that rests for ever may change between sticking and sliding for ever. Two engines with the same
-/// arguments give the same bits.
+/// The sequence ends where nothing more can happen (a disk that rests and sticks for ever) and after an
+/// error. A disk that rests for ever may change between sticking and sliding for ever. Two engines with the
+/// same arguments give the same bits.
 ///
 /// The restitution is the system's, a constant, or follows a law ([`Self::with_law`]).
 #[derive(Debug, Clone)]
@@ -71,8 +71,9 @@ impl Engine {
 }
 
 impl<L: RestitutionLaw> Engine<L> {
-    /// An engine for a system whose restitution follows a `law`; the constant one of the system is ignored. A chatter
-    /// ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no bound is known.
+    /// An engine for a system whose restitution follows a `law`; the constant one of the system is ignored. A
+    /// chatter ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no
+    /// bound is known.
     ///
     /// The law knows speeds without unit, in g/omega: a speed in m/s is divided by
     /// [`Scales::velocity`](crate::Scales::velocity).
@@ -215,7 +216,8 @@ impl<L: RestitutionLaw> Engine<L> {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. The motion has ended after one.
+    /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. The motion has ended
+    /// after one.
     pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         let result = match self.stage {
             Stage::Flight => self.advance_flight(),

@@ -7,16 +7,16 @@ use crate::error::{Error, within};
 use crate::numerics::elementary::pow;
 use crate::read_checked;
 
-/// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they never pass
-/// it; most seen: 7.
+/// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they
+/// never pass it; most seen: 7.
 const NEWTON_STEPS: u32 = 20;
 
 /// The restitution of viscoelastic bodies that touch as Hertz has it: at low speed 1 - r is proportional to
 /// |w_A|^(1/5) (Kuwabara and Kono 1987).
 ///
-/// r is the solution in (0, 1] of r + x r^(3/5) = 1, with x proportional to |w_A|^(1/5): it has the first two terms of
-/// the exact series, 1 - x + (3/5) x^2 (Ramirez et al. 1999), and falls towards 0 as |w_A|^(-1/3) at any higher speed.
-/// The derivation is in docs/numerics/restitution.md.
+/// r is the solution in (0, 1] of r + x r^(3/5) = 1, with x proportional to |w_A|^(1/5): it has the first two
+/// terms of the exact series, 1 - x + (3/5) x^2 (Ramirez et al. 1999), and falls towards 0 as |w_A|^(-1/3) at
+/// any higher speed. The derivation is in docs/numerics/restitution.md.
 ///
 /// ```
 /// use bouncing_disk_core::{KuwabaraKono, RestitutionLaw};
@@ -44,8 +44,8 @@ read_checked!(KuwabaraKono as UncheckedLaw {
 } => KuwabaraKono::new);
 
 impl KuwabaraKono {
-    /// The law with the restitution `reference_restitution` in (0, 1) at the impact speed `reference_speed` > 0 (units
-    /// of g/omega: a speed in m/s times omega/g).
+    /// The law with the restitution `reference_restitution` in (0, 1) at the impact speed `reference_speed` >
+    /// 0 (units of g/omega: a speed in m/s times omega/g).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number outside its range.

@@ -51,8 +51,8 @@ fn what_is_lost_at_low_speed_goes_with_its_fifth_root() {
     }
 }
 
-/// A viscoelastic impact, followed through in time: xi'' = -xi^(3/2) - gamma xi^(1/2) xi' from xi = 0, xi' = 1 until the
-/// force is none. Nothing of the law is in it.
+/// A viscoelastic impact, followed through in time: xi'' = -xi^(3/2) - gamma xi^(1/2) xi' from xi = 0, xi' =
+/// 1 until the force is none. Nothing of the law is in it.
 fn integrated_restitution(gamma: f64) -> f64 {
     let force = |x: f64, v: f64| if x > 0.0 { -(x + gamma * v) * x.sqrt() } else { 0.0 };
     let step = 2.0e-5;
@@ -70,7 +70,8 @@ fn integrated_restitution(gamma: f64) -> f64 {
     }
 }
 
-/// x = C1 gamma at speed 1, with C1 = 1.15344 of the exact series (docs/numerics/restitution.md); the third order is not that of the law.
+/// x = C1 gamma at speed 1, with C1 = 1.15344 of the exact series (docs/numerics/restitution.md); the third
+/// order is not that of the law.
 #[test]
 fn the_law_has_two_orders_of_a_viscoelastic_impact() {
     for gamma in [0.01, 0.02, 0.05, 0.1, 0.2] {
