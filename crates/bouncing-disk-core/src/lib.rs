@@ -80,7 +80,7 @@ pub use flight::launch::Launch;
 pub use flight::reference;
 // How many flights are computed at once is no promise: the model, benches and tests use these.
 #[doc(hidden)]
-pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop};
+pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 #[doc(hidden)]
 pub use lockstep::lanes::InstructionSet;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};

@@ -34,6 +34,16 @@ pub enum Error {
         /// The largest duration in radians.
         limit: f64,
     },
+    /// Rotors that are to share one vertical motion differ in something that it depends on.
+    #[error("rotors that share one vertical motion differ in {field}: {one:?} and {other:?}")]
+    NotShared {
+        /// What has to be the same.
+        field: &'static str,
+        /// Its value for the first rotor.
+        one: f64,
+        /// Its value for another one.
+        other: f64,
+    },
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),

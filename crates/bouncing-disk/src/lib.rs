@@ -72,6 +72,7 @@ pub use motor::ensemble::{
 };
 pub use motor::fit::{ExponentialFit, RampFit};
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
+pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,

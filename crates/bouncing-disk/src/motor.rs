@@ -7,6 +7,7 @@ pub(crate) mod fit;
 pub(crate) mod impulse;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
+pub(crate) mod shared_orbit;
 pub(crate) mod stall;
 pub(crate) mod statistics;
 pub(crate) mod transient;

@@ -1,4 +1,5 @@
-//! The period-doubling cascade that starts from the orbit with one impact per period.
+//! The period-doubling cascade that starts from the orbit with one impact per period. The closed form of the first
+//! doubling is in `periodic.rs`.
 
 use roots::{Convergency, SearchError, find_root_brent};
 

@@ -1,10 +1,14 @@
 //! Chattering: infinitely many impacts in a finite time, and the two ways to end it.
 //!
+//! The sum of such a sequence, time and all, is [`Accumulation`]; what else is summed over its impacts (the rotary
+//! impulses, the losses) is in `impact_series.rs`, and the model's use of both in its `motion/chatter.rs`.
+//!
 //! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
 //! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
 //! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
-//! coefficients (`expansion.rs`, with the bound on their error) satisfy T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed.
-//! The coefficients are derived in docs/numerics/chattering.md.
+//! coefficients (`expansion.rs`, with the bound on their error) satisfy
+//! T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed. The coefficients are
+//! derived in docs/numerics/chattering.md.
 
 use core::f64::consts::TAU;
 

@@ -1,4 +1,5 @@
-//! The impact that ends a flight.
+//! The impact that ends a flight: when, where and how fast. What it does to the disk, Eqs. (5)-(10), is the model's
+//! (`motion/impact.rs` there).
 
 use core::f64::consts::TAU;
 

@@ -8,7 +8,7 @@ use crate::chatter::accumulation::surely_bounces_on;
 use crate::error::{Error, room_for};
 use crate::flight::launch::Launch;
 use crate::lockstep::lanes::{
-    Batch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
+    Batch, Dispatch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
 };
 use crate::map::impact_map::ImpactState;
 use crate::platform::vibration::Vibration;
@@ -190,6 +190,25 @@ impl Flights {
     #[inline(always)]
     pub fn run(&self, operation: impl LaneLoop) {
         self.scheduler.dispatch().run(Vectorised(operation));
+    }
+}
+
+/// Runs loops with the vector instructions of the processor where there are no [`Flights`]: one flight may carry many
+/// things along.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneRunner(Dispatch);
+
+impl LaneRunner {
+    /// With `set`, or the next lower one that this processor has.
+    #[must_use]
+    pub fn new(set: InstructionSet) -> Self {
+        Self(Dispatch::new(set))
+    }
+
+    /// Runs a loop.
+    #[inline(always)]
+    pub fn run(&self, operation: impl LaneLoop) {
+        self.0.run(Vectorised(operation));
     }
 }
 

@@ -1,4 +1,5 @@
-//! Where the platform falls away from a disk that rests on it: the separation phase, Eq. (15).
+//! Where the platform falls away from a disk that rests on it: the separation phase, Eq. (15). Its angle is worked out
+//! once, when the vibration is made (`vibration.rs`).
 
 use core::f64::consts::TAU;
 

@@ -1,8 +1,9 @@
-//! The event engine: flight, impact, attachment, sticking, sliding, separation. It integrates the equations of motion, Eq. (2),
-//! from event to event in closed form.
+//! The event engine: flight, impact, attachment, sticking, sliding, separation. It integrates the equations of
+//! motion, Eq. (2), from event to event in closed form.
 //!
-//! The vertical motion comes entirely from the core's [`Orbit`]; the engine adds the rotary motion and the changes
-//! between sticking and sliding while the disk is on the platform.
+//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the parabola of a
+//! flight); the engine adds the rotary half (`rotary_change.rs`) and the changes between sticking and sliding while
+//! the disk is on the platform (`contact_motion.rs`).
 
 use bouncing_disk_core::{
     Attachment, ChatterCut, ChatterPolicy, Constant, Impact, ImpactMap, Launch, Orbit, OrbitEvent,

@@ -1,5 +1,5 @@
-//! What flight and contact change in the rotation, in closed form, and the energy balance of both. Sliding, Eq. (12), is in
-//! `sliding.rs`.
+//! The rotary half of Eq. (2), integrated in closed form over a flight or a segment of contact, and the energy balance of
+//! both. Sliding, Eq. (12), is in `sliding.rs`; the vertical half is the core's (`flight/gap.rs` there).
 
 use bouncing_disk_core::Phase;
 

@@ -129,6 +129,18 @@ impl SpeedCurve {
         ExponentialFit::new_observed(&self.times, &self.speeds, observer)
     }
 
+    /// [`transient`](crate::transient()) as a part of a longer call.
+    pub(crate) fn alone(
+        system: &System,
+        phase: Phase,
+        settings: &TransientSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
+        let mut run = Run::new(system, phase, settings)?;
+        while run.advance(work)? {}
+        run.finished()
+    }
+
     /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve, at least over its last point.
     ///
     /// # Errors
@@ -272,17 +284,26 @@ impl Run {
 
     /// The curve of a transient that is done.
     pub(crate) fn finished(self) -> Result<SpeedCurve, Error> {
-        let width = self.bins.width;
-        let mut speeds = self.bins.finished();
-        let factor = self.unit.angular_speed * self.unit.time / width;
-        speeds.iter_mut().for_each(|angle| *angle *= factor);
-        if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
-            finite("angular speed (rad/s)", speed)?;
-        }
-        let mut times = room_for("intervals of a curve", speeds.len(), MAX_INTERVALS)?;
-        times.extend((0..speeds.len()).map(|i| (i as f64 + 0.5) * width));
-        Ok(SpeedCurve { times, speeds, impacts: self.impacts, separations: self.separations })
+        curve(self.bins, &self.unit, (self.impacts, self.separations))
     }
+}
+
+/// The curve of the angles turned in its intervals, in units of `unit`.
+pub(crate) fn curve(
+    bins: Bins,
+    unit: &Scales,
+    (impacts, separations): (u64, u64),
+) -> Result<SpeedCurve, Error> {
+    let width = bins.width;
+    let mut speeds = bins.finished();
+    let factor = unit.angular_speed * unit.time / width;
+    speeds.iter_mut().for_each(|angle| *angle *= factor);
+    if let Some(&speed) = speeds.iter().find(|speed| !speed.is_finite()) {
+        finite("angular speed (rad/s)", speed)?;
+    }
+    let mut times = room_for("intervals of a curve", speeds.len(), MAX_INTERVALS)?;
+    times.extend((0..speeds.len()).map(|i| (i as f64 + 0.5) * width));
+    Ok(SpeedCurve { times, speeds, impacts, separations })
 }
 
 /// Time (s) from whole periods and the change of the phase's angle; none is accumulated.
@@ -314,7 +335,7 @@ pub(crate) struct Interval {
 }
 
 impl Bins {
-    fn new(duration: f64, count: usize) -> Result<Self, Error> {
+    pub(crate) fn new(duration: f64, count: usize) -> Result<Self, Error> {
         let width = duration / count as f64;
         let present = Interval { index: 0, end: width, turned: 0.0, reached: 0.0 };
         let mut turned = room_for("intervals of a curve", count, MAX_INTERVALS)?;

@@ -35,9 +35,7 @@ pub struct TransientMember {
 impl TransientMember {
     /// As [`transient`](crate::transient()).
     fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
-        let mut run = Run::new(&self.system, self.phase, &self.settings)?;
-        while run.advance(work)? {}
-        run.finished()
+        SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Labels of cells, and their storage as runs.
+//! How Fig. 7 stores the labels of its cells, as runs. The labels themselves are the core's (`analysis/basin.rs`).
 
 use bouncing_disk::core::elementary::ln;
 use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};

@@ -50,7 +50,7 @@ pub(crate) enum Dispatch {
 
 impl Dispatch {
     /// For `set`, or the next lower one that this processor has.
-    pub(super) fn new(set: InstructionSet) -> Self {
+    pub(crate) fn new(set: InstructionSet) -> Self {
         #[cfg(target_arch = "x86_64")]
         {
             if set == InstructionSet::Avx512
