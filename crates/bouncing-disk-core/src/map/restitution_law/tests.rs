@@ -145,7 +145,8 @@ fn no_restitution_for_no_speed() {
 #[test]
 fn laws_are_stored() {
     for restitution in RESTITUTIONS {
-        assert_eq!(stored(&Constant::new(restitution).expect("legal")).value(), restitution);
+        let constant = Constant::new(restitution).expect("legal");
+        assert_eq!(stored(&constant), constant);
         for speed in SPEEDS {
             let law = KuwabaraKono::new(restitution, speed).expect("legal");
             assert_eq!(stored(&law), law);
