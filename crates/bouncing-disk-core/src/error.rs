@@ -79,6 +79,19 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
+    /// A law of restitution gives a number outside [0, 1], or none.
+    #[error(
+        "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside of [0, 1]"
+    )]
+    IllegalRestitution {
+        /// What the law gives.
+        restitution: f64,
+        /// The impact speed, in units of g/omega.
+        impact_speed: f64,
+    },
+    /// A chatter has a closed form for a constant restitution only: another law of restitution needs a cut.
+    #[error("a chatter has a closed form for a constant restitution only: end it by `ChatterPolicy::Cut`")]
+    NoClosedForm,
     /// The observer of a long call has stopped it. What was finished is not lost where a run owns it.
     #[error("stopped after {done} of {total} items")]
     Stopped {
@@ -157,6 +170,7 @@ mod tests {
                 Error::NotSettled { what: "search", iterations: 7, residual: number },
                 Error::ImpactWithoutSpeed { index: 3, phase: number },
                 Error::NoPlatformPeriods { impacts: 2, speed: number },
+                Error::IllegalRestitution { restitution: number, impact_speed: number },
             ] {
                 let text = error.to_string();
                 assert!(text.contains(&format!("{number:e}")) && text.len() < 160, "{text}");

@@ -27,6 +27,7 @@
 //! | one flight | [`Launch`], [`Impact`], [`Vibration::first_impact`], [`Vibration::first_impact_of_drop`], [`mod@reference`] |
 //! | chattering | [`ImpactMap::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`ImpactMap::chatters_to_rest`] |
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
+//! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
@@ -83,6 +84,8 @@ pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 #[doc(hidden)]
 pub use lockstep::lanes::InstructionSet;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
+pub use map::restitution_law::kuwabara_kono::KuwabaraKono;
+pub use map::restitution_law::{Constant, RestitutionLaw};
 pub use numerics::elementary;
 pub use observer::{FLIGHTS_BETWEEN_CALLS, Observer, Progress, Unobserved, Watch, WorkCount};
 pub use platform::phase::Phase;

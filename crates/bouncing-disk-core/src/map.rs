@@ -1,4 +1,6 @@
-//! The impact map, its derivative, and the orbits that it makes.
+//! The impact map, its derivative, its laws of restitution, and the orbits that it makes.
 
 mod chattering;
 pub(crate) mod impact_map;
+mod rest_bound;
+pub(crate) mod restitution_law;

@@ -7,6 +7,7 @@ use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
 use crate::error::{Error, not_negative, within};
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
+use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
 use crate::observer::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
@@ -96,32 +97,32 @@ impl From<&Impact> for ImpactState {
     }
 }
 
-/// The vertical impact map: vibration of the platform and coefficient of restitution.
+/// The vertical impact map: vibration of the platform and law of restitution.
+///
+/// Closed forms, the proof of rest, periodic orbits, batches and basins are those of a constant restitution,
+/// the paper's law. Under [another one](Self::with_law) there are steps and their derivatives, iterates, and
+/// orbits that end a chatter by a cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMap"))]
-pub struct ImpactMap {
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMap<L>"))]
+pub struct ImpactMap<L = Constant> {
     vibration: Vibration,
-    restitution: f64,
+    restitution: L,
 }
 
 /// `Gamma = 0.45 (P = 1.4137), restitution 0.5`.
-impl core::fmt::Display for ImpactMap {
+impl<L: core::fmt::Display> core::fmt::Display for ImpactMap<L> {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(formatter, "{}, restitution {}", self.vibration, self.restitution)
     }
 }
 
-read_checked!(ImpactMap as UncheckedMap { vibration: Vibration, restitution: f64 } => ImpactMap::new);
+read_checked!(ImpactMap<L> as UncheckedMap { vibration: Vibration, restitution: L });
 
-impl ImpactMap {
-    /// The map of a disk with `restitution` in [0, 1) on a vibrating platform.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for a restitution outside [0, 1).
-    pub fn new(vibration: Vibration, restitution: f64) -> Result<Self, Error> {
-        within("restitution", restitution, 0.0, 1.0 - f64::EPSILON / 2.0, "[0, 1)")?;
-        Ok(Self { vibration, restitution })
+impl<L> ImpactMap<L> {
+    /// Vibration and law have been checked when they were read.
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
     }
 
     /// The vibration of the platform.
@@ -130,21 +131,84 @@ impl ImpactMap {
         &self.vibration
     }
 
+    /// The law of restitution.
+    #[must_use]
+    pub const fn law(&self) -> &L {
+        &self.restitution
+    }
+}
+
+impl ImpactMap {
+    /// The map of a disk with `restitution` in [0, 1) on a vibrating platform.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a restitution outside [0, 1).
+    pub fn new(vibration: Vibration, restitution: f64) -> Result<Self, Error> {
+        Ok(Self { vibration, restitution: Constant::new(restitution)? })
+    }
+
     /// Coefficient of restitution.
     #[must_use]
     pub const fn restitution(&self) -> f64 {
-        self.restitution
+        self.restitution.value()
     }
 
-    /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is followed through ever
-    /// smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::state_after`] end a chatter.
+    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`.
+    pub(crate) fn derivative(&self, state: ImpactState, next: ImpactState, h: f64) -> DMat2 {
+        self.derivative_by_slope(state, next, h, self.restitution())
+    }
+}
+
+impl<L: RestitutionLaw> ImpactMap<L> {
+    /// The map of a disk with this law of restitution on a vibrating platform.
+    ///
+    /// ```
+    /// use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, TangentGrowth, Vibration};
+    ///
+    /// // The largest Lyapunov exponent of an orbit under a law that depends on the speed.
+    /// let law = KuwabaraKono::new(0.5, 3.0)?;
+    /// let map = ImpactMap::with_law(Vibration::from_axial_forcing(0.55)?, law);
+    /// let mut state = map.iterate(ImpactState::from_normalised(0.8, 1.3)?, 1_000)?;
+    /// let mut growth = TangentGrowth::default();
+    /// for _ in 0..1_000 {
+    ///     let (impact, derivative) = map.step_with_derivative(state)?;
+    ///     growth.grow(derivative);
+    ///     state = impact.into();
+    /// }
+    /// assert!(growth.exponent().is_some());
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn with_law(vibration: Vibration, law: L) -> Self {
+        Self { vibration, restitution: law }
+    }
+
+    /// The restitution of an impact with this relative axial speed >= 0 (units of g/omega).
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), and those of
-    /// [`Vibration::first_impact`].
+    /// [`Error::IllegalRestitution`] if the law gives a number outside [0, 1], or none.
+    #[inline(always)]
+    pub fn restitution_at(&self, impact_speed: f64) -> Result<f64, Error> {
+        restitution_of(&self.restitution, impact_speed)
+    }
+
+    /// The launch speed after an impact with relative `velocity` <= 0.
+    #[inline(always)]
+    fn rebound_speed(&self, velocity: f64) -> Result<f64, Error> {
+        // From zero, so that a law is never asked for the restitution at minus zero.
+        Ok(-self.restitution_at(0.0 - velocity)? * velocity)
+    }
+
+    /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is
+    /// followed through ever smaller impacts until its speed underflows. [`Self::orbit`] and
+    /// [`Self::state_after`] end a chatter.
+    ///
+    /// # Errors
+    /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), those of
+    /// [`Vibration::first_impact`], and [`Error::IllegalRestitution`].
     #[inline]
     pub fn step(&self, state: ImpactState) -> Result<Impact, Error> {
-        self.vibration.impact_after(state.phase, -self.restitution * state.velocity)
+        self.vibration.impact_after(state.phase, self.rebound_speed(state.velocity)?)
     }
 
     /// The impact that is so many [steps](Self::step) after the one in `state`, which itself is 0 steps after: the same bits as
@@ -164,7 +228,7 @@ impl ImpactMap {
     #[inline]
     pub fn iterate(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         for _ in 0..impacts {
-            let speed = -self.restitution * state.velocity;
+            let speed = self.rebound_speed(state.velocity)?;
             state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
         }
         Ok(state)
@@ -194,8 +258,8 @@ impl ImpactMap {
         Ok(state)
     }
 
-    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity), in radians and units
-    /// of g/omega. Column-major: `x_axis` is the derivative by the phase.
+    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity), in
+    /// radians and units of g/omega. Column-major: `x_axis` is the derivative by the phase.
     ///
     /// It is singular at a graze (impact velocity zero): the entries are infinite there.
     ///
@@ -211,34 +275,40 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::step`].
+    /// Those of [`Self::step`]; [`Error::OutOfRange`] if the law has no finite derivative there.
     pub fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
         let impact = self.step(state)?;
-        Ok((impact, self.derivative(state, impact.into(), impact.duration())))
+        let slope = launch_slope(&self.restitution, 0.0 - state.velocity)?;
+        Ok((impact, self.derivative_by_slope(state, impact.into(), impact.duration(), slope)))
     }
 
-    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`.
-    pub(crate) fn derivative(&self, state: ImpactState, next: ImpactState, h: f64) -> DMat2 {
+    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`;
+    /// `slope` is that of the launch speed by the impact speed.
+    fn derivative_by_slope(&self, state: ImpactState, next: ImpactState, h: f64, slope: f64) -> DMat2 {
         let p = self.vibration.peak_acceleration();
         let (s, c) = (state.phase.sin(), state.phase.cos());
         let (s1, c1) = (next.phase.sin(), next.phase.cos());
         let arrival = next.velocity;
         // gap(h; tau, w) = 0: dh = -(gap_tau dtau + h dw) / arrival.
         let gap_by_phase = -p * (s * h + (c1 - c));
-        let duration_by = DVec2::new(-gap_by_phase / arrival, self.restitution * h / arrival);
+        let duration_by = DVec2::new(-gap_by_phase / arrival, slope * h / arrival);
         let phase_by = DVec2::new(1.0 + duration_by.x, duration_by.y);
         // arrival = w + P cos tau - h - P cos tau'.
         let velocity_by = DVec2::new(
             -p * s - duration_by.x + p * s1 * phase_by.x,
-            -self.restitution - duration_by.y + p * s1 * phase_by.y,
+            -slope - duration_by.y + p * s1 * phase_by.y,
         );
         DMat2::from_cols(DVec2::new(phase_by.x, velocity_by.x), DVec2::new(phase_by.y, velocity_by.y))
     }
 
     /// The orbit that starts with the impact in `state`; the first item is the next event.
+    ///
+    /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law it
+    /// is an error of the first event, and so is a restitution outside its range. [`ChatterPolicy::Cut`] ends
+    /// a chatter under every law; what it leaves out is the `error_bound` of the [`Attachment`].
     #[must_use]
-    pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit {
-        Orbit::after_impact(*self, policy, state)
+    pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit<L> {
+        Orbit::after_impact(self.clone(), policy, state)
     }
 
     /// The orbit of a disk that starts in the air: see [`Vibration::first_impact_of_drop`].
@@ -251,15 +321,15 @@ impl ImpactMap {
         gap: f64,
         relative_velocity: f64,
         policy: ChatterPolicy,
-    ) -> Result<Orbit, Error> {
+    ) -> Result<Orbit<L>, Error> {
         let impact = self.vibration.first_impact_of_drop(phase, gap, relative_velocity)?;
-        Ok(Orbit::reporting(*self, policy, impact))
+        Ok(Orbit::new(self.clone(), policy, Next::Report(impact)))
     }
 
     /// The orbit of a disk that leaves the platform with this launch.
     #[must_use]
-    pub const fn orbit_from_launch(&self, launch: Launch, policy: ChatterPolicy) -> Orbit {
-        Orbit::from_launch(*self, policy, launch.phase(), launch.relative_speed())
+    pub fn orbit_from_launch(&self, launch: Launch, policy: ChatterPolicy) -> Orbit<L> {
+        Orbit::new(self.clone(), policy, Next::Launch(launch.phase(), launch.relative_speed()))
     }
 }
 
@@ -280,7 +350,9 @@ pub enum OrbitEvent {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttachment"))]
 pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] the last impact itself,
-    /// with duration zero and no bound on what was cut off (`error_bound` is infinite unless the speed was 0).
+    /// with duration zero. A constant restitution has no bound on what was cut off (`error_bound` is infinite
+    /// unless the speed was 0); another law has that of [`ImpactMap::comes_to_rest_within`], infinite where
+    /// there is none.
     pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega: what the chatter started from.
     pub last_speed: f64,
@@ -315,40 +387,59 @@ enum Next {
     Report(Impact),
     /// Come to rest.
     Attach(Accumulation, f64),
+    /// Report this error.
+    Fail(Error),
     /// Nothing more: it rests for ever, or an error was reported.
     End,
 }
 
 /// The lazy sequence of [`OrbitEvent`]s of one orbit. It ends if the disk rests for ever, and after an error.
 #[derive(Debug, Clone)]
-pub struct Orbit {
-    map: ImpactMap,
+pub struct Orbit<L = Constant> {
+    map: ImpactMap<L>,
     policy: ChatterPolicy,
     short_flights: ShortFlightCount,
     next: Next,
 }
 
 impl Orbit {
-    fn after_impact(map: ImpactMap, policy: ChatterPolicy, state: ImpactState) -> Self {
-        let mut orbit = Self { map, policy, short_flights: ShortFlightCount::default(), next: Next::End };
-        orbit.next = orbit.after(state.phase, state.velocity, f64::INFINITY);
+    /// Ends the flight in `state`, computed elsewhere from [`Self::launch`].
+    #[inline(always)]
+    pub(crate) fn land(&mut self, state: ImpactState, duration: f64) {
+        let speed = -self.map.restitution() * state.velocity;
+        self.next = self.after(state.phase, state.velocity, speed, duration);
+    }
+}
+
+impl<L: RestitutionLaw> Orbit<L> {
+    #[inline]
+    fn new(map: ImpactMap<L>, policy: ChatterPolicy, next: Next) -> Self {
+        let completes = policy == ChatterPolicy::Complete && map.restitution.constant(Internal).is_none();
+        let next = if completes { Next::Fail(Error::NoClosedForm) } else { next };
+        Self { map, policy, short_flights: ShortFlightCount::new(), next }
+    }
+
+    fn after_impact(map: ImpactMap<L>, policy: ChatterPolicy, state: ImpactState) -> Self {
+        let speed = map.rebound_speed(state.velocity);
+        let mut orbit = Self::new(map, policy, Next::End);
+        if orbit.next == Next::End {
+            orbit.next = match speed {
+                Ok(speed) => orbit.after(state.phase, state.velocity, speed, f64::INFINITY),
+                Err(error) => Next::Fail(error),
+            };
+        }
         orbit
     }
 
-    const fn from_launch(map: ImpactMap, policy: ChatterPolicy, phase: Phase, speed: f64) -> Self {
-        Self { map, policy, short_flights: ShortFlightCount::new(), next: Next::Launch(phase, speed) }
-    }
-
-    fn reporting(map: ImpactMap, policy: ChatterPolicy, impact: Impact) -> Self {
-        Self { map, policy, short_flights: ShortFlightCount::new(), next: Next::Report(impact) }
-    }
-
-    /// What follows an impact at `phase` with relative `velocity` after a flight of `duration`.
-    fn after(&mut self, phase: Phase, velocity: f64, duration: f64) -> Next {
-        let speed = -self.map.restitution * velocity;
+    /// What follows an impact at `phase` with relative `velocity`, which a launch with `speed` follows, after
+    /// a flight of `duration`.
+    fn after(&mut self, phase: Phase, velocity: f64, speed: f64, duration: f64) -> Next {
         match self.policy {
             ChatterPolicy::Complete => {
-                match self.map.vibration.accumulation(phase, speed, self.map.restitution) {
+                let constant = self.map.restitution.constant(Internal);
+                match constant
+                    .and_then(|restitution| self.map.vibration.accumulation(phase, speed, restitution))
+                {
                     // Where no time is left for a chatter there is none.
                     Some(at) => Next::Attach(at, if at.duration > 0.0 { speed } else { 0.0 }),
                     None => Next::Launch(phase, speed),
@@ -362,9 +453,21 @@ impl Orbit {
                     // Put on a platform that falls away, the disk is in flight again at once.
                     Next::Launch(phase, 0.0)
                 } else {
-                    let error_bound = if speed > 0.0 { f64::INFINITY } else { 0.0 };
+                    let error_bound = if speed > 0.0 { self.error_of_cut(phase, velocity) } else { 0.0 };
                     Next::Attach(Accumulation { duration: 0.0, error_bound, phase, turns: 0 }, speed)
                 }
+            }
+        }
+    }
+
+    /// Bound on the time (rad) that the disk would bounce on after an impact that a cut ends; none is given
+    /// for a constant restitution, where [`ChatterPolicy::Complete`] knows better.
+    fn error_of_cut(&self, phase: Phase, velocity: f64) -> f64 {
+        match self.map.restitution.constant(Internal) {
+            Some(_) => f64::INFINITY,
+            None => {
+                let impact = ImpactState::of_impact(phase, velocity);
+                self.map.comes_to_rest_within(impact).unwrap_or(f64::INFINITY)
             }
         }
     }
@@ -374,7 +477,7 @@ impl Orbit {
     pub const fn launch(&self) -> Option<Launch> {
         match self.next {
             Next::Launch(phase, speed) => Some(Launch::known(phase, speed)),
-            Next::Report(_) | Next::Attach(..) | Next::End => None,
+            Next::Report(_) | Next::Attach(..) | Next::Fail(_) | Next::End => None,
         }
     }
 
@@ -398,54 +501,61 @@ impl Orbit {
 
     /// The map.
     #[must_use]
-    pub const fn map(&self) -> &ImpactMap {
+    pub const fn map(&self) -> &ImpactMap<L> {
         &self.map
-    }
-
-    /// Ends the flight in `state`, computed elsewhere from [`Self::launch`].
-    #[inline(always)]
-    pub(crate) fn land(&mut self, state: ImpactState, duration: f64) {
-        self.next = self.after(state.phase, state.velocity, duration);
     }
 
     /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the next flight waits
     /// for it.
     #[inline(never)]
-    fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, duration: f64) {
-        self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, duration);
+    fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, speed: f64, duration: f64) {
+        self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, speed, duration);
     }
 
     #[inline]
-    fn report(&mut self, impact: Impact) -> OrbitEvent {
-        let (phase, speed) = (impact.phase, -self.map.restitution * impact.velocity);
+    fn report(&mut self, impact: Impact, speed: f64) -> OrbitEvent {
+        let phase = impact.phase;
         // Stored in place: nearly every impact, and the next flight waits for it.
         if self.policy == ChatterPolicy::Complete
-            && self.map.vibration.bounces_on(phase, speed, self.map.restitution)
+            && let Some(restitution) = self.map.restitution.constant(Internal)
+            && self.map.vibration.bounces_on(phase, speed, restitution)
         {
             self.next = Next::Launch(phase, speed);
         } else {
             // Only flights far below one period count as short.
             let duration = if impact.periods == 0 { impact.remainder } else { core::f64::consts::TAU };
-            self.settle(phase.angle(), phase.sin(), phase.cos(), impact.velocity, duration);
+            self.settle(phase.angle(), phase.sin(), phase.cos(), impact.velocity, speed, duration);
         }
         OrbitEvent::Impact(impact)
+    }
+
+    /// Ends the orbit with an error.
+    #[inline]
+    fn fail(&mut self, error: Error) -> Result<Option<OrbitEvent>, Error> {
+        self.next = Next::End;
+        Err(error)
     }
 
     /// The next event, or `None` after the end of the orbit.
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact`]; the orbit has ended after one.
+    /// Those of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] in place of the impact whose
+    /// restitution the law does not give; [`Error::NoClosedForm`]. The orbit has ended after one.
     #[inline]
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         match self.next {
             Next::Launch(phase, speed) => match self.map.vibration.impact_after(phase, speed) {
-                Ok(impact) => Ok(Some(self.report(impact))),
-                Err(error) => {
-                    self.next = Next::End;
-                    Err(error)
-                }
+                Ok(impact) => match self.map.rebound_speed(impact.velocity) {
+                    Ok(speed) => Ok(Some(self.report(impact, speed))),
+                    Err(error) => self.fail(error),
+                },
+                Err(error) => self.fail(error),
             },
-            Next::Report(impact) => Ok(Some(self.report(impact))),
+            Next::Report(impact) => match self.map.rebound_speed(impact.velocity) {
+                Ok(speed) => Ok(Some(self.report(impact, speed))),
+                Err(error) => self.fail(error),
+            },
+            Next::Fail(error) => self.fail(error),
             Next::Attach(accumulation, last_speed) => {
                 let separation = self
                     .map
@@ -460,7 +570,7 @@ impl Orbit {
     }
 }
 
-impl Iterator for Orbit {
+impl<L: RestitutionLaw> Iterator for Orbit<L> {
     type Item = Result<OrbitEvent, Error>;
 
     #[inline]

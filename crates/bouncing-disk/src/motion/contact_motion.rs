@@ -6,7 +6,9 @@
 
 use std::cmp::Ordering;
 
-use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, Phase};
+use bouncing_disk_core::{
+    Attachment, ChatterPolicy, Constant, ImpactMap, Launch, Orbit, Phase, RestitutionLaw,
+};
 
 use crate::error::Error;
 use crate::motion::friction::{Friction, Spent};
@@ -177,9 +179,9 @@ impl Contact {
 
 /// A disk that has been put on the platform.
 #[derive(Debug, Clone)]
-pub(crate) struct Placed {
+pub(crate) struct Placed<L = Constant> {
     /// The vertical motion from the separation on; `None` if the platform never falls away.
-    pub(crate) orbit: Option<Orbit>,
+    pub(crate) orbit: Option<Orbit<L>>,
     /// `None` where the platform falls away at once and the disk flies.
     pub(crate) contact: Option<Contact>,
     /// Angular speed: one within rounding of the platform's is the platform's.
@@ -198,13 +200,30 @@ impl Placed {
         speed: f64,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
+        Self::with_map(system, system.map(), friction, phase, speed, policy)
+    }
+}
+
+impl<L: RestitutionLaw> Placed<L> {
+    /// [`Placed::new`] for a `map` that may have another law of restitution than the system.
+    ///
+    /// # Errors
+    /// Those of the core's launches.
+    pub(crate) fn with_map(
+        system: &DimensionlessSystem,
+        map: &ImpactMap<L>,
+        friction: &Friction,
+        phase: Phase,
+        speed: f64,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
         let vibration = system.vibration();
         let mut separation = None;
         let mut orbit = None;
         if let Some(leaves) = vibration.separation_phase() {
             let falls_away = vibration.falls_away_at(phase.angle());
             let from = if falls_away { phase } else { leaves };
-            orbit = Some(system.map().orbit_from_launch(Launch::new(from, 0.0)?, policy));
+            orbit = Some(map.orbit_from_launch(Launch::new(from, 0.0)?, policy));
             if falls_away {
                 return Ok(Self { orbit, contact: None, speed });
             }

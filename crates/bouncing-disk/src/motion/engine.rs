@@ -5,7 +5,10 @@
 //! flight); the engine adds the rotary half (`rotary_change.rs`) and the changes between sticking and sliding while
 //! the disk is on the platform (`contact_motion.rs`).
 
-use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, Launch, Orbit, OrbitEvent};
+use bouncing_disk_core::{
+    Attachment, ChatterCut, ChatterPolicy, Constant, Impact, ImpactMap, Launch, Orbit, OrbitEvent,
+    RestitutionLaw,
+};
 
 use crate::error::{Error, moderate};
 use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
@@ -35,15 +38,17 @@ enum Stage {
 
 /// The motion of a disk as a lazy sequence of [`EventRecord`]s.
 ///
-/// The sequence ends where nothing more can happen (a disk that rests and sticks for ever) and after an error. A
-/// disk that rests for ever may change between sticking and sliding for ever. Two engines with the same
-/// arguments give the same bits.
+/// The sequence ends where nothing more can happen (a disk that rests and sticks for ever) and after an
+/// error. A disk that rests for ever may change between sticking and sliding for ever. Two engines with the
+/// same arguments give the same bits.
+///
+/// The restitution is the system's, a constant, or follows a law ([`Self::with_law`]).
 #[derive(Debug, Clone)]
-pub struct Engine {
+pub struct Engine<L = Constant> {
     system: DimensionlessSystem,
     friction: Friction,
     /// `None` for a disk that has lain on the platform from the start and never separates.
-    orbit: Option<Orbit>,
+    orbit: Option<Orbit<L>>,
     stage: Stage,
     now: PhaseTime,
     state: DiskState,
@@ -62,6 +67,52 @@ impl Engine {
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
         let system = system.into();
+        Self::with_map(system, system.map(), start, policy)
+    }
+}
+
+impl<L: RestitutionLaw> Engine<L> {
+    /// An engine for a system whose restitution follows a `law`; the constant one of the system is ignored. A
+    /// chatter ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no
+    /// bound is known.
+    ///
+    /// The law knows speeds without unit, in g/omega: a speed in m/s is divided by
+    /// [`Scales::velocity`](crate::Scales::velocity).
+    ///
+    /// ```
+    /// use bouncing_disk::core::KuwabaraKono;
+    /// use bouncing_disk::{Engine, InitialCondition, PAPER_CUT, System};
+    ///
+    /// // The dough keeps its restitution at 1 m/s, and has a higher one in slower impacts.
+    /// let system = System::pizza_toss();
+    /// let law = KuwabaraKono::new(system.disk().restitution(), 1.0 / system.scales().velocity)?;
+    /// let start = InitialCondition::Contact { phase: bouncing_disk::core::Phase::new(0.0)?, angular_speed: 0.0 };
+    /// let engine = Engine::with_law(system, law, start, PAPER_CUT)?;
+    /// for record in engine.take(100) {
+    ///     assert!(record?.ledger.relative_closure() < 1e-12);
+    /// }
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Engine::new`].
+    pub fn with_law(
+        system: impl Into<DimensionlessSystem>,
+        law: L,
+        start: InitialCondition,
+        cut: ChatterCut,
+    ) -> Result<Self, Error> {
+        let system = system.into();
+        let map = ImpactMap::with_law(*system.vibration(), law);
+        Self::with_map(system, &map, start, ChatterPolicy::Cut(cut))
+    }
+
+    fn with_map(
+        system: DimensionlessSystem,
+        map: &ImpactMap<L>,
+        start: InitialCondition,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
         let (phase, speed) = match start {
             InitialCondition::Contact { phase, angular_speed }
             | InitialCondition::Launch { phase, angular_speed, .. }
@@ -85,14 +136,13 @@ impl Engine {
             angle: LongSum::new(angle),
         };
         match start {
-            InitialCondition::Contact { .. } => engine.start_in_contact(policy)?,
+            InitialCondition::Contact { .. } => engine.start_in_contact(map, policy)?,
             InitialCondition::Launch { relative_speed, .. } => {
-                engine.orbit =
-                    Some(system.map().orbit_from_launch(Launch::new(phase, relative_speed)?, policy));
+                engine.orbit = Some(map.orbit_from_launch(Launch::new(phase, relative_speed)?, policy));
                 engine.state.axial_velocity += relative_speed;
             }
             InitialCondition::Flight { gap, relative_velocity, .. } => {
-                engine.orbit = Some(system.map().orbit_from_drop(phase, gap, relative_velocity, policy)?);
+                engine.orbit = Some(map.orbit_from_drop(phase, gap, relative_velocity, policy)?);
                 engine.state.height += gap;
                 engine.state.axial_velocity += relative_velocity;
             }
@@ -100,9 +150,15 @@ impl Engine {
         Ok(engine)
     }
 
-    fn start_in_contact(&mut self, policy: ChatterPolicy) -> Result<(), Error> {
-        let placed =
-            Placed::new(&self.system, &self.friction, self.now.phase, self.state.angular_speed, policy)?;
+    fn start_in_contact(&mut self, map: &ImpactMap<L>, policy: ChatterPolicy) -> Result<(), Error> {
+        let placed = Placed::with_map(
+            &self.system,
+            map,
+            &self.friction,
+            self.now.phase,
+            self.state.angular_speed,
+            policy,
+        )?;
         self.orbit = placed.orbit;
         self.state.angular_speed = placed.speed;
         if let Some(contact) = placed.contact {
@@ -187,7 +243,8 @@ impl Engine {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of the core's flights; [`Error::SlipTooLong`]. The motion has ended after one.
+    /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. The motion has ended
+    /// after one.
     pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         let result = match self.stage {
             Stage::Flight => self.advance_flight(),
@@ -203,22 +260,25 @@ impl Engine {
     fn advance_flight(&mut self) -> Result<Option<EventRecord>, Error> {
         let Some(orbit) = &mut self.orbit else { return Ok(None) };
         Ok(match orbit.advance()? {
-            Some(OrbitEvent::Impact(impact)) => Some(self.hit(&impact)),
+            Some(OrbitEvent::Impact(impact)) => {
+                let restitution = Orbit::map(orbit).restitution_at(0.0 - impact.velocity)?;
+                Some(self.hit(&impact, restitution))
+            }
             Some(OrbitEvent::Attachment(rest)) => Some(self.attach(&rest)),
             Some(_) | None => None,
         })
     }
 
-    fn hit(&mut self, impact: &Impact) -> EventRecord {
+    fn hit(&mut self, impact: &Impact, restitution: f64) -> EventRecord {
         let system = &self.system;
         let span = PhaseSpan { periods: impact.periods, remainder: impact.remainder };
         let change = change_in_flight(system.load(), self.state.angular_speed, span.radians());
         let platform_velocity = system.vibration().velocity(impact.phase);
         let platform_speed = system.platform_angular_speed(impact.phase);
         let slip = change.speed - platform_speed;
-        let mut axial = axial_impulse(system.restitution(), impact.velocity);
+        let mut axial = axial_impulse(restitution, impact.velocity);
         let rotary = friction_impact(system.friction(), axial, slip);
-        let rebound = rebound_velocity(system.restitution(), impact.velocity);
+        let rebound = rebound_velocity(restitution, impact.velocity);
         // Where the platform falls away, the paper's cut takes the rebound and lets the disk go at once.
         let launch = self.orbit.as_ref().and_then(Orbit::launch);
         let cut = launch.is_some_and(|launch| launch.relative_speed() <= 0.0 && rebound > 0.0);
@@ -251,7 +311,7 @@ impl Engine {
             ImpactEnergy {
                 axial,
                 relative_velocity: impact.velocity,
-                restitution: system.restitution(),
+                restitution,
                 platform_velocity,
                 rotary: rotary.impulse,
                 slip,
@@ -288,7 +348,8 @@ impl Engine {
         let system = &self.system;
         let accumulation = rest.accumulation;
         let from = self.now.phase;
-        let cut = accumulation.error_bound.is_infinite();
+        // A chatter that is summed lasts; one that is cut leaves a speed.
+        let cut = accumulation.duration <= 0.0 && rest.last_speed > 0.0;
         let segment = self.segment((!cut).then_some(rest.last_speed));
         let duration = accumulation.duration;
         // The paper's cut takes the last launch speed away by an impulse of its own.
@@ -437,7 +498,7 @@ fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState)
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);
 }
 
-impl Iterator for Engine {
+impl<L: RestitutionLaw> Iterator for Engine<L> {
     type Item = Result<EventRecord, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -447,5 +508,7 @@ impl Iterator for Engine {
 
 #[cfg(test)]
 mod chatter_tests;
+#[cfg(test)]
+mod law_tests;
 #[cfg(test)]
 mod tests;

@@ -28,7 +28,8 @@ pub enum Event {
     Attachment {
         /// Impacts summed.
         impacts: u64,
-        /// Bound on the error of the attachment phase (rad); infinite for the paper's cut.
+        /// Bound on the error of the attachment phase (rad); infinite for the cut of a chatter with constant
+        /// restitution, as the paper's is, and where no bound is known.
         error_bound: f64,
     },
     /// The platform falls away from the disk.

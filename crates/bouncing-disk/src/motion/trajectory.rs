@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use bouncing_disk_core::read_checked;
+use bouncing_disk_core::{RestitutionLaw, read_checked};
 
 use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;
@@ -50,7 +50,10 @@ impl Trajectory {
     ///
     /// # Errors
     /// Those of [`Engine::advance`].
-    pub fn record(engine: &mut Engine, mut last: impl FnMut(&EventRecord) -> bool) -> Result<Self, Error> {
+    pub fn record<L: RestitutionLaw>(
+        engine: &mut Engine<L>,
+        mut last: impl FnMut(&EventRecord) -> bool,
+    ) -> Result<Self, Error> {
         let mut trajectory = Self { system: *engine.system(), start: engine.time(), records: Vec::new() };
         while let Some(record) = engine.advance()? {
             trajectory.records.push(record);

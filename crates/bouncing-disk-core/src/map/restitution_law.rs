@@ -1,0 +1,176 @@
+//! Laws of restitution: which share of its speed an impact leaves to the disk, and what users implement for
+//! one of their own. Derived in docs/numerics/restitution.md.
+
+use core::fmt::{self, Debug, Display};
+
+use crate::error::{Error, within};
+
+pub(crate) mod kuwabara_kono;
+
+/// A law of restitution: which share of the relative axial speed an impact leaves.
+///
+/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::KuwabaraKono) that of viscoelastic bodies. A law of
+/// one's own needs two methods:
+///
+/// ```
+/// use bouncing_disk_core::{ImpactMap, ImpactState, RestitutionLaw, Vibration};
+///
+/// /// r = 1/(1 + v).
+/// #[derive(Debug, Clone, Copy)]
+/// struct Softening;
+///
+/// impl RestitutionLaw for Softening {
+///     fn restitution(&self, impact_speed: f64) -> f64 {
+///         1.0 / (1.0 + impact_speed)
+///     }
+///     fn derivative(&self, impact_speed: f64) -> f64 {
+///         let restitution = self.restitution(impact_speed);
+///         -restitution * restitution
+///     }
+/// }
+///
+/// let map = ImpactMap::with_law(Vibration::from_axial_forcing(0.55)?, Softening);
+/// let impact = map.step(ImpactState::from_normalised(0.8, 1.3)?)?;
+/// assert!(impact.velocity < 0.0);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// The same speed must always give the same restitution; that it lies in [0, 1] is checked at every impact.
+/// Nothing is checked beyond one value: a law that grows with the speed, or that jumps, is followed as it is.
+pub trait RestitutionLaw: Clone + Debug {
+    /// The coefficient of restitution, in [0, 1], of an impact with the relative axial speed |w_A| >= 0
+    /// (units of g/omega).
+    ///
+    /// A value outside its range, or none, ends the motion with [`Error::IllegalRestitution`] at that impact.
+    fn restitution(&self, impact_speed: f64) -> f64;
+
+    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal
+    /// number, at speed 0 above all, it may be infinite: what counts is its product with the speed, which is
+    /// taken as 0 there.
+    fn derivative(&self, impact_speed: f64) -> f64;
+
+    /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this
+    /// speed, until it rests: for a law that does not grow with the speed, the integral of r/(1 - r) over the
+    /// speeds from 0 to this one, or anything above it. The error of a cut follows from it
+    /// ([`ImpactMap::comes_to_rest_within`](crate::ImpactMap::comes_to_rest_within)).
+    ///
+    /// `None`, the default, for a law that may grow with the speed and for one of which nothing is known: its
+    /// cuts have no bound.
+    fn rebound_sum(&self, _impact_speed: f64) -> Option<f64> {
+        None
+    }
+
+    /// The restitution of every speed, where it is the same and known to be legal. [`Constant`] alone has
+    /// one, as no other crate can name the argument: the closed forms of a chatter rely on it.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn constant(&self, _: Internal) -> Option<f64> {
+        None
+    }
+}
+
+/// What only this crate can name: nobody else overrides a method that asks for it.
+#[derive(Debug, Clone, Copy)]
+pub struct Internal;
+
+/// The same restitution at every speed, in [0, 1): the paper's law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "f64", into = "f64"))]
+pub struct Constant(f64);
+
+impl Constant {
+    /// The law with this restitution in [0, 1).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a restitution outside [0, 1).
+    pub fn new(restitution: f64) -> Result<Self, Error> {
+        within("restitution", restitution, 0.0, 1.0 - f64::EPSILON / 2.0, "[0, 1)")?;
+        Ok(Self(restitution))
+    }
+
+    /// The restitution.
+    #[must_use]
+    #[inline(always)]
+    pub const fn value(&self) -> f64 {
+        self.0
+    }
+}
+
+impl TryFrom<f64> for Constant {
+    type Error = Error;
+
+    fn try_from(restitution: f64) -> Result<Self, Error> {
+        Self::new(restitution)
+    }
+}
+
+impl From<Constant> for f64 {
+    fn from(law: Constant) -> Self {
+        law.0
+    }
+}
+
+/// The number alone.
+impl Display for Constant {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Display::fmt(&self.0, formatter)
+    }
+}
+
+impl RestitutionLaw for Constant {
+    #[inline(always)]
+    fn restitution(&self, _impact_speed: f64) -> f64 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn derivative(&self, _impact_speed: f64) -> f64 {
+        0.0
+    }
+
+    fn rebound_sum(&self, impact_speed: f64) -> Option<f64> {
+        Some(self.0 * impact_speed / (1.0 - self.0))
+    }
+
+    #[inline(always)]
+    fn constant(&self, _: Internal) -> Option<f64> {
+        Some(self.0)
+    }
+}
+
+/// The restitution of `law` at an impact speed, checked.
+#[inline(always)]
+pub(crate) fn restitution_of<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Result<f64, Error> {
+    if let Some(restitution) = law.constant(Internal) {
+        return Ok(restitution);
+    }
+    let restitution = law.restitution(impact_speed);
+    if (0.0..=1.0).contains(&restitution) {
+        Ok(restitution)
+    } else {
+        Err(Error::IllegalRestitution { restitution, impact_speed })
+    }
+}
+
+/// The derivative of the launch speed r(v) v by the impact speed v, which is the restitution of a constant
+/// law.
+pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Result<f64, Error> {
+    let restitution = restitution_of(law, impact_speed)?;
+    if law.constant(Internal).is_some() || impact_speed < f64::MIN_POSITIVE {
+        return Ok(restitution);
+    }
+    let slope = restitution + impact_speed * law.derivative(impact_speed);
+    if slope.is_finite() {
+        Ok(slope)
+    } else {
+        Err(Error::OutOfRange {
+            field: "derivative of the launch speed by the impact speed",
+            value: slope,
+            legal: "finite, for a law of restitution has a derivative above speed 0",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
