@@ -56,6 +56,16 @@ pub enum Error {
         /// Its standard error (rad/s).
         standard_error: f64,
     },
+    /// A mean speed is not known as well as was asked for when all impacts that were allowed had been spent.
+    #[error(
+        "the mean speed, {speed:?} rad/s with a standard error of {standard_error:?} rad/s, is not known as well as asked for: allow more impacts, or a larger error"
+    )]
+    NotSettled {
+        /// Mean speed (rad/s).
+        speed: f64,
+        /// Its standard error (rad/s).
+        standard_error: f64,
+    },
     /// The load accelerates a motor for ever, whatever is changed.
     #[error("the load of {load:?} m g a_e overpowers the motor: friction cannot give as much on average")]
     Overpowered {

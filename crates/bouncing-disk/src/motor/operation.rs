@@ -9,6 +9,7 @@ mod energy_rows;
 pub(crate) mod ensemble;
 mod member;
 mod no_lift_off;
+pub(crate) mod of_motor;
 pub(crate) mod point;
 pub(crate) mod settings;
 mod settling;

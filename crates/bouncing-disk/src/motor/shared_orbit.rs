@@ -13,8 +13,7 @@ pub(crate) mod vertical;
 use crate::error::Error;
 use crate::parameters::system::System;
 
-/// Checks that these motors share one vertical motion: the same peak acceleration P and restitution to the bit, and the
-/// same seconds. The first one stands for all.
+/// Checks that these motors share one vertical motion ([`is_shared`]). The first one stands for all.
 ///
 /// # Errors
 /// [`Error::NotShared`] names what differs; [`Error::OutOfRange`] for no motor.
@@ -23,24 +22,28 @@ pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
         return Err(Error::OutOfRange { field: "number of rotors", value: 0.0, legal: "[1, 1000000]" });
     };
     for system in systems {
-        for (field, one, other) in [
-            ("peak acceleration P", first.peak_acceleration(), system.peak_acceleration()),
-            ("restitution", first.disk().restitution(), system.disk().restitution()),
-            (
-                "angular frequency (rad/s)",
-                first.platform().angular_frequency(),
-                system.platform().angular_frequency(),
-            ),
-            (
-                "preload acceleration (m/s^2)",
-                first.disk().preload_acceleration(),
-                system.disk().preload_acceleration(),
-            ),
-        ] {
+        for (one, other) in of_vertical_motion(first).into_iter().zip(of_vertical_motion(system)) {
+            let ((field, one), (_, other)) = (one, other);
             if one.to_bits() != other.to_bits() {
                 return Err(Error::NotShared { field, one, other });
             }
         }
     }
     Ok(first)
+}
+
+/// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, and the same
+/// seconds.
+pub(crate) fn is_shared(one: &System, other: &System) -> bool {
+    let bits = |system: &System| of_vertical_motion(system).map(|(_, value)| value.to_bits());
+    bits(one) == bits(other)
+}
+
+fn of_vertical_motion(system: &System) -> [(&'static str, f64); 4] {
+    [
+        ("peak acceleration P", system.peak_acceleration()),
+        ("restitution", system.disk().restitution()),
+        ("angular frequency (rad/s)", system.platform().angular_frequency()),
+        ("preload acceleration (m/s^2)", system.disk().preload_acceleration()),
+    ]
 }

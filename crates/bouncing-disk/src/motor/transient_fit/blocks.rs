@@ -7,8 +7,8 @@ use super::resamples::{Resampled, index};
 use super::shape_grid::{CONSTANTS, ShapeGrid};
 use crate::error::Error;
 use crate::motor::correlation::correlation_time;
-use crate::motor::estimate::small_sample_widening;
 use crate::motor::fit_refusal::FitRefusal;
+use crate::motor::interval_estimate::small_sample_widening;
 
 /// The fewest blocks: fewer would say too little about each other.
 const LEAST_BLOCKS: usize = 8;

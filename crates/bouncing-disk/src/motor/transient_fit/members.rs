@@ -6,7 +6,7 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use super::resamples::{Resampled, index};
 use super::shape_grid::{CONSTANTS, ShapeGrid};
 use crate::error::Error;
-use crate::motor::estimate::small_sample_widening;
+use crate::motor::interval_estimate::small_sample_widening;
 
 /// The mean curve of an ensemble as the mean over its groups of members, each with its size.
 pub(super) struct Members {

@@ -1,0 +1,235 @@
+//! What a designer asks of a motor in steady operation.
+
+use bouncing_disk_core::{Observer, Progress, Unobserved};
+
+use super::best_phase_lag::{BestPhaseLag, best_phase_lag};
+use super::ensemble::{LoadedMotor, operate};
+use super::point::{Estimate, Operation};
+use super::settings::OperatingSettings;
+use super::stall_load::{StallLoad, stall_load};
+use crate::error::{Error, check, finite};
+use crate::motor::data_sheet::Motor;
+use crate::motor::shared_orbit::is_shared;
+
+impl LoadedMotor {
+    fn of(motor: &Motor) -> Self {
+        Self { system: *motor.system(), mass: motor.mass(), load_torque: motor.load_torque() }
+    }
+}
+
+impl Motor {
+    /// The motor in steady operation under a load torque (N m), in place of the load of its data sheet.
+    ///
+    /// ```
+    /// use bouncing_disk::{Motor, OperatingSettings, Operation};
+    ///
+    /// let motor = Motor::paper_70_khz();
+    /// let half = 0.5 * motor.largest_torque();
+    /// let operation = motor.operating_point(half, &OperatingSettings::default())?;
+    /// let point = operation.steady().expect("known to 1 %");
+    /// let (speed, efficiency) = (point.speed, point.efficiency.expect("it works"));
+    /// assert!((speed.value - 8.0).abs() < 0.5 && speed.standard_error < 0.2);
+    /// assert!((efficiency.value - 0.11).abs() < 0.01);
+    /// // A load that friction cannot hold has no operating point.
+    /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default())?;
+    /// assert!(matches!(overload, Operation::Runaway { .. }));
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; the errors of the flights. A motor that is
+    /// not known well enough when all impacts are spent is no error but [`Operation::Unsettled`].
+    pub fn operating_point(
+        &self,
+        load_torque: f64,
+        settings: &OperatingSettings,
+    ) -> Result<Operation, Error> {
+        self.operating_point_observed(load_torque, settings, &Unobserved)
+    }
+
+    /// [`Self::operating_point`] with an observer; the items are the impacts that may be spent.
+    ///
+    /// # Errors
+    /// Those of [`Self::operating_point`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
+    pub fn operating_point_observed(
+        &self,
+        load_torque: f64,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Operation, Error> {
+        let mut all = self.torque_speed_curve_observed(&[load_torque], settings, observer)?;
+        // As many as loads.
+        Ok(all.swap_remove(0))
+    }
+
+    /// The motor in steady operation under each of these load torques (N m), in their order: on one vertical motion, so
+    /// that a curve costs little more than a point. The points share their perturbations: the curve is smooth, and the
+    /// difference of two points is better known than either.
+    ///
+    /// # Errors
+    /// Those of [`Self::operating_point`]; [`Error::OutOfRange`] for no load.
+    pub fn torque_speed_curve(
+        &self,
+        load_torques: &[f64],
+        settings: &OperatingSettings,
+    ) -> Result<Vec<Operation>, Error> {
+        self.torque_speed_curve_observed(load_torques, settings, &Unobserved)
+    }
+
+    /// [`Self::torque_speed_curve`] with an observer; the items are the impacts that may be spent.
+    ///
+    /// # Errors
+    /// Those of [`Self::torque_speed_curve`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+    /// the observer breaks.
+    pub fn torque_speed_curve_observed(
+        &self,
+        load_torques: &[f64],
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Operation>, Error> {
+        check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
+        let own = LoadedMotor::of(self);
+        let motors = load_torques
+            .iter()
+            .map(|&torque| own.with_load(finite("load_torque", torque)?))
+            .collect::<Result<Vec<_>, Error>>()?;
+        Ok(operate(&motors, settings, observer)?.operations)
+    }
+
+    /// The mean speed without load (rad/s).
+    ///
+    /// # Errors
+    /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it is not known as well as was asked for.
+    pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
+        match self.operating_point(0.0, settings)? {
+            Operation::Steady(point) => Ok(point.speed),
+            Operation::Unsettled(point, _) => Err(Error::NotSettled {
+                speed: point.speed.value,
+                standard_error: point.speed.standard_error,
+            }),
+            // No load is not above what friction can hold.
+            Operation::Runaway { load_torque, .. } => Err(Error::Overpowered { load: load_torque }),
+        }
+    }
+
+    /// The load torque that stops the motor, bracketed: the true stall.
+    ///
+    /// # Errors
+    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without load.
+    pub fn stall_load(&self, settings: &OperatingSettings) -> Result<StallLoad, Error> {
+        self.stall_load_observed(settings, &Unobserved)
+    }
+
+    /// [`Self::stall_load`] with an observer; the items are the impacts that its two searches may spend.
+    ///
+    /// # Errors
+    /// Those of [`Self::stall_load`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
+    pub fn stall_load_observed(
+        &self,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<StallLoad, Error> {
+        stall_load(&LoadedMotor::of(self), settings, observer)
+    }
+
+    /// The phase lag at which the motor turns fastest under the load of its data sheet, and how well it has to be kept.
+    ///
+    /// # Errors
+    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that turns at no lag,
+    /// [`Error::Overpowered`] where the load is more than friction can hold.
+    pub fn best_phase_lag(&self, settings: &OperatingSettings) -> Result<BestPhaseLag, Error> {
+        self.best_phase_lag_observed(settings, &Unobserved)
+    }
+
+    /// [`Self::best_phase_lag`] with an observer; the items are the impacts that its two searches may spend.
+    ///
+    /// # Errors
+    /// Those of [`Self::best_phase_lag`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
+    pub fn best_phase_lag_observed(
+        &self,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<BestPhaseLag, Error> {
+        best_phase_lag(&LoadedMotor::of(self), settings, observer)
+    }
+}
+
+/// The steady operation of many motors, each under the load of its data sheet, in their order: maps of efficiency over
+/// lag and load, preload and amplitude, or whatever else. Motors that follow each other and share a vertical motion
+/// (they differ in load, friction, lag, twist, radii or mass only) are carried by one: give what is shared together.
+///
+/// # Errors
+/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor.
+pub fn operations(motors: &[Motor], settings: &OperatingSettings) -> Result<Vec<Operation>, Error> {
+    operations_observed(motors, settings, &Unobserved)
+}
+
+/// [`operations`] with an observer; the items are the motors.
+///
+/// # Errors
+/// Those of [`operations`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
+/// breaks.
+pub fn operations_observed(
+    motors: &[Motor],
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Operation>, Error> {
+    check(!motors.is_empty(), "number of motors", 0.0, "[1, 1000000]")?;
+    let (total, mut all) = (motors.len() as u64, Vec::with_capacity(motors.len()));
+    for group in motors.chunk_by(|one, other| is_shared(one.system(), other.system())) {
+        let done = all.len() as u64;
+        let loaded: Vec<LoadedMotor> = group.iter().map(LoadedMotor::of).collect();
+        all.extend(
+            operate(&loaded, settings, &|_: Progress| observer.observe(Progress { done, total }))?.operations,
+        );
+    }
+    // Whatever it says, there is nothing left to stop.
+    let _ = observer.observe(Progress { done: total, total });
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::OperatingPoint;
+
+    #[test]
+    fn a_curve_is_that_of_its_loads_and_a_map_that_of_its_motors() {
+        let motor = Motor::paper_70_khz();
+        let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
+        let largest = motor.largest_torque();
+        let loads = [0.0, 0.2 * largest, 0.5 * largest, 1.1 * largest];
+        let curve = motor.torque_speed_curve(&loads, &settings).expect("no failure");
+        assert!(curve.iter().zip(loads).all(|(point, load)| point.load_torque().to_bits() == load.to_bits()));
+        let motors: Vec<Motor> =
+            loads.iter().map(|&load| motor.with(|sheet| sheet.load_torque = load).expect("legal")).collect();
+        let map = operations(&motors, &settings).expect("no failure");
+        assert_eq!(curve, map);
+        assert!(matches!(curve[3], Operation::Runaway { .. }));
+        let Operation::Runaway { largest_torque, .. } = curve[3] else { unreachable!() };
+        assert!((largest_torque / largest - 1.0).abs() < 1e-12);
+        // Motors that share nothing, between such that do.
+        let other = motor.with(|sheet| sheet.amplitude *= 1.1).expect("legal");
+        let mixed = operations(&[motors[0], other, motors[1], motors[2]], &settings).expect("no failure");
+        let alone = other.operating_point(0.0, &settings).expect("no failure");
+        assert_eq!(mixed[1], alone);
+        let speed = |operation: &Operation| operation.point().map(|point: &OperatingPoint| point.speed.value);
+        assert!(speed(&mixed[0]) > speed(&mixed[2]) && speed(&mixed[2]) > speed(&mixed[3]));
+        let unloaded = motor.no_load_speed(&settings).expect("steady");
+        assert!((unloaded.value - speed(&curve[0]).expect("steady")).abs() < 4.0 * unloaded.standard_error);
+    }
+
+    #[test]
+    fn loads_that_are_none_are_refused_by_name() {
+        let (motor, settings) = (Motor::paper_70_khz(), OperatingSettings::default());
+        for load in [f64::NAN, f64::INFINITY] {
+            let error = motor.operating_point(load, &settings).expect_err("illegal");
+            assert!(matches!(error, Error::OutOfRange { field: "load_torque", .. }), "{error}");
+        }
+        assert!(motor.torque_speed_curve(&[], &settings).is_err());
+        assert!(operations(&[], &settings).is_err());
+    }
+}
