@@ -93,6 +93,7 @@ pub use motor::interval_estimate::IntervalEstimate;
 pub use motor::measured_speeds::error::MeasuredSpeedsError;
 pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
+pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
