@@ -166,4 +166,4 @@ impl MotorSweep {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

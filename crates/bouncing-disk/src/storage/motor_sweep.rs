@@ -144,7 +144,10 @@ impl MotorSweepResult {
         let failed = |source| StorageError::NotStorable { what: "the result of a sweep".to_owned(), source };
         let provenance = self.provenance()?;
         let content = json!({ "provenance": provenance, "axes": self.axes(), "cells": self.cells() });
-        serde_json::to_string_pretty(&content).map(|text| text + "\n").map_err(failed)
+        let text = serde_json::to_string_pretty(&content).map_err(failed)?;
+        // A number that JSON does not have would be found by those who read it.
+        of_content(content, &provenance).map_err(failed)?;
+        Ok(text + "\n")
     }
 
     /// Writes [`Self::to_json`] to a file. A file of that name is replaced, as a whole or not at all.
@@ -168,17 +171,9 @@ impl MotorSweepResult {
             source,
         })?;
         let unfit = |source| StorageError::Content { path: path.to_owned(), source };
-        let mut content: Value = serde_json::from_str(&text).map_err(unfit)?;
+        let content: Value = serde_json::from_str(&text).map_err(unfit)?;
         let provenance = Provenance::read(MOTOR_SWEEP, &content["provenance"], path)?;
-        let parameters = provenance.parameters();
-        let [axes, cells] = ["axes", "cells"].map(|name| content[name].take());
-        let result = json!({
-            "motor": parameters.get("motor"),
-            "settings": parameters.get("settings"),
-            "axes": axes,
-            "cells": cells,
-        });
-        Self::deserialize(result).map_err(unfit)
+        of_content(content, &provenance).map_err(unfit)
     }
 
     /// Writes the table of [`Self::to_csv`] to a file, behind a first line that says where it comes from:
@@ -193,6 +188,18 @@ impl MotorSweepResult {
         let text = format!("# provenance: {provenance}\n{}", self.to_csv());
         write_complete(path.as_ref(), text.as_bytes())
     }
+}
+
+/// The result of which a file has axes and cells, and its provenance the rest.
+fn of_content(mut content: Value, provenance: &Provenance) -> serde_json::Result<MotorSweepResult> {
+    let parameters = provenance.parameters();
+    let [axes, cells] = ["axes", "cells"].map(|name| content[name].take());
+    MotorSweepResult::deserialize(json!({
+        "motor": parameters.get("motor"),
+        "settings": parameters.get("settings"),
+        "axes": axes,
+        "cells": cells,
+    }))
 }
 
 /// The text of a regular file.
