@@ -26,7 +26,7 @@ fn main() -> Result<(), Error> {
     let maps = [SweepQuantity::Speed, SweepQuantity::Efficiency].map(|quantity| result.matrix(quantity));
     print!("{:>12}", "load (uN m)");
     for load in &result.axes()[1].values {
-        print!("{:>16.2}", load * 1e6);
+        print!("{:>21.2}", load * 1e6);
     }
     println!();
     for (row, preload) in result.axes()[0].values.iter().enumerate() {
@@ -39,7 +39,7 @@ fn main() -> Result<(), Error> {
                 (Some(speed), None) => format!("{speed:.1} rad/s"),
                 (None, _) => "runs away".to_owned(),
             };
-            print!("{cell:>16}");
+            print!("{cell:>21}");
         }
         println!();
     }
