@@ -23,6 +23,7 @@
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
+//! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
 //! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
@@ -98,6 +99,11 @@ pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::stall_load::StallLoad;
+pub use motor::sensitivity::global::ParameterRange;
+pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
+pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};
+pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices, sobol_indices_observed};
 pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{

@@ -14,6 +14,7 @@ pub(crate) mod measured_speeds;
 pub(crate) mod operation;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
+pub(crate) mod sensitivity;
 pub(crate) mod shared_orbit;
 pub(crate) mod stall;
 pub(crate) mod statistics;

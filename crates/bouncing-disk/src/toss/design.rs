@@ -15,7 +15,7 @@ use bouncing_disk_core::{Observer, Unobserved, Watch};
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::stroke::Stroke;
-use crate::toss::design::hand::{Evaluation, Hand};
+use crate::toss::design::hand::Evaluation;
 use crate::toss::design::robustness::{TossHalfUnits, TossRobustness, robustness};
 use crate::toss::design::search::search;
 use crate::toss::single::{InitialSpin, TossPerformance};

@@ -1,7 +1,7 @@
 use bouncing_disk_core::numerics::random::SplitMix64;
 
 use super::*;
-use crate::toss::design::hand::{toss, value_of};
+use crate::toss::design::hand::{Hand, toss, value_of};
 use crate::{Robustness, TossInput};
 
 fn designed(constraints: &TossConstraints) -> TossDesign {
