@@ -163,7 +163,7 @@ impl Motor {
             let known = if parameter.shares_vertical_motion() { shared.next() } else { None };
             results.push(match known {
                 Some(known) => known,
-                None => by_regression(self, quantity, parameter, settings, &mut |motor| {
+                None => by_regression(self, parameter, settings, &mut |motor| {
                     let item = done;
                     done += 1;
                     let observer = |_: Progress| observer.observe(Progress { done: item, total });
@@ -314,13 +314,12 @@ fn member_values(
 /// miss the values at which a motor is in a trap.
 fn by_regression(
     motor: &Motor,
-    quantity: SensitivityQuantity,
     parameter: SensitivityParameter,
     settings: &SensitivitySettings,
     quantity_of: &mut dyn FnMut(&Motor) -> Result<Estimate, Error>,
 ) -> Result<LocalSensitivity, Error> {
     let centre = positive(parameter.name(), parameter.of(motor))?;
-    let mut random = SplitMix64::new(settings.operating.seed ^ quantity as u64);
+    let mut random = SplitMix64::new(settings.operating.seed);
     let (mut offsets, mut values, mut traps) = (Vec::new(), Vec::new(), 0);
     for index in 0..settings.points {
         let share = (index as f64 + random.unit()) / settings.points as f64;

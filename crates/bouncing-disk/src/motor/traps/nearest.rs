@@ -13,7 +13,7 @@ use crate::motor::traps::TrapVerdict;
 const STEP: f64 = 1.0 / 2048.0;
 
 /// Most steps on either side. A motor with so large a Gamma that they do not suffice is scanned in wider ones.
-const MOST_STEPS: f64 = 200_000.0;
+const MOST_STEPS: f64 = 100_000.0;
 
 /// Halvings of a step that find the edge of a trap: to 1e-9 of Gamma's unit.
 const HALVINGS: u32 = 20;
