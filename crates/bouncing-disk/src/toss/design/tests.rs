@@ -219,7 +219,7 @@ fn exact_inputs_leave_nothing_in_doubt() {
     }
     // A subnormal one is none.
     let tiny = TossHalfUnits { stroke: 5e-324, ..TossHalfUnits::default() };
-    assert_eq!(design.robustness(&tiny).unwrap().digits.most, digits.most);
+    assert!((design.robustness(&tiny).unwrap().digits.most - digits.most).abs() <= 0.0);
 }
 
 #[test]
