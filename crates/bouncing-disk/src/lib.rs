@@ -95,6 +95,7 @@ pub use motor::interval_estimate::IntervalEstimate;
 pub use motor::measured_speeds::error::MeasuredSpeedsError;
 pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
+pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
@@ -149,3 +150,8 @@ struct ReadmeExamples;
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/tutorial.md")]
 struct TutorialExamples;
+
+/// Compiles and runs the programs of the page on motors.
+#[cfg(all(doctest, feature = "storage"))]
+#[doc = include_str!("../../../docs/designing-a-motor.md")]
+struct MotorExamples;

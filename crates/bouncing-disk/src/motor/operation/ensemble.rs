@@ -9,7 +9,6 @@ use super::point::{Estimate, OperatingPoint, Operation, Shortfall};
 use super::settings::OperatingSettings;
 use super::settling::{left_out, shortfall};
 use crate::error::{Error, positive, within_limit};
-use crate::motor::ensemble::MAX_MEMBERS;
 use crate::motor::shared_orbit::shared_by;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
@@ -21,6 +20,9 @@ const WINDOWS_OF_RISE: f64 = 2.0;
 
 /// With more windows, two and two become one.
 const MOST_WINDOWS: usize = 128;
+
+/// Most rotors of all members of one ensemble together: with their windows half a gigabyte.
+pub const MAX_OPERATED_ROTORS: usize = 1 << 17;
 
 /// Least impacts of a window, and least periods of the platform.
 const LEAST_IMPACTS: u64 = 50;
@@ -108,7 +110,8 @@ pub(crate) fn operate(
     observer: &dyn Observer,
 ) -> Result<Operations, Error> {
     settings.check()?;
-    within_limit("rotors on one vertical motion", motors.len(), MAX_MEMBERS)?;
+    let rotors = motors.len().saturating_mul(settings.members);
+    within_limit("rotors of all members", rotors, MAX_OPERATED_ROTORS)?;
     let systems: Vec<System> = motors.iter().map(|motor| motor.system).collect();
     let first = *shared_by(&systems)?;
     for motor in motors {
