@@ -247,3 +247,34 @@ pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result
         },
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(values: &[f64]) -> Grid {
+        Grid { shape: [1, 1, values.len()], values: values.to_vec() }
+    }
+
+    #[test]
+    fn a_plateau_beside_a_cliff_may_hide_a_peak() {
+        let best = |share: f64| Place { at: [0.0, 0.0, share], value: 1.0 };
+        // Between two points at 0.9, each a step of 0.9 above the next one, there may be a peak of 0.9 + 0.45.
+        let gain = row(&[0.0, 1.0, 0.0, 0.0, 0.9, 0.9, 0.0, 0.0, 0.0]).hidden_gain(&best(0.125));
+        assert!((gain - 0.35).abs() < 1e-15, "{gain}");
+        // A ramp hides nothing, nor does what lies far below; what is next to the optimum has been searched.
+        for values in [[0.0, 0.2, 0.4, 0.6, 0.8, 1.0], [0.0, 0.1, 0.0, 0.1, 0.0, 1.0]] {
+            assert!(row(&values).hidden_gain(&best(1.0)).abs() <= 0.0, "{values:?}");
+        }
+        assert!(row(&[1.0]).hidden_gain(&best(0.0)).abs() <= 0.0);
+    }
+
+    #[test]
+    fn peaks_are_what_no_neighbour_exceeds_best_first() {
+        assert_eq!(row(&[0.5, 0.1, 0.9, 0.9, 0.2, 0.7]).peaks(), [2, 3, 5, 0]);
+        assert_eq!(row(&[3.0]).peaks(), [0]);
+        let square = Grid { shape: [2, 1, 2], values: vec![1.0, 3.0, 4.0, 2.0] };
+        assert_eq!(square.peaks(), [2, 1]);
+        assert_eq!((square.indices(3), square.place([1, 0, 1])), ([1, 0, 1], [1.0, 0.0, 1.0]));
+    }
+}
