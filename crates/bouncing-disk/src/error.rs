@@ -72,6 +72,18 @@ pub enum Error {
         /// Load torque in units of m g a_e.
         load: f64,
     },
+    /// Low-period traps leave too few motors of a range for a straight line.
+    #[error(
+        "{traps} motors of the range are in low-period traps, which leaves {left}, and {needed} are needed"
+    )]
+    TooFewMotors {
+        /// Motors that are left.
+        left: usize,
+        /// Motors in traps.
+        traps: usize,
+        /// How many are needed.
+        needed: usize,
+    },
     /// A parameter that is needed, and has no default, is not there.
     #[error("{field} is not given")]
     NotGiven {

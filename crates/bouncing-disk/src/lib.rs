@@ -24,6 +24,8 @@
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
 //! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
+//! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
+//! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
@@ -100,6 +102,11 @@ pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::stall_load::StallLoad;
+pub use motor::sensitivity::global::ParameterRange;
+pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
+pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};
+pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices, sobol_indices_observed};
 pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
@@ -113,6 +120,8 @@ pub use motor::sweep::run::MotorSweepRun;
 pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
 pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
 pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
+pub use motor::traps::nearest::NearestTrap;
+pub use motor::traps::{TrapVerdict, low_period_traps, low_period_traps_observed};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{Platform, PlatformParameters};
@@ -131,6 +140,10 @@ pub use storage::provenance::{Format, Provenance};
 pub use storage::transients::transients_with_journal;
 pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
+pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
+pub use toss::design::{
+    OverFriction, TossCertificate, TossConstraints, TossDesign, TossObjective, best_toss, best_toss_observed,
+};
 pub use toss::multiple::{
     MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss, multi_toss_observed,
 };

@@ -12,7 +12,7 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::shared_orbit::is_shared;
 
 impl LoadedMotor {
-    fn of(motor: &Motor) -> Self {
+    pub(crate) fn of(motor: &Motor) -> Self {
         Self { system: *motor.system(), mass: motor.mass(), load_torque: motor.load_torque() }
     }
 }
