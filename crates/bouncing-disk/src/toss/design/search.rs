@@ -7,8 +7,9 @@ use crate::error::Error;
 use crate::toss::design::hand::{Hand, value_of};
 use crate::toss::design::{TossCertificate, TossConstraints};
 
-/// Points of the grid along frequency, lag and amplitude angle.
+/// Points of the grid along frequency, lag and amplitude angle; and where the frequency is given.
 const GRID: [usize; 3] = [9, 25, 33];
+const FINE_GRID: [usize; 3] = [1, 97, 129];
 
 /// How many peaks of the grid are refined.
 const PEAKS: usize = 4;
@@ -212,7 +213,8 @@ pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result
     let frequencies = [least.max(lift_off).min(most), most];
     let mut objective = Objective { constraints, frequencies, work: watch.work() };
     let ranges = [frequencies, constraints.phase_lag, [0.0, 1.0]];
-    let shape = std::array::from_fn(|axis| if ranges[axis][0] < ranges[axis][1] { GRID[axis] } else { 1 });
+    let points = if frequencies[0] < frequencies[1] { GRID } else { FINE_GRID };
+    let shape = std::array::from_fn(|axis| if ranges[axis][0] < ranges[axis][1] { points[axis] } else { 1 });
     let grid = Grid::new(&mut objective, shape)?;
     watch.finish(1);
 
