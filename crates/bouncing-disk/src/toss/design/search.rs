@@ -1,5 +1,5 @@
-//! The search: a grid over frequency, lag and amplitude angle, then golden sections inside of each other around its
-//! best points (docs/numerics/design.md, "The search").
+//! The search: a grid over frequency, lag and amplitude angle, then golden sections inside of each other
+//! around its best points (docs/numerics/design.md, "The search").
 
 use bouncing_disk_core::{Watch, WorkCount};
 
@@ -70,7 +70,8 @@ impl Objective<'_, '_> {
         value_of(self.constraints, hand.stroke(self.constraints), self.constraints.dough)
     }
 
-    /// The best place in a box, from `axis` on: golden sections along this axis over the best along the next ones.
+    /// The best place in a box, from `axis` on: golden sections along this axis over the best along the next
+    /// ones.
     fn best_in(&mut self, bounds: &[[f64; 2]; 3], at: [f64; 3], axis: usize) -> Result<Place, Error> {
         if axis == 3 {
             return Ok(Place { at, value: self.value(at)? });
@@ -174,8 +175,9 @@ impl Grid {
         peaks
     }
 
-    /// What could be hidden above `best` between points that are not next to it, if between two points the objective
-    /// changes nowhere faster than it does from one to the other, or from either to the next one beyond.
+    /// What could be hidden above `best` between points that are not next to it, if between two points the
+    /// objective changes nowhere faster than it does from one to the other, or from either to the next one
+    /// beyond.
     fn hidden_gain(&self, best: &Place) -> f64 {
         let mut gain = 0.0_f64;
         for (index, value) in self.values.iter().enumerate() {
@@ -261,7 +263,8 @@ mod tests {
     #[test]
     fn a_plateau_beside_a_cliff_may_hide_a_peak() {
         let best = |share: f64| Place { at: [0.0, 0.0, share], value: 1.0 };
-        // Between two points at 0.9, each a step of 0.9 above the next one, there may be a peak of 0.9 + 0.45.
+        // Between two points at 0.9, each a step of 0.9 above the next one, there may be a peak of 0.9 +
+        // 0.45.
         let gain = row(&[0.0, 1.0, 0.0, 0.0, 0.9, 0.9, 0.0, 0.0, 0.0]).hidden_gain(&best(0.125));
         assert!((gain - 0.35).abs() < 1e-15, "{gain}");
         // A ramp hides nothing, nor does what lies far below; what is next to the optimum has been searched.
