@@ -106,6 +106,18 @@ pub enum Error {
         /// The name of the second.
         other: &'static str,
     },
+    /// An axis of a sweep has no values.
+    #[error("the axis of {parameter} has no values; give at least one")]
+    EmptyAxis {
+        /// The parameter that was to be varied.
+        parameter: &'static str,
+    },
+    /// Two axes of a sweep vary the same parameter.
+    #[error("two axes vary {parameter}; leave one of them out")]
+    RepeatedAxis {
+        /// The parameter.
+        parameter: &'static str,
+    },
     /// A curve gives no fit that could be trusted.
     #[error("the curve is not fitted: {reason}")]
     FitRefused {

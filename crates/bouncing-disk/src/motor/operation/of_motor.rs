@@ -28,8 +28,8 @@ impl Motor {
     /// let operation = motor.operating_point(half, &OperatingSettings::default())?;
     /// let point = operation.steady().expect("known to 1 %");
     /// let (speed, efficiency) = (point.speed, point.efficiency.expect("it works"));
-    /// assert!((speed.value - 8.0).abs() < 0.5 && speed.standard_error < 0.2);
-    /// assert!((efficiency.value - 0.11).abs() < 0.01);
+    /// assert!((speed.value - 8.6).abs() < 0.3 && speed.standard_error < 0.2);
+    /// assert!((efficiency.value - 0.115).abs() < 0.01);
     /// // A load that friction cannot hold has no operating point.
     /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default())?;
     /// assert!(matches!(overload, Operation::Runaway { .. }));
