@@ -20,6 +20,10 @@ const BRACKETS: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
 /// Golden sections along each axis in one refinement: to 4.5e-4 of the bracket.
 const SECTIONS: usize = 16;
 
+/// Boxes that follow each other along a ridge at most, and the relative gain below which its top is reached.
+const MOST_BOXES: usize = 40;
+const CLIMBED: f64 = 1e-10;
+
 /// Stages that an observer hears of: the grid, and each refinement.
 pub(super) const STAGES: u64 = 1 + (PEAKS + BRACKETS.len() - 1) as u64;
 
@@ -208,6 +212,24 @@ impl Grid {
     }
 }
 
+/// The best place in the box about a place, then in the box about that, and so on: along a ridge that leaves
+/// the box.
+fn climb(
+    objective: &mut Objective<'_, '_>,
+    mut best: Place,
+    around: impl Fn([f64; 3]) -> [[f64; 2]; 3],
+) -> Result<Place, Error> {
+    for _ in 0..MOST_BOXES {
+        let next = better(best, objective.best_in(&around(best.at), best.at, 0)?);
+        let gained = next.value - best.value;
+        best = next;
+        if gained <= CLIMBED * best.value.abs() {
+            break;
+        }
+    }
+    Ok(best)
+}
+
 /// The best hand motion of constraints that are legal.
 pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result<Found, Error> {
     let [least, most] = constraints.angular_frequency;
@@ -232,13 +254,11 @@ pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result
     let mut best = Place { at: middle, value: objective.value(middle)? };
     for peak in grid.peaks() {
         let own = Place { at: grid.place(grid.indices(peak)), value: grid.values[peak] };
-        let refined = objective.best_in(&around(own.at, BRACKETS[0]), own.at, 0)?;
-        best = better(better(best, own), refined);
+        best = better(best, climb(&mut objective, own, |at| around(at, BRACKETS[0]))?);
         watch.finish(1);
     }
     for width in &BRACKETS[1..] {
-        let refined = objective.best_in(&around(best.at, *width), best.at, 0)?;
-        best = better(best, refined);
+        best = climb(&mut objective, best, |at| around(at, *width))?;
         watch.finish(1);
     }
     let peak_acceleration = constraints.stroke * most * most / constraints.dough.preload_acceleration;
