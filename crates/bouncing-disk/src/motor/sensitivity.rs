@@ -1,5 +1,6 @@
-//! How the steady speed and the stall torque of a motor depend on its parameters: locally, as exponents, and over
-//! ranges, as shares of the variance (Sobol' indices) and as elementary effects (Morris), each with its standard error.
+//! How the steady speed and the stall torque of a motor depend on its parameters: locally, as exponents, and
+//! over ranges, as shares of the variance (Sobol' indices) and as elementary effects (Morris), each with its
+//! standard error.
 //!
 //! Derivations and choices: docs/numerics/design.md, "Sensitivities".
 

@@ -16,16 +16,17 @@ use crate::motor::shared_orbit::is_shared;
 pub type ParameterRange = (SensitivityParameter, [f64; 2]);
 
 impl Motor {
-    /// Which share of the variance of the steady speed or the stall torque each of these parameters has, if all of them are
-    /// spread evenly over their ranges; in their order.
+    /// Which share of the variance of the steady speed or the stall torque each of these parameters has, if
+    /// all of them are spread evenly over their ranges; in their order.
     ///
-    /// A point of the sample is one ensemble, with the seed of the settings: what is left of its scatter, and what low-period
-    /// traps do, counts with the parameters of the vertical motion, as an effect of them together with others.
+    /// A point of the sample is one ensemble, with the seed of the settings: what is left of its scatter, and
+    /// what low-period traps do, counts with the parameters of the vertical motion, as an effect of them
+    /// together with others.
     ///
     /// # Errors
-    /// Those of [`sobol_indices`](crate::sobol_indices), and of [`Motor::operating_point`] or [`Motor::stall_load`];
-    /// [`Error::Overpowered`] where a load is more than friction can hold. A parameter that is given twice takes its last
-    /// value.
+    /// Those of [`sobol_indices`](crate::sobol_indices), and of [`Motor::operating_point`] or
+    /// [`Motor::stall_load`]; [`Error::Overpowered`] where a load is more than friction can hold. A parameter
+    /// that is given twice takes its last value.
     pub fn sobol_indices(
         &self,
         quantity: SensitivityQuantity,
@@ -39,8 +40,8 @@ impl Motor {
     /// [`Self::sobol_indices`] with an observer; the items are the rows of the sample.
     ///
     /// # Errors
-    /// Those of [`Self::sobol_indices`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
+    /// Those of [`Self::sobol_indices`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
     pub fn sobol_indices_observed(
         &self,
         quantity: SensitivityQuantity,
@@ -60,8 +61,8 @@ impl Motor {
         sobol_indices_observed(function, &widths(ranges), sampling, observer)
     }
 
-    /// The elementary effects (Morris) of these parameters on the steady speed (rad/s per range) or the stall torque (N m
-    /// per range), in their order.
+    /// The elementary effects (Morris) of these parameters on the steady speed (rad/s per range) or the stall
+    /// torque (N m per range), in their order.
     ///
     /// # Errors
     /// Those of [`Self::sobol_indices`].
@@ -78,8 +79,8 @@ impl Motor {
     /// [`Self::elementary_effects`] with an observer; the items are the trajectories.
     ///
     /// # Errors
-    /// Those of [`Self::elementary_effects`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
+    /// Those of [`Self::elementary_effects`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
     pub fn elementary_effects_observed(
         &self,
         quantity: SensitivityQuantity,

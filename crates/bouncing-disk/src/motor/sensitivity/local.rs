@@ -13,12 +13,12 @@ use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::crossing;
 
-/// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m g a_e of
-/// the load: one of them is chosen.
+/// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m
+/// g a_e of the load: one of them is chosen.
 const STEPS: [f64; 5] = [0.16, 0.08, 0.04, 0.02, 0.01];
 
-/// Loads around the stall load at which the speeds of each motor are known, as shares of mu m g a_e: the stall load of
-/// each member is read off a straight line through them.
+/// Loads around the stall load at which the speeds of each motor are known, as shares of mu m g a_e: the
+/// stall load of each member is read off a straight line through them.
 const SHARES: [f64; 5] = [-0.06, -0.03, 0.0, 0.03, 0.06];
 
 /// Least motors that a regression needs.
@@ -31,8 +31,8 @@ const LEAST_POINTS: usize = 5;
 pub struct SensitivitySettings {
     /// How each motor is operated.
     pub operating: OperatingSettings,
-    /// Half the range, in the logarithm of a parameter of the vertical motion, over which motors are drawn, in
-    /// (0, 2]. Default 0.2: from 82 % to 122 % of it.
+    /// Half the range, in the logarithm of a parameter of the vertical motion, over which motors are drawn,
+    /// in (0, 2]. Default 0.2: from 82 % to 122 % of it.
     pub half_range: f64,
     /// Motors that are drawn over it, in [5, 10000]. Default 24.
     pub points: usize,
@@ -76,7 +76,8 @@ pub enum SensitivityMethod {
         /// The estimated error of the difference quotient.
         curvature: f64,
     },
-    /// By a straight line through motors with different vertical motions, drawn over the range of the settings.
+    /// By a straight line through motors with different vertical motions, drawn over the range of the
+    /// settings.
     Regression {
         /// Motors on the line.
         points: usize,
@@ -94,15 +95,16 @@ pub enum SensitivityMethod {
 pub struct LocalSensitivity {
     /// The parameter.
     pub parameter: SensitivityParameter,
-    /// d ln(quantity)/d ln(parameter); of the phase lag, d ln(quantity)/d theta (1/rad); of the load torque, d
-    /// ln(quantity) over its change in units of mu m g a_e.
+    /// d ln(quantity)/d ln(parameter); of the phase lag, d ln(quantity)/d theta (1/rad); of the load torque,
+    /// d ln(quantity) over its change in units of mu m g a_e.
     pub derivative: Estimate,
     /// How it was found.
     pub method: SensitivityMethod,
 }
 
 impl Motor {
-    /// How the steady speed or the stall torque depends on these parameters next to the motor, in their order.
+    /// How the steady speed or the stall torque depends on these parameters next to the motor, in their
+    /// order.
     ///
     /// ```no_run
     /// use bouncing_disk::{Motor, SensitivityParameter, SensitivityQuantity, SensitivitySettings};
@@ -119,9 +121,10 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings, and for a parameter that is zero and has no logarithm or leaves its
-    /// range; [`Error::DoesNotTurn`] for a motor that does not turn, [`Error::Overpowered`] where a load is more than
-    /// friction can hold, [`Error::TooFewMotors`] where traps leave too few of them; those of [`Motor::operating_point`].
+    /// [`Error::OutOfRange`] for illegal settings, and for a parameter that is zero and has no logarithm or
+    /// leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn, [`Error::Overpowered`] where
+    /// a load is more than friction can hold, [`Error::TooFewMotors`] where traps leave too few of them;
+    /// those of [`Motor::operating_point`].
     pub fn local_sensitivities(
         &self,
         quantity: SensitivityQuantity,
@@ -131,11 +134,12 @@ impl Motor {
         self.local_sensitivities_observed(quantity, parameters, settings, &Unobserved)
     }
 
-    /// [`Self::local_sensitivities`] with an observer; the items are ensembles of motors that share a vertical motion.
+    /// [`Self::local_sensitivities`] with an observer; the items are ensembles of motors that share a
+    /// vertical motion.
     ///
     /// # Errors
-    /// Those of [`Self::local_sensitivities`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-    /// the observer breaks.
+    /// Those of [`Self::local_sensitivities`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
     pub fn local_sensitivities_observed(
         &self,
         quantity: SensitivityQuantity,
@@ -205,7 +209,8 @@ fn moved(motor: &Motor, parameter: SensitivityParameter, step: f64) -> Result<Mo
     parameter.set(motor, value)
 }
 
-/// All parameters that share the vertical motion: all their rotors, with all steps, on one ensemble of orbits.
+/// All parameters that share the vertical motion: all their rotors, with all steps, on one ensemble of
+/// orbits.
 fn by_differences(
     motor: &Motor,
     quantity: SensitivityQuantity,
@@ -244,8 +249,8 @@ fn by_differences(
     Ok(results)
 }
 
-/// The step with the smallest error, of the scatter over the members and of the curvature together: the error of a
-/// difference quotient is as the square of the step, so that a half of the step leaves a quarter of it.
+/// The step with the smallest error, of the scatter over the members and of the curvature together: the error
+/// of a difference quotient is as the square of the step, so that a half of the step leaves a quarter of it.
 fn balanced(parameter: SensitivityParameter, quotients: &[Estimate]) -> LocalSensitivity {
     let curvature = |index: usize| {
         let gap = |wide: usize| (quotients[wide].value - quotients[wide + 1].value).abs() * 4.0 / 3.0;
@@ -310,8 +315,8 @@ fn member_values(
     }
 }
 
-/// The straight line through motors that are drawn over a range: one in each of its equal parts, as a grid could meet or
-/// miss the values at which a motor is in a trap.
+/// The straight line through motors that are drawn over a range: one in each of its equal parts, as a grid
+/// could meet or miss the values at which a motor is in a trap.
 fn by_regression(
     motor: &Motor,
     parameter: SensitivityParameter,

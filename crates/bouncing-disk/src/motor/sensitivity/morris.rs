@@ -9,7 +9,8 @@ use super::sobol::{SamplingSettings, check_ranges, evaluated};
 use crate::error::Error;
 use crate::motor::operation::point::Estimate;
 
-/// Levels of the grid on which arguments are varied, and the share of a range that a step crosses: p/(2 (p - 1)).
+/// Levels of the grid on which arguments are varied, and the share of a range that a step crosses: p/(2 (p -
+/// 1)).
 const LEVELS: u64 = 8;
 const STEP: f64 = 4.0 / 7.0;
 
@@ -28,9 +29,9 @@ pub struct ElementaryEffects {
 
 /// The elementary effects of a function of some arguments over their ranges, in their order.
 ///
-/// `function` is given the points of a trajectory, on each of which one more argument has been changed by 4/7 of its
-/// range, and returns their values. The starting points and the order are drawn independently for each trajectory, so
-/// that resampling trajectories gives the standard errors.
+/// `function` is given the points of a trajectory, on each of which one more argument has been changed by 4/7
+/// of its range, and returns their values. The starting points and the order are drawn independently for each
+/// trajectory, so that resampling trajectories gives the standard errors.
 ///
 /// # Errors
 /// Those of [`sobol_indices`](crate::sobol_indices).
@@ -42,11 +43,12 @@ pub fn elementary_effects(
     elementary_effects_observed(function, ranges, settings, &Unobserved)
 }
 
-/// [`elementary_effects`] with an observer, which is asked after every trajectory; the items are the trajectories.
+/// [`elementary_effects`] with an observer, which is asked after every trajectory; the items are the
+/// trajectories.
 ///
 /// # Errors
-/// Those of [`elementary_effects`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-/// breaks.
+/// Those of [`elementary_effects`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+/// the observer breaks.
 pub fn elementary_effects_observed(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],

@@ -11,7 +11,8 @@ use crate::motor::data_sheet::Motor;
 pub enum SensitivityQuantity {
     /// The mean speed under the load of the data sheet (rad/s).
     SteadySpeed,
-    /// The load torque that stops the motor (N m): the true stall. The load of the data sheet does not matter.
+    /// The load torque that stops the motor (N m): the true stall. The load of the data sheet does not
+    /// matter.
     StallTorque,
 }
 

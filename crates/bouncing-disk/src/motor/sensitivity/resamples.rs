@@ -1,4 +1,5 @@
-//! Standard errors by resampling: rows, each a set of numbers that belong together, are drawn with replacement.
+//! Standard errors by resampling: rows, each a set of numbers that belong together, are drawn with
+//! replacement.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::standard_deviation;
@@ -6,7 +7,8 @@ use bouncing_disk_core::numerics::statistics::standard_deviation;
 /// Resamples: the standard deviation of so many values is known to 4 %.
 const RESAMPLES: usize = 300;
 
-/// The standard errors of `N` statistics of `rows` rows. `statistics` is given the numbers of the rows that are drawn.
+/// The standard errors of `N` statistics of `rows` rows. `statistics` is given the numbers of the rows that
+/// are drawn.
 pub(super) fn standard_errors<const N: usize>(
     rows: usize,
     seed: u64,

@@ -1,4 +1,5 @@
-//! Sobol' indices of any function: which share of its variance, over ranges of its arguments, each argument has.
+//! Sobol' indices of any function: which share of its variance, over ranges of its arguments, each argument
+//! has.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{Observer, Unobserved, Watch, read_checked};
@@ -18,8 +19,8 @@ const MOST_ARGUMENTS: usize = 64;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSampling"))]
 pub struct SamplingSettings {
-    /// Rows of the sample, in [8, 1e6]; of d arguments a row takes d + 2 evaluations for Sobol' indices, and d + 1 for
-    /// elementary effects. Default 256.
+    /// Rows of the sample, in [8, 1e6]; of d arguments a row takes d + 2 evaluations for Sobol' indices, and
+    /// d + 1 for elementary effects. Default 256.
     pub rows: usize,
     /// Seed of the sample and of the resampling that gives the errors. Default 1.
     pub seed: u64,
@@ -45,11 +46,11 @@ impl SamplingSettings {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SobolIndices {
-    /// First order: the share of the variance that goes if this argument alone is known. An estimate near zero may be
-    /// negative.
+    /// First order: the share of the variance that goes if this argument alone is known. An estimate near
+    /// zero may be negative.
     pub first: Estimate,
-    /// Total: the share of the variance that is left if all others are known; it exceeds the first order by what the
-    /// argument does together with others.
+    /// Total: the share of the variance that is left if all others are known; it exceeds the first order by
+    /// what the argument does together with others.
     pub total: Estimate,
 }
 
@@ -79,11 +80,13 @@ pub(super) fn evaluated(
     Ok(values)
 }
 
-/// The Sobol' indices of a function of independent arguments, each spread evenly over its range, in their order.
+/// The Sobol' indices of a function of independent arguments, each spread evenly over its range, in their
+/// order.
 ///
-/// `function` is given a batch of points, each with its arguments in the order of the ranges, and returns their values.
-/// A batch is a row of the sample: two random points A and B, and A with one argument after the other from B. Jansen's
-/// estimators; rows are drawn independently, so that resampling them gives the standard errors.
+/// `function` is given a batch of points, each with its arguments in the order of the ranges, and returns
+/// their values. A batch is a row of the sample: two random points A and B, and A with one argument after the
+/// other from B. Jansen's estimators; rows are drawn independently, so that resampling them gives the
+/// standard errors.
 ///
 /// ```
 /// use bouncing_disk::{SamplingSettings, sobol_indices};
@@ -97,8 +100,8 @@ pub(super) fn evaluated(
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for illegal ranges or settings, for a value that is not finite, and for a function that returns
-/// another number of values than it was given points; its own errors.
+/// [`Error::OutOfRange`] for illegal ranges or settings, for a value that is not finite, and for a function
+/// that returns another number of values than it was given points; its own errors.
 pub fn sobol_indices(
     function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],
@@ -110,8 +113,8 @@ pub fn sobol_indices(
 /// [`sobol_indices`] with an observer, which is asked after every row; the items are the rows.
 ///
 /// # Errors
-/// Those of [`sobol_indices`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-/// breaks.
+/// Those of [`sobol_indices`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
 pub fn sobol_indices_observed(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],

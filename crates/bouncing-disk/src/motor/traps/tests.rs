@@ -54,6 +54,18 @@ fn traps_of_a_single_flight_are_at_half_a_forcing() {
     }
 }
 
+/// The window begins just below the soft landing of docs/numerics/design.md, and is a twentieth wide.
+#[test]
+fn windows_of_a_single_flight_begin_at_the_soft_landing() {
+    for whole in [3.0, 6.0, 12.0, 100.0] {
+        let motor = at_forcing(&Motor::paper_70_khz(), whole + 0.51);
+        let [from, to] = motor.nearest_trap(0.01).expect("no failure").expect("one").forcing_from_to;
+        let soft = whole + 0.5 - 0.5 / (PI * PI * (whole + 0.5));
+        assert!((0.004..0.007).contains(&(soft - from)), "{whole}: {from}");
+        assert!((0.05..0.06).contains(&(to - soft)) || whole < 4.0, "{whole}: {to}");
+    }
+}
+
 #[test]
 fn many_preloads_are_judged_one_by_one() {
     let motor = Motor::paper_70_khz();

@@ -17,8 +17,8 @@ fn random_hand(constraints: &TossConstraints, random: &mut SplitMix64) -> Option
     Some(Hand { angular_frequency, phase_lag, amplitude_angle: within(angles) })
 }
 
-/// Sec. III B: the fastest toss of Table I is at theta = 0; its angle is that of the figure, not the printed one
-/// (docs/errata.md).
+/// Sec. III B: the fastest toss of Table I is at theta = 0; its angle is that of the figure, not the printed
+/// one (docs/errata.md).
 #[test]
 fn the_best_toss_of_table_i_is_that_of_fig_4() {
     let fastest = designed(&TossConstraints::pizza_toss());

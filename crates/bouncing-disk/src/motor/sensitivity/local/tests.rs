@@ -11,8 +11,9 @@ fn near(one: &LocalSensitivity, truth: f64) -> bool {
     (one.derivative.value - truth).abs() <= 4.0 * one.derivative.standard_error + 1e-6
 }
 
-/// What follows from the units: the rotary motion knows friction, twist and radii only as mu and as Q = a_g^2 Phi omega^2
-/// /(a_e g), and a speed is Q times a function of Q/mu without load. The stall torque is mu m g a_e times such a function.
+/// What follows from the units: the rotary motion knows friction, twist and radii only as mu and as Q = a_g^2
+/// Phi omega^2 /(a_e g), and a speed is Q times a function of Q/mu without load. The stall torque is mu m g
+/// a_e times such a function.
 #[test]
 fn exponents_obey_the_units() {
     let motor = Motor::paper_70_khz();
@@ -72,7 +73,8 @@ fn differences_are_those_of_whole_operations() {
     assert!(lag.derivative.value < -0.5, "{lag:?}");
 }
 
-/// The stall torque is proportional to the preload and does not know the amplitude; nor does the speed (Sec. V).
+/// The stall torque is proportional to the preload and does not know the amplitude; nor does the speed (Sec.
+/// V).
 #[test]
 fn the_vertical_motion_is_fitted_over_a_range() {
     let motor = Motor::paper_70_khz();

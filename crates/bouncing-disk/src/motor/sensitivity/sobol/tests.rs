@@ -93,7 +93,8 @@ fn elementary_effects_are_slopes() {
         assert!((mean.value - slope).abs() < 1e-12 && (mean_size.value - slope.abs()).abs() < 1e-12);
         assert!(deviation.value < 1e-12 && mean.standard_error < 1e-12, "{effects:?}");
     }
-    // The effect of z is 2 y over its range, with y even on the levels or a step away: mean zero, by the error it says.
+    // The effect of z is 2 y over its range, with y even on the levels or a step away: mean zero, by the
+    // error it says.
     for effects in &effects[2..] {
         assert!(holds(effects.mean, 0.0) && effects.deviation.value > 0.8, "{effects:?}");
         assert!(effects.mean_size.value > 0.8 && effects.mean_size.value < 1.5, "{effects:?}");
