@@ -26,6 +26,7 @@
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
+//! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `ParameterRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
 //! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`; `StorageError` |
@@ -39,6 +40,7 @@
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
 //! | `csv` | no | measured speeds from comma-separated files |
+//! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
 //! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
@@ -97,6 +99,14 @@ pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::stall_load::StallLoad;
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::parameter::{FitParameter, ParameterRange};
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::settings::ParameterFitSettings;
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::{ParameterEstimate, ParameterFit, UndeterminedDirection};
 pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
