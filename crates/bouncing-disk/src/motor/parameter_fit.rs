@@ -19,7 +19,7 @@ use nalgebra::DVector;
 use self::bootstrap::{percentile, resampled_places};
 use self::determined::Directions;
 use self::measured_transient::{MeasuredTransient, refused};
-use self::model::{MemberMeans, Model, mean_of};
+use self::model::{Local, Model};
 use self::parameter::{FitParameter, ParameterRange};
 use self::search::{Evaluations, least_squares};
 use self::settings::ParameterFitSettings;
@@ -113,7 +113,7 @@ pub struct ParameterFit {
 /// A place in the ranges and all that is known there.
 struct Linearised {
     places: DVector<f64>,
-    members: MemberMeans,
+    local: Local,
     weights: Weights,
     directions: Directions,
 }
@@ -126,10 +126,10 @@ impl Linearised {
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         evaluations.spend(watch)?;
-        let (members, derivatives) = model.with_derivatives(&places, |_| true, watch)?;
-        let weights = Weights::of(model, &members)?;
-        let directions = Directions::of(&weights, &derivatives);
-        Ok(Self { places, members, weights, directions })
+        let local = model.with_derivatives(&places, |_| true, watch)?;
+        let weights = Weights::of(model, &local.members)?;
+        let directions = Directions::of(&weights, &local.derivatives);
+        Ok(Self { places, local, weights, directions })
     }
 
     /// Whether the weights and directions are those of the other place as well.
@@ -177,8 +177,7 @@ impl ParameterFit {
         let mut state = Linearised::at(&model, start, &mut evaluations, &watch)?;
         let mut is_near = state.directions.determined.ncols() == 0;
         while !is_near {
-            let Linearised { places, weights, directions, .. } = &state;
-            let places = least_squares(&model, weights, directions, places, &mut evaluations, &watch)?;
+            let places = least_squares(&model, &state, &mut evaluations, &watch)?;
             let next = Linearised::at(&model, places, &mut evaluations, &watch)?;
             is_near = next.directions.determined.ncols() == 0 || next.is_near(&state);
             state = next;
@@ -194,12 +193,12 @@ impl ParameterFit {
         evaluations: usize,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let Linearised { places, members, weights, directions } = state;
-        let misfit = weights.apply(&(model.measured() - mean_of(members))).norm_squared();
+        let Linearised { places, local, weights, directions } = state;
+        let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
         let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
         let widening = widening_for(misfit, degrees_of_freedom, model)? * sample_widening(model);
         let response = directions.response();
-        let resampled = resampled_places(model, members, weights, &response, &mut watch.work())?;
+        let resampled = resampled_places(model, &local.members, weights, &response, &mut watch.work())?;
         let mut parameters = Vec::with_capacity(model.ranges.len());
         for (index, range) in model.ranges.iter().enumerate() {
             let (low, high) = (percentile(&resampled[index], 0.025), percentile(&resampled[index], 0.975));

@@ -19,8 +19,12 @@ use crate::motor::transient::TransientSettings;
 /// Half of the step of a derivative along a parameter that leaves the vertical motion as it is, as a share of half the range.
 const STEP: f64 = 0.05;
 
-/// The same where the vertical motions differ, and with them the luck of the members: a longer step has less of it.
-pub(super) const STEP_OF_ORBIT: f64 = 0.25;
+/// Half of the span, as a share of half the range, over which a parabola smooths what depends on the vertical motion. Neighbouring
+/// motions differ by their luck, and some lock on a cycle: neither says how the next one does.
+pub(super) const SPAN: f64 = 0.4;
+
+/// Places on that span.
+const NODES: usize = 9;
 
 /// The motor, what was measured of it, and what is to be found.
 #[derive(Debug)]
@@ -122,30 +126,78 @@ impl Model<'_> {
         places: &DVector<f64>,
         along: impl Fn(FitParameter) -> bool,
         watch: &Watch<'_>,
-    ) -> Result<(MemberMeans, Vec<MemberMeans>), Error> {
-        // Those that share the vertical motion first, behind the place itself.
-        let mut order: Vec<usize> =
-            (0..self.ranges.len()).filter(|&index| along(self.ranges[index].parameter)).collect();
-        order.sort_by_key(|&index| self.ranges[index].parameter.changes_orbit());
+    ) -> Result<Local, Error> {
         let mut candidates = vec![places.clone()];
-        for &index in &order {
-            let changes_orbit = self.ranges[index].parameter.changes_orbit();
-            let step = if changes_orbit { STEP_OF_ORBIT } else { STEP };
+        let asked = |index: &usize| along(self.ranges[*index].parameter);
+        let changes_orbit = |index: &usize| self.ranges[*index].parameter.changes_orbit();
+        let all = || (0..self.ranges.len()).filter(asked);
+        // Those that share the vertical motion first, behind the place itself.
+        let shared: Vec<usize> = all().filter(|index| !changes_orbit(index)).collect();
+        let smoothed: Vec<usize> = all().filter(changes_orbit).collect();
+        for &index in &shared {
             for direction in [1.0, -1.0] {
                 let mut candidate = places.clone();
-                candidate[index] = (places[index] + direction * step).clamp(-1.0, 1.0);
+                candidate[index] = (places[index] + direction * STEP).clamp(-1.0, 1.0);
                 candidates.push(candidate);
             }
         }
-        let all = self.members(&candidates, watch)?;
+        for &index in &smoothed {
+            let middle = places[index].clamp(SPAN - 1.0, 1.0 - SPAN);
+            for node in 0..NODES {
+                let mut candidate = places.clone();
+                candidate[index] = middle + SPAN * (2.0 * node as f64 / (NODES - 1) as f64 - 1.0);
+                candidates.push(candidate);
+            }
+        }
+        let members = self.members(&candidates, watch)?;
         let mut derivatives = vec![MemberMeans::zeros(0, 0); self.ranges.len()];
-        for (k, &index) in order.iter().enumerate() {
+        for (k, &index) in shared.iter().enumerate() {
             let (ahead, behind) = (1 + 2 * k, 2 + 2 * k);
             let width = candidates[ahead][index] - candidates[behind][index];
-            derivatives[index] = (&all[ahead] - &all[behind]) / width;
+            derivatives[index] = (&members[ahead] - &members[behind]) / width;
         }
-        Ok((all[0].clone(), derivatives))
+        let mut smooth = members[0].clone();
+        for (k, &index) in smoothed.iter().enumerate() {
+            let nodes = 1 + 2 * shared.len() + NODES * k..1 + 2 * shared.len() + NODES * (k + 1);
+            let distances: Vec<f64> =
+                candidates[nodes.clone()].iter().map(|candidate| candidate[index] - places[index]).collect();
+            let (mut value, mut slope) = (-&members[0], MemberMeans::zeros(smooth.nrows(), smooth.ncols()));
+            for (node, [of_value, of_slope]) in nodes.zip(parabola(&distances)) {
+                value += &members[node] * of_value;
+                slope += &members[node] * of_slope;
+            }
+            smooth += value;
+            derivatives[index] = slope;
+        }
+        let smooth = mean_of(&smooth);
+        Ok(Local { members: members.into_iter().next().unwrap_or_else(|| MemberMeans::zeros(0, 0)), smooth, derivatives })
     }
+}
+
+/// What the model says at a place and near it.
+#[derive(Debug)]
+pub(super) struct Local {
+    /// The means of all members.
+    pub(super) members: MemberMeans,
+    /// The mean over members, smoothed along the parameters that change the vertical motion.
+    pub(super) smooth: DVector<f64>,
+    /// What the members' means change by along each range; empty where that was not asked for.
+    pub(super) derivatives: Vec<MemberMeans>,
+}
+
+/// The weights with which the numbers at some distances give value and slope at distance zero of the parabola through them of the
+/// least squares.
+fn parabola(distances: &[f64]) -> Vec<[f64; 2]> {
+    let powers = DMatrix::from_fn(distances.len(), 3, |node, power| match power {
+        0 => 1.0,
+        1 => distances[node],
+        _ => distances[node] * distances[node],
+    });
+    let normal = powers.transpose() * &powers;
+    // Three different distances have a parabola.
+    let inverse = normal.try_inverse().unwrap_or_else(|| DMatrix::zeros(3, 3));
+    let weights = powers * inverse;
+    weights.row_iter().map(|row| [row[0], row[1]]).collect()
 }
 
 /// The mean over the members.

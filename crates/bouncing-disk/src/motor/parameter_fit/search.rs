@@ -8,9 +8,10 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::measured_transient::refused;
-use super::model::{Model, STEP_OF_ORBIT, mean_of};
+use super::model::{Model, SPAN, mean_of};
 use super::determined::Directions;
 use super::parameter::FitParameter;
+use super::Linearised;
 use super::weights::Weights;
 use crate::error::Error;
 use crate::motor::fit_refusal::FitRefusal;
@@ -18,9 +19,6 @@ use crate::motor::fit_refusal::FitRefusal;
 /// Relative change of the sum of squares, and of the places, at which the search ends: a thirtieth of a standard error changes a
 /// sum of one by 1e-3.
 const TOLERANCE: f64 = 1.0e-3;
-
-/// How far a parameter that changes the vertical motion is taken along a straight line, as a share of half the range.
-const LONGEST_STEP: f64 = 2.0 * STEP_OF_ORBIT;
 
 /// How often the motors have been computed, and how often they may be.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +47,8 @@ struct Search<'a> {
     model: &'a Model<'a>,
     weights: &'a Weights,
     watch: &'a Watch<'a>,
-    measured: DVector<f64>,
+    /// What the weighted means are compared with.
+    target: DVector<f64>,
     from: &'a DVector<f64>,
     directions: &'a Directions,
     along: DVector<f64>,
@@ -65,7 +64,7 @@ impl Search<'_> {
     fn places(&self) -> DVector<f64> {
         let mut places = self.from + &self.directions.determined * &self.along;
         for (index, place) in places.iter_mut().enumerate() {
-            let (from, step) = (self.from[index], if self.changes_orbit(index) { LONGEST_STEP } else { 2.0 });
+            let (from, step) = (self.from[index], if self.changes_orbit(index) { SPAN } else { 2.0 });
             *place = place.clamp(from - step, from + step).clamp(-1.0, 1.0);
         }
         places
@@ -73,7 +72,7 @@ impl Search<'_> {
 
     /// The places on the vertical motions of the start, and what the other parameters add to the weighted means there.
     fn on_orbits(&self) -> (DVector<f64>, DVector<f64>) {
-        let (mut places, mut added) = (self.places(), DVector::zeros(self.measured.len()));
+        let (mut places, mut added) = (self.places(), DVector::zeros(self.target.len()));
         for (index, &from) in self.from.iter().enumerate().filter(|&(index, _)| self.changes_orbit(index)) {
             added += self.directions.derivatives.column(index) * (places[index] - from);
             places[index] = from;
@@ -110,16 +109,15 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
     fn residuals(&self) -> Option<DVector<f64>> {
         let (places, added) = self.on_orbits();
         let members = self.keep(|| self.model.members(&[places], self.watch))?;
-        Some(self.weights.apply(&(mean_of(&members[0]) - &self.measured)) + added)
+        Some(self.weights.apply(&mean_of(&members[0])) + added - &self.target)
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let (places, _) = self.on_orbits();
         let shares_orbit = |parameter: FitParameter| !parameter.changes_orbit();
-        let (_, derivatives) =
-            self.keep(|| self.model.with_derivatives(&places, shares_orbit, self.watch))?;
+        let local = self.keep(|| self.model.with_derivatives(&places, shares_orbit, self.watch))?;
         let mut weighted = self.directions.derivatives.clone();
-        for (index, members) in derivatives.iter().enumerate().filter(|&(index, _)| !self.changes_orbit(index)) {
+        for (index, members) in local.derivatives.iter().enumerate().filter(|&(index, _)| !self.changes_orbit(index)) {
             weighted.set_column(index, &self.weights.apply(&mean_of(members)));
         }
         Some(weighted * &self.directions.determined)
@@ -129,17 +127,17 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
 /// The place of the least squares along the directions that are determined, from a place.
 pub(super) fn least_squares(
     model: &Model<'_>,
-    weights: &Weights,
-    directions: &Directions,
-    from: &DVector<f64>,
+    start: &Linearised,
     evaluations: &mut Evaluations,
     watch: &Watch<'_>,
 ) -> Result<DVector<f64>, Error> {
+    let Linearised { places: from, local, weights, directions } = start;
+    let roughness = mean_of(&local.members) - &local.smooth;
     let search = Search {
         model,
         weights,
         watch,
-        measured: model.measured(),
+        target: weights.apply(&(model.measured() + roughness)),
         from,
         directions,
         along: DVector::zeros(directions.determined.ncols()),

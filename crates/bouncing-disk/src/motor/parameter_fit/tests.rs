@@ -42,10 +42,8 @@ fn scratch() {
     let built = sheet.with(|sheet| sheet.friction = 0.2).expect("legal");
     for (ranges, preloads) in [
         (vec![FRICTION], vec![9.8]),
-        (vec![RESTITUTION], vec![9.8]),
         (vec![FRICTION, TWIST], vec![5.0, 9.8, 15.0]),
         (vec![FRICTION, TWIST, LAG], vec![9.8]),
-        (vec![FRICTION, TWIST, LAG], vec![5.0, 9.8, 15.0]),
         (vec![FRICTION, RESTITUTION], vec![5.0, 9.8, 15.0]),
         (vec![FRICTION, AMPLITUDE], vec![5.0, 9.8, 15.0]),
         (vec![FRICTION, TWIST, LAG, RESTITUTION, AMPLITUDE], vec![5.0, 9.8, 15.0]),
