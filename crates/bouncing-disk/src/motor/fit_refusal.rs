@@ -140,7 +140,9 @@ pub enum FitRefusal {
     },
     /// The search for the best parameters found no end.
     #[cfg(feature = "fit")]
-    #[error("the search found no best parameters in {evaluations} evaluations: allow more, or begin nearer to them")]
+    #[error(
+        "the search found no best parameters in {evaluations} evaluations: allow more, or begin nearer to them"
+    )]
     NotConverged {
         /// Evaluations of all motors.
         evaluations: usize,

@@ -127,8 +127,8 @@ impl Linearised {
     ) -> Result<Self, Error> {
         evaluations.spend(watch)?;
         let local = model.with_derivatives(&places, |_| true, watch)?;
-        let weights = Weights::of(model, &local.members)?;
-        let directions = Directions::of(&weights, &local.derivatives);
+        let weights = Weights::of(model, &local)?;
+        let directions = Directions::of(&weights, &local);
         Ok(Self { places, local, weights, directions })
     }
 
@@ -198,7 +198,7 @@ impl ParameterFit {
         let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
         let widening = widening_for(misfit, degrees_of_freedom, model)? * sample_widening(model);
         let response = directions.response();
-        let resampled = resampled_places(model, &local.members, weights, &response, &mut watch.work())?;
+        let resampled = resampled_places(model, local, weights, &response, &mut watch.work())?;
         let mut parameters = Vec::with_capacity(model.ranges.len());
         for (index, range) in model.ranges.iter().enumerate() {
             let (low, high) = (percentile(&resampled[index], 0.025), percentile(&resampled[index], 0.975));
@@ -223,7 +223,9 @@ impl ParameterFit {
         let undetermined = directions.undetermined.iter();
         Ok(Self {
             parameters,
-            undetermined: undetermined.map(|(direction, error)| named(model.ranges, direction, *error)).collect(),
+            undetermined: undetermined
+                .map(|(direction, error)| named(model.ranges, direction, *error))
+                .collect(),
             motor: model.motor(places)?,
             misfit,
             degrees_of_freedom,
@@ -286,7 +288,8 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, E
 /// What the intervals are multiplied by because so few members were computed: their scatter is known no better, and the weights
 /// have an error.
 fn sample_widening(model: &Model<'_>) -> f64 {
-    let (members, most) = (model.settings.members, model.windows.iter().map(Windows::count).max().unwrap_or(1));
+    let (members, most) =
+        (model.settings.members, model.windows.iter().map(Windows::count).max().unwrap_or(1));
     let most = most as f64;
     small_sample_widening(members) * (1.0 + (most - 1.0) / (members as f64 - most - 4.0)).sqrt()
 }
@@ -295,8 +298,10 @@ fn sample_widening(model: &Model<'_>) -> f64 {
 fn named(ranges: &[ParameterRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
     let changes = ranges.iter().zip(direction.iter()).map(|(range, along)| along * range.half_width());
     let changes: Vec<f64> = changes.collect();
-    let largest = changes.iter().fold(0.0_f64, |most, change| if change.abs() > most.abs() { *change } else { most });
-    let direction = ranges.iter().zip(&changes).map(|(range, change)| (range.parameter, change / largest)).collect();
+    let largest =
+        changes.iter().fold(0.0_f64, |most, change| if change.abs() > most.abs() { *change } else { most });
+    let direction =
+        ranges.iter().zip(&changes).map(|(range, change)| (range.parameter, change / largest)).collect();
     UndeterminedDirection { direction, standard_error: error * largest.abs() }
 }
 

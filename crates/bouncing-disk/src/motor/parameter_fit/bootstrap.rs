@@ -7,7 +7,7 @@ use bouncing_disk_core::elementary::{cos, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{MemberMeans, Model, mean_of};
+use super::model::{Local, Model, mean_of};
 use super::weights::Weights;
 use crate::error::Error;
 
@@ -17,12 +17,13 @@ use crate::error::Error;
 /// compared with is the mean of members that are drawn again. The best fit follows both along `response`.
 pub(super) fn resampled_places(
     model: &Model<'_>,
-    members: &MemberMeans,
+    local: &Local,
     weights: &Weights,
     response: &DMatrix<f64>,
     work: &mut WorkCount<'_>,
 ) -> Result<Vec<Vec<f64>>, Error> {
     let mut generator = SplitMix64::new(model.settings.seed ^ 0x5EED);
+    let members = &local.members;
     let (count, mean) = (members.nrows(), mean_of(members));
     let mut places = vec![Vec::with_capacity(model.settings.resamples); response.nrows()];
     for _ in 0..model.settings.resamples {
@@ -41,6 +42,13 @@ pub(super) fn resampled_places(
             }
             for (window, variance) in windows.error_variances.iter().enumerate() {
                 difference[first + window] += variance.sqrt() * normal(&mut generator);
+            }
+            // The motor is near those that were computed: what it differs by from their smooth mean is drawn as well.
+            for residual in local.roughness.iter().flat_map(|rough| &rough.residuals) {
+                let luck = normal(&mut generator);
+                for window in first..first + size {
+                    difference[window] += luck * residual[window];
+                }
             }
             first += size;
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::model::{MemberMeans, mean_of};
+use super::model::{Local, mean_of};
 use super::weights::Weights;
 
 /// The largest standard error of a direction that counts as determined, as a share of half of the ranges: its interval of
@@ -26,7 +26,8 @@ pub(super) struct Directions {
 
 impl Directions {
     /// From the derivatives of each member. What luck alone gives the squares of a derivative's mean is taken off.
-    pub(super) fn of(weights: &Weights, derivatives: &[MemberMeans]) -> Self {
+    pub(super) fn of(weights: &Weights, local: &Local) -> Self {
+        let derivatives = &local.derivatives;
         let columns: Vec<DVector<f64>> =
             derivatives.iter().map(|members| weights.apply(&mean_of(members))).collect();
         let weighted = DMatrix::from_columns(&columns);
@@ -43,6 +44,10 @@ impl Directions {
                     information[(i, j)] -= own[i].dot(&own[j]) / (count * (count - 1)) as f64;
                 }
             }
+        }
+        for rough in &local.roughness {
+            let variance = rough.residuals.iter().map(|residual| weights.apply(residual).norm_squared());
+            information[(rough.parameter, rough.parameter)] -= rough.slope_variance * variance.sum::<f64>();
         }
         let eigen = SymmetricEigen::new(information);
         let mut order: Vec<usize> = (0..derivatives.len()).collect();
@@ -70,7 +75,8 @@ impl Directions {
         let along = &self.derivatives * &self.determined;
         let information = along.transpose() * &along;
         // Determined directions have information that is positive.
-        let inverse = information.try_inverse().unwrap_or_else(|| DMatrix::zeros(along.ncols(), along.ncols()));
+        let inverse =
+            information.try_inverse().unwrap_or_else(|| DMatrix::zeros(along.ncols(), along.ncols()));
         &self.determined * inverse * along.transpose()
     }
 

@@ -72,7 +72,8 @@ impl MeasuredTransient {
     /// Variance of the error of one measured speed.
     pub(super) fn error_variance(&self) -> Result<f64, Error> {
         if let Some(error) = self.speed_error {
-            return check((error * error).is_finite(), "speed_error", error, "[0, 1e154] (rad/s)").map(|e| e * e);
+            return check((error * error).is_finite(), "speed_error", error, "[0, 1e154] (rad/s)")
+                .map(|e| e * e);
         }
         let (mut sum, mut count) = (0.0, 0.0);
         for run in self.runs.runs() {

@@ -1,9 +1,10 @@
 //! What the model says of the windows' means, member by member, and how that changes with the parameters.
 
 use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, InstructionSet, Phase, Watch, WorkCount};
+use bouncing_disk_core::{ChatterPolicy, InstructionSet, Phase, Progress, Watch};
 use nalgebra::{DMatrix, DVector};
 
 use super::measured_transient::MeasuredTransient;
@@ -75,7 +76,14 @@ impl Model<'_> {
             });
             systems.push(at_preload.collect::<Result<Vec<_>, _>>()?);
         }
-        let run = |work: &mut WorkCount<'_>, task: usize| {
+        let run = |task: usize| {
+            // A transient counts its own intervals; the call that it is a part of has others.
+            let ask = |_: Progress| match watch.ask() {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            };
+            let own = Watch::begin(&ask, 0, 1)?;
+            let mut work = own.work();
             let (preload, member) = (task / members, task % members);
             let windows = &self.windows[preload];
             let settings = TransientSettings {
@@ -88,7 +96,7 @@ impl Model<'_> {
             let phase = Phase::new(TAU * (member as f64 + 0.5) / members as f64)?;
             let mut means = Vec::with_capacity(candidates.len() * windows.count());
             for group in systems[preload].chunk_by(is_shared) {
-                for curve in with_instructions(group, phase, &settings, InstructionSet::best(), work)? {
+                for curve in with_instructions(group, phase, &settings, InstructionSet::best(), &mut work)? {
                     means.extend(windows.of_curve(&curve.speeds));
                 }
             }
@@ -98,13 +106,13 @@ impl Model<'_> {
         #[cfg(feature = "parallel")]
         let results: Vec<_> = {
             use rayon::prelude::*;
-            (0..tasks).into_par_iter().map_init(|| watch.work(), run).collect()
+            (0..tasks).into_par_iter().map(run).collect()
         };
         #[cfg(not(feature = "parallel"))]
-        let results: Vec<_> = {
-            let mut work = watch.work();
-            (0..tasks).map(|task| run(&mut work, task)).collect()
-        };
+        let results: Vec<_> = (0..tasks).map(run).collect();
+        if watch.is_stopped() {
+            watch.ask()?;
+        }
         let mut all = vec![MemberMeans::zeros(members, self.statistics()); candidates.len()];
         let mut first = 0;
         for (task, result) in results.into_iter().enumerate() {
@@ -156,21 +164,30 @@ impl Model<'_> {
             let width = candidates[ahead][index] - candidates[behind][index];
             derivatives[index] = (&members[ahead] - &members[behind]) / width;
         }
-        let mut smooth = members[0].clone();
+        let (mut smooth, mut roughness) = (members[0].clone(), Vec::with_capacity(smoothed.len()));
         for (k, &index) in smoothed.iter().enumerate() {
             let nodes = 1 + 2 * shared.len() + NODES * k..1 + 2 * shared.len() + NODES * (k + 1);
             let distances: Vec<f64> =
                 candidates[nodes.clone()].iter().map(|candidate| candidate[index] - places[index]).collect();
+            let parabola = Parabola::at(&distances);
             let (mut value, mut slope) = (-&members[0], MemberMeans::zeros(smooth.nrows(), smooth.ncols()));
-            for (node, [of_value, of_slope]) in nodes.zip(parabola(&distances)) {
-                value += &members[node] * of_value;
-                slope += &members[node] * of_slope;
+            for (node, [of_value, of_slope]) in nodes.clone().zip(&parabola.weights) {
+                value += &members[node] * *of_value;
+                slope += &members[node] * *of_slope;
             }
             smooth += value;
             derivatives[index] = slope;
+            let means: Vec<DVector<f64>> = members[nodes].iter().map(mean_of).collect();
+            let slope_variance = parabola.weights.iter().map(|[_, of_slope]| of_slope * of_slope).sum();
+            roughness.push(Roughness {
+                parameter: index,
+                residuals: parabola.residuals(&means),
+                slope_variance,
+            });
         }
         let smooth = mean_of(&smooth);
-        Ok(Local { members: members.into_iter().next().unwrap_or_else(|| MemberMeans::zeros(0, 0)), smooth, derivatives })
+        let members = members.into_iter().next().unwrap_or_else(|| MemberMeans::zeros(0, 0));
+        Ok(Local { members, smooth, derivatives, roughness })
     }
 }
 
@@ -183,25 +200,85 @@ pub(super) struct Local {
     pub(super) smooth: DVector<f64>,
     /// What the members' means change by along each range; empty where that was not asked for.
     pub(super) derivatives: Vec<MemberMeans>,
+    /// What smoothing leaves, for each parameter that changes the vertical motion.
+    pub(super) roughness: Vec<Roughness>,
 }
 
-/// The weights with which the numbers at some distances give value and slope at distance zero of the parabola through them of the
-/// least squares.
-fn parabola(distances: &[f64]) -> Vec<[f64; 2]> {
-    let powers = DMatrix::from_fn(distances.len(), 3, |node, power| match power {
-        0 => 1.0,
-        1 => distances[node],
-        _ => distances[node] * distances[node],
-    });
-    let normal = powers.transpose() * &powers;
-    // Three different distances have a parabola.
-    let inverse = normal.try_inverse().unwrap_or_else(|| DMatrix::zeros(3, 3));
-    let weights = powers * inverse;
-    weights.row_iter().map(|row| [row[0], row[1]]).collect()
+/// What the parabola along one parameter leaves: motions that lock on a cycle, and luck.
+#[derive(Debug)]
+pub(super) struct Roughness {
+    pub(super) parameter: usize,
+    /// The sum of their squares is the variance about the parabola.
+    pub(super) residuals: Vec<DVector<f64>>,
+    /// Variance of the slope for a variance of one about the parabola.
+    pub(super) slope_variance: f64,
+}
+
+/// The parabola of the least squares through numbers at some distances.
+struct Parabola {
+    powers: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+    /// With which the numbers give its value and slope at distance zero.
+    weights: Vec<[f64; 2]>,
+}
+
+impl Parabola {
+    fn at(distances: &[f64]) -> Self {
+        let powers = DMatrix::from_fn(distances.len(), 3, |node, power| match power {
+            0 => 1.0,
+            1 => distances[node],
+            _ => distances[node] * distances[node],
+        });
+        let normal = powers.transpose() * &powers;
+        // Three different distances have a parabola.
+        let inverse = normal.try_inverse().unwrap_or_else(|| DMatrix::zeros(3, 3));
+        let weights = (&powers * &inverse).row_iter().map(|row| [row[0], row[1]]).collect();
+        Self { powers, inverse, weights }
+    }
+
+    /// What the numbers differ from it, over the root of their degrees of freedom.
+    fn residuals(&self, numbers: &[DVector<f64>]) -> Vec<DVector<f64>> {
+        let smoothing = &self.powers * &self.inverse * self.powers.transpose();
+        let scale = 1.0 / (numbers.len() as f64 - 3.0).sqrt();
+        let residual = |node: usize| {
+            let fitted = numbers.iter().enumerate().map(|(other, number)| number * smoothing[(node, other)]);
+            (&numbers[node] - fitted.fold(DVector::zeros(numbers[node].len()), |sum, part| sum + part))
+                * scale
+        };
+        (0..numbers.len()).map(residual).collect()
+    }
 }
 
 /// The mean over the members.
 pub(super) fn mean_of(members: &MemberMeans) -> DVector<f64> {
     let count = members.nrows() as f64;
     DVector::from_iterator(members.ncols(), members.column_iter().map(|column| column.sum() / count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_is_found_and_what_is_beside_it_left() {
+        let distances: Vec<f64> = (0..9).map(|node| 0.1 * f64::from(node) - 0.25).collect();
+        let parabola = Parabola::at(&distances);
+        let numbers: Vec<DVector<f64>> =
+            distances.iter().map(|x| DVector::from_element(1, 3.0 - 2.0 * x + 5.0 * x * x)).collect();
+        let of = |k: usize| {
+            let parts = parabola.weights.iter().zip(&numbers).map(|(weights, number)| weights[k] * number[0]);
+            parts.sum::<f64>()
+        };
+        assert!((of(0) - 3.0).abs() < 1e-12 && (of(1) + 2.0).abs() < 1e-12, "{} {}", of(0), of(1));
+        let squares = |numbers: &[DVector<f64>]| {
+            parabola.residuals(numbers).iter().map(DVector::norm_squared).sum::<f64>()
+        };
+        assert!(squares(&numbers) < 1e-24);
+        // Numbers that alternate have nearly their own variance about any parabola: 9/6 less what it takes.
+        let rough: Vec<DVector<f64>> = (0..9)
+            .map(|node| &numbers[node] + DVector::from_element(1, if node % 2 == 0 { 0.1 } else { -0.1 }))
+            .collect();
+        let share = squares(&rough) / (0.01 * 9.0 / 6.0);
+        assert!(share > 0.9 && share < 1.0, "{share}");
+    }
 }

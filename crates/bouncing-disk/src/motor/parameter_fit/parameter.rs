@@ -123,7 +123,12 @@ impl ParameterRange {
             check(high - low <= TAU, "width of the range of the phase lag", high - low, "(0, 2 pi] (rad)")?;
         }
         let nominal = parameter.of(motor);
-        check(nominal >= low && nominal <= high, parameter.name(), nominal, "within the range that is searched")?;
+        check(
+            nominal >= low && nominal <= high,
+            parameter.name(),
+            nominal,
+            "within the range that is searched",
+        )?;
         Ok(())
     }
 

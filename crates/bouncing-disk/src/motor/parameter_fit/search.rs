@@ -7,11 +7,11 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationRe
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
+use super::Linearised;
+use super::determined::Directions;
 use super::measured_transient::refused;
 use super::model::{Model, SPAN, mean_of};
-use super::determined::Directions;
 use super::parameter::FitParameter;
-use super::Linearised;
 use super::weights::Weights;
 use crate::error::Error;
 use crate::motor::fit_refusal::FitRefusal;
@@ -117,7 +117,9 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
         let shares_orbit = |parameter: FitParameter| !parameter.changes_orbit();
         let local = self.keep(|| self.model.with_derivatives(&places, shares_orbit, self.watch))?;
         let mut weighted = self.directions.derivatives.clone();
-        for (index, members) in local.derivatives.iter().enumerate().filter(|&(index, _)| !self.changes_orbit(index)) {
+        for (index, members) in
+            local.derivatives.iter().enumerate().filter(|&(index, _)| !self.changes_orbit(index))
+        {
             weighted.set_column(index, &self.weights.apply(&mean_of(members)));
         }
         Some(weighted * &self.directions.determined)

@@ -40,8 +40,15 @@ impl Default for ParameterFitSettings {
 
 impl ParameterFitSettings {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let Self { members, windows, relaunch_perturbation, seed: _, most_evaluations, resamples, largest_misfit } =
-            *self;
+        let Self {
+            members,
+            windows,
+            relaunch_perturbation,
+            seed: _,
+            most_evaluations,
+            resamples,
+            largest_misfit,
+        } = *self;
         check((24..=4096).contains(&members), "members", members as f64, "[24, 4096]")?;
         check((1..=12).contains(&windows), "windows", windows as f64, "[1, 12]")?;
         let perturbs = relaunch_perturbation > 0.0 && relaunch_perturbation <= 1.0;

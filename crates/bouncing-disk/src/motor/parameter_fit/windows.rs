@@ -77,7 +77,11 @@ impl Windows {
 
 /// The points of a run behind `start` and not behind `end`.
 fn points(run: &MeasuredRun, start: f64, end: f64) -> impl Iterator<Item = usize> {
-    run.times.iter().enumerate().filter(move |&(_, &time)| time > start && time <= end).map(|(index, _)| index)
+    run.times
+        .iter()
+        .enumerate()
+        .filter(move |&(_, &time)| time > start && time <= end)
+        .map(|(index, _)| index)
 }
 
 /// Adds `share` of the speed at a time, given as a share of the duration: on the line between the middles of the two intervals
@@ -140,7 +144,9 @@ mod tests {
         assert_eq!(windows.count(), 6);
         // 2, 2, 4, 8, 16 and 32 points of variance 2.
         let variances = [1.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
-        assert!(windows.error_variances.iter().zip(variances).all(|(own, other)| (own - other).abs() < 1e-15));
+        assert!(
+            windows.error_variances.iter().zip(variances).all(|(own, other)| (own - other).abs() < 1e-15)
+        );
         let late = transient((60..=70).map(f64::from).collect(), |_| 1.0);
         assert_eq!(Windows::of(&late, 6, 1.0).count(), 1);
         // The last half holds one point: it belongs to the window before.
