@@ -264,7 +264,7 @@ fn a_fit_that_describes_nothing_is_refused_with_its_numbers() {
     let times = run.runs.runs()[0].times.clone();
     // Half of the true friction is the most that is allowed.
     let narrow = ParameterRange { high: 0.11, ..FRICTION };
-    let error = fit(&[run.clone()], &[narrow]).expect_err("at the end");
+    let error = fit(std::slice::from_ref(&run), &[narrow]).expect_err("at the end");
     assert!(
         matches!(
             error,
