@@ -23,13 +23,16 @@
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
+//! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
+//! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
+//! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
 //! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `ParameterRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
-//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
-//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`; `StorageError` |
+//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
+//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`, `MotorSweep::run_with_journal`; `StorageError` |
 //! | vertical motion | [`mod@core`] |
 //!
 //! | feature | default | what it does |
@@ -41,6 +44,7 @@
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
 //! | `csv` | no | measured speeds from comma-separated files |
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
+//! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
 //! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
@@ -80,6 +84,7 @@ pub use motor::braking_fit::{BrakingFit, BrakingRotor};
 pub use motor::data_sheet::Motor;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use motor::data_sheet::file::MotorFileError;
+pub use motor::data_sheet::motor_field::{MotorField, UnknownMotorField};
 pub use motor::data_sheet::parameters::MotorParameters;
 pub use motor::data_sheet::regime::MotorRegime;
 pub use motor::data_sheet::report::MotorReport;
@@ -95,6 +100,7 @@ pub use motor::interval_estimate::IntervalEstimate;
 pub use motor::measured_speeds::error::MeasuredSpeedsError;
 pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
+pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
@@ -107,14 +113,26 @@ pub use motor::parameter_fit::parameter::{FitParameter, ParameterRange};
 pub use motor::parameter_fit::settings::ParameterFitSettings;
 #[cfg(feature = "fit")]
 pub use motor::parameter_fit::{ParameterEstimate, ParameterFit, UndeterminedDirection};
+pub use motor::sensitivity::global::ParameterRange;
+pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
+pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};
+pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices, sobol_indices_observed};
 pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
 };
+pub use motor::sweep::MotorSweep;
+pub use motor::sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
+pub use motor::sweep::quantity::SweepQuantity;
+pub use motor::sweep::result::MotorSweepResult;
+pub use motor::sweep::run::MotorSweepRun;
 pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
 pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
 pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
+pub use motor::traps::nearest::NearestTrap;
+pub use motor::traps::{TrapVerdict, low_period_traps, low_period_traps_observed};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{Platform, PlatformParameters};
@@ -126,11 +144,17 @@ pub use storage::error::StorageError;
 #[cfg(feature = "storage")]
 pub use storage::journal::{JOURNAL, Journal};
 #[cfg(feature = "storage")]
+pub use storage::motor_sweep::MOTOR_SWEEP;
+#[cfg(feature = "storage")]
 pub use storage::provenance::{Format, Provenance};
 #[cfg(feature = "storage")]
 pub use storage::transients::transients_with_journal;
 pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
+pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
+pub use toss::design::{
+    OverFriction, TossCertificate, TossConstraints, TossDesign, TossObjective, best_toss, best_toss_observed,
+};
 pub use toss::multiple::{
     MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss, multi_toss_observed,
 };
@@ -146,3 +170,8 @@ struct ReadmeExamples;
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/tutorial.md")]
 struct TutorialExamples;
+
+/// Compiles and runs the programs of the page on motors.
+#[cfg(all(doctest, feature = "storage"))]
+#[doc = include_str!("../../../docs/designing-a-motor.md")]
+struct MotorExamples;
