@@ -29,7 +29,7 @@
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
-//! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `ParameterRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
+//! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
 //! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`, `MotorSweep::run_with_journal`; `StorageError` |
@@ -42,7 +42,6 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
-//! | `csv` | no | measured speeds from comma-separated files |
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
@@ -108,7 +107,7 @@ pub use motor::operation::stall_load::StallLoad;
 #[cfg(feature = "fit")]
 pub use motor::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
 #[cfg(feature = "fit")]
-pub use motor::parameter_fit::parameter::{FitParameter, ParameterRange};
+pub use motor::parameter_fit::parameter::{FitParameter, FitRange};
 #[cfg(feature = "fit")]
 pub use motor::parameter_fit::settings::ParameterFitSettings;
 #[cfg(feature = "fit")]

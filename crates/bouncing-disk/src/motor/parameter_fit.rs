@@ -20,7 +20,7 @@ use self::bootstrap::{percentile, resampled_places};
 use self::determined::Directions;
 use self::measured_transient::{MeasuredTransient, refused};
 use self::model::{Local, Model};
-use self::parameter::{FitParameter, ParameterRange};
+use self::parameter::{FitParameter, FitRange};
 use self::search::{Evaluations, least_squares};
 use self::settings::ParameterFitSettings;
 use self::weights::Weights;
@@ -72,7 +72,7 @@ pub struct UndeterminedDirection {
 /// use bouncing_disk::core::Phase;
 /// use bouncing_disk::{
 ///     FitParameter, MeasuredRun, MeasuredSpeeds, MeasuredTransient, Motor, ParameterFit, ParameterFitSettings,
-///     ParameterRange, RunPreload, TransientSettings, transient,
+///     FitRange, RunPreload, TransientSettings, transient,
 /// };
 ///
 /// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.3.
@@ -87,7 +87,7 @@ pub struct UndeterminedDirection {
 ///     speed_error: None,
 /// };
 ///
-/// let friction = ParameterRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
+/// let friction = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
 /// let fit = ParameterFit::new(&sheet, &[measured], &[friction], &ParameterFitSettings::default())?;
 /// let found = fit.estimate(FitParameter::Friction).expect("determined");
 /// assert!((found.value - 0.2).abs() < 0.04);
@@ -151,7 +151,7 @@ impl ParameterFit {
     pub fn new(
         nominal: &Motor,
         transients: &[MeasuredTransient],
-        ranges: &[ParameterRange],
+        ranges: &[FitRange],
         settings: &ParameterFitSettings,
     ) -> Result<Self, Error> {
         Self::new_observed(nominal, transients, ranges, settings, &Unobserved)
@@ -165,7 +165,7 @@ impl ParameterFit {
     pub fn new_observed(
         nominal: &Motor,
         transients: &[MeasuredTransient],
-        ranges: &[ParameterRange],
+        ranges: &[FitRange],
         settings: &ParameterFitSettings,
         observer: &dyn Observer,
     ) -> Result<Self, Error> {
@@ -244,7 +244,7 @@ impl ParameterFit {
 fn checked<'a>(
     nominal: &Motor,
     transients: &'a [MeasuredTransient],
-    ranges: &'a [ParameterRange],
+    ranges: &'a [FitRange],
     settings: &'a ParameterFitSettings,
 ) -> Result<Model<'a>, Error> {
     settings.check()?;
@@ -295,7 +295,7 @@ fn sample_widening(model: &Model<'_>) -> f64 {
 }
 
 /// A direction in the coordinates of the parameters.
-fn named(ranges: &[ParameterRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
+fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
     let changes = ranges.iter().zip(direction.iter()).map(|(range, along)| along * range.half_width());
     let changes: Vec<f64> = changes.collect();
     let largest =

@@ -8,7 +8,7 @@ use bouncing_disk_core::{ChatterPolicy, InstructionSet, Phase, Progress, Watch};
 use nalgebra::{DMatrix, DVector};
 
 use super::measured_transient::MeasuredTransient;
-use super::parameter::{FitParameter, ParameterRange};
+use super::parameter::{FitParameter, FitRange};
 use super::settings::ParameterFitSettings;
 use super::windows::{INTERVALS, Windows};
 use crate::error::Error;
@@ -32,7 +32,7 @@ const NODES: usize = 9;
 pub(super) struct Model<'a> {
     pub(super) nominal: Motor,
     pub(super) transients: &'a [MeasuredTransient],
-    pub(super) ranges: &'a [ParameterRange],
+    pub(super) ranges: &'a [FitRange],
     pub(super) settings: &'a ParameterFitSettings,
     pub(super) windows: Vec<Windows>,
 }

@@ -97,7 +97,7 @@ impl std::fmt::Display for FitParameter {
 /// The range is also what "determined" is measured by: a direction in which the data leave more than half of the ranges open
 /// is none that they determine.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ParameterRange {
+pub struct FitRange {
     /// The parameter.
     pub parameter: FitParameter,
     /// Lower end (SI): positive, or in [0, 1) for the restitution, or finite for the phase lag.
@@ -106,7 +106,7 @@ pub struct ParameterRange {
     pub high: f64,
 }
 
-impl ParameterRange {
+impl FitRange {
     pub(super) fn check(&self, motor: &Motor) -> Result<(), Error> {
         let Self { parameter, low, high } = *self;
         for end in [low, high] {

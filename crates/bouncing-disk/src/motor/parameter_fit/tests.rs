@@ -10,14 +10,11 @@ use crate::motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::motor::transient::{TransientSettings, transient};
 use crate::testing::Noise;
 
-const FRICTION: ParameterRange = ParameterRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
-const TWIST: ParameterRange =
-    ParameterRange { parameter: FitParameter::TwistAmplitude, low: 2e-5, high: 2e-4 };
-const LAG: ParameterRange = ParameterRange { parameter: FitParameter::PhaseLag, low: -0.8, high: 0.8 };
-const RESTITUTION: ParameterRange =
-    ParameterRange { parameter: FitParameter::Restitution, low: 0.2, high: 0.8 };
-const AMPLITUDE: ParameterRange =
-    ParameterRange { parameter: FitParameter::Amplitude, low: 3e-9, high: 3e-8 };
+const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
+const TWIST: FitRange = FitRange { parameter: FitParameter::TwistAmplitude, low: 2e-5, high: 2e-4 };
+const LAG: FitRange = FitRange { parameter: FitParameter::PhaseLag, low: -0.8, high: 0.8 };
+const RESTITUTION: FitRange = FitRange { parameter: FitParameter::Restitution, low: 0.2, high: 0.8 };
+const AMPLITUDE: FitRange = FitRange { parameter: FitParameter::Amplitude, low: 3e-9, high: 3e-8 };
 
 /// Of the motor that synthetic runs are of, where its data sheet has 0.1.
 const TRUE_FRICTION: f64 = 0.2;
@@ -60,7 +57,7 @@ fn at_all_preloads(duration: f64, seed: u64) -> Vec<MeasuredTransient> {
     PRELOADS.iter().zip(seed..).map(|(&g, seed)| synthetic(&built(), g, duration, 0.2, seed)).collect()
 }
 
-fn fit(transients: &[MeasuredTransient], ranges: &[ParameterRange]) -> Result<ParameterFit, Error> {
+fn fit(transients: &[MeasuredTransient], ranges: &[FitRange]) -> Result<ParameterFit, Error> {
     ParameterFit::new(&Motor::paper_70_khz(), transients, ranges, &settings())
 }
 
@@ -207,7 +204,7 @@ fn input_that_means_nothing_is_refused_by_name() {
     let times: Vec<f64> = (1..=20).map(|i| 0.01 * f64::from(i)).collect();
     let speeds: Vec<f64> = times.iter().map(|time| 10.0 * time).collect();
     let good = measured(9.8, times.clone(), speeds.clone(), None);
-    let refusal = |transient: MeasuredTransient, range: ParameterRange| {
+    let refusal = |transient: MeasuredTransient, range: FitRange| {
         let error = ParameterFit::new(&sheet, &[transient], &[range], &settings()).expect_err("illegal");
         error.to_string()
     };
@@ -243,12 +240,12 @@ fn input_that_means_nothing_is_refused_by_name() {
         (f64::NAN, 1.0),
         (0.05, f64::INFINITY),
     ] {
-        refusal(good.clone(), ParameterRange { low, high, ..FRICTION });
+        refusal(good.clone(), FitRange { low, high, ..FRICTION });
     }
     for range in [
-        ParameterRange { high: 1.0, ..RESTITUTION },
-        ParameterRange { low: -0.1, ..RESTITUTION },
-        ParameterRange { low: -PI, high: 1.1 * PI, ..LAG },
+        FitRange { high: 1.0, ..RESTITUTION },
+        FitRange { low: -0.1, ..RESTITUTION },
+        FitRange { low: -PI, high: 1.1 * PI, ..LAG },
     ] {
         refusal(good.clone(), range);
     }
@@ -278,7 +275,7 @@ fn a_fit_that_describes_nothing_is_refused_with_its_numbers() {
     let run = synthetic(&built(), 9.8, 0.8, 0.2, 6);
     let times = run.runs.runs()[0].times.clone();
     // Half of the true friction is the most that is allowed.
-    let narrow = ParameterRange { high: 0.11, ..FRICTION };
+    let narrow = FitRange { high: 0.11, ..FRICTION };
     let error = fit(std::slice::from_ref(&run), &[narrow]).expect_err("at the end");
     assert!(
         matches!(
