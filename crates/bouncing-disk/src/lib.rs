@@ -29,6 +29,7 @@
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
+//! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
 //! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`, `MotorSweep::run_with_journal`; `StorageError` |
@@ -41,6 +42,7 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
+//! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
@@ -102,6 +104,14 @@ pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::stall_load::StallLoad;
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::parameter::{FitParameter, FitRange};
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::settings::ParameterFitSettings;
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::{ParameterEstimate, ParameterFit, UndeterminedDirection};
 pub use motor::sensitivity::global::ParameterRange;
 pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
 pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};

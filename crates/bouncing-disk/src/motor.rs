@@ -12,6 +12,8 @@ pub(crate) mod impulse;
 pub(crate) mod interval_estimate;
 pub(crate) mod measured_speeds;
 pub(crate) mod operation;
+#[cfg(feature = "fit")]
+pub(crate) mod parameter_fit;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
 pub(crate) mod sensitivity;

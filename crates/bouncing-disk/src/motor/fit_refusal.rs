@@ -1,5 +1,8 @@
 //! Why a fit was refused.
 
+#[cfg(feature = "fit")]
+use crate::motor::parameter_fit::parameter::FitParameter;
+
 /// Why a curve gives no fit that could be trusted. Every reason carries the numbers that it was judged by.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -134,5 +137,41 @@ pub enum FitRefusal {
         first_half: f64,
         /// Angular deceleration in its last half (rad/s^2).
         last_half: f64,
+    },
+    /// The search for the best parameters found no end.
+    #[cfg(feature = "fit")]
+    #[error(
+        "the search found no best parameters in {evaluations} evaluations: allow more, or begin nearer to them"
+    )]
+    NotConverged {
+        /// Evaluations of all motors.
+        evaluations: usize,
+    },
+    /// A parameter lies at the end of its range, which was too narrow or the model is not that of the motor.
+    #[cfg(feature = "fit")]
+    #[error("{parameter} = {value:?} lies at the end of its range [{low:?}, {high:?}]: take a wider one")]
+    AtRangeEnd {
+        /// The parameter.
+        parameter: FitParameter,
+        /// Its value (SI).
+        value: f64,
+        /// Lower end of its range.
+        low: f64,
+        /// Upper end of its range.
+        high: f64,
+    },
+    /// No parameters in their ranges describe the transients.
+    #[cfg(feature = "fit")]
+    #[error(
+        "the sum of weighted squares is {misfit:?} for {degrees_of_freedom} degrees of freedom, more than the largest \
+         accepted {largest:?}: the model does not describe these transients, or their errors are larger than stated"
+    )]
+    Misfit {
+        /// Sum of the weighted squares.
+        misfit: f64,
+        /// Its expectation.
+        degrees_of_freedom: usize,
+        /// The largest that is accepted.
+        largest: f64,
     },
 }

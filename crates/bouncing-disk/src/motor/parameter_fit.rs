@@ -1,0 +1,309 @@
+//! Parameters of a motor from its transients at one preload or several, with intervals, and what they cannot tell.
+//!
+//! A transient of a chaotic motor is compared by its means over windows of time, weighted by what such means scatter by;
+//! docs/numerics/motors.md, "Parameters from transients", derives how, and what can be known at all.
+
+mod bootstrap;
+mod determined;
+pub(crate) mod measured_transient;
+mod model;
+pub(crate) mod parameter;
+mod search;
+pub(crate) mod settings;
+mod weights;
+mod windows;
+
+use bouncing_disk_core::{Observer, Unobserved, Watch};
+use nalgebra::DVector;
+
+use self::bootstrap::{percentile, resampled_places};
+use self::determined::Directions;
+use self::measured_transient::{MeasuredTransient, refused};
+use self::model::{Local, Model};
+use self::parameter::{FitParameter, FitRange};
+use self::search::{Evaluations, least_squares};
+use self::settings::ParameterFitSettings;
+use self::weights::Weights;
+use self::windows::Windows;
+use crate::error::{Error, check, within_limit};
+use crate::motor::data_sheet::Motor;
+use crate::motor::fit_refusal::FitRefusal;
+use crate::motor::interval_estimate::{IntervalEstimate, NORMAL_QUANTILE, small_sample_widening};
+
+/// Most preloads: enough for any experiment, and no input makes a computation endless by their number.
+const MOST_TRANSIENTS: usize = 1_000;
+
+/// A search that has moved by less than this many standard errors has weights and directions that are those of its end. The luck
+/// of other vertical motions is about an eighth of one, with 64 members.
+const NEAR: f64 = 0.3;
+
+/// The normal quantile that one of 10,000 exceeds.
+const RARE: f64 = 3.719_016_485_455_709;
+
+/// How near the end of a range a parameter is taken to lie at it, as a share of half the range.
+const AT_END: f64 = 1.0e-6;
+
+/// A parameter and what the transients say of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterEstimate {
+    /// The parameter.
+    pub parameter: FitParameter,
+    /// Its value in the data sheet, from which the search began (SI).
+    pub nominal: f64,
+    /// Its value and 95 % interval (SI), within its range; `None` where it has a part in a direction that the transients do not
+    /// determine.
+    pub estimate: Option<IntervalEstimate>,
+}
+
+/// A direction in the space of the fitted parameters along which the transients hardly change: they do not say where on it the
+/// motor is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UndeterminedDirection {
+    /// The direction as a change of each fitted parameter's coordinate ([`FitParameter`]): of the logarithm of a size, of the
+    /// restitution, of the phase lag (rad). The largest change is 1.
+    pub direction: Vec<(FitParameter, f64)>,
+    /// The standard error along it, in multiples of the direction as it stands; infinite where the transients do not change at all.
+    pub standard_error: f64,
+}
+
+/// Parameters of a motor that were fitted to its transients.
+///
+/// ```
+/// use bouncing_disk::core::Phase;
+/// use bouncing_disk::{
+///     FitParameter, MeasuredRun, MeasuredSpeeds, MeasuredTransient, Motor, ParameterFit, ParameterFitSettings,
+///     FitRange, RunPreload, TransientSettings, transient,
+/// };
+///
+/// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.3.
+/// let sheet = Motor::paper_70_khz();
+/// let built = sheet.with(|sheet| sheet.friction = 0.2)?;
+/// let settings = TransientSettings { duration: 2.0, intervals: 200, ..TransientSettings::default() };
+/// let curve = transient(built.system(), Phase::new(1.0)?, &settings)?;
+/// let run = MeasuredRun { member: 0, times: curve.times, speeds: curve.speeds };
+/// let measured = MeasuredTransient {
+///     preload: RunPreload::Acceleration(9.8),
+///     runs: MeasuredSpeeds::new(vec![run])?,
+///     speed_error: None,
+/// };
+///
+/// let friction = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
+/// let fit = ParameterFit::new(&sheet, &[measured], &[friction], &ParameterFitSettings::default())?;
+/// let found = fit.estimate(FitParameter::Friction).expect("determined");
+/// assert!((found.value - 0.2).abs() < 0.04);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterFit {
+    /// The fitted parameters, in the order of their ranges.
+    pub parameters: Vec<ParameterEstimate>,
+    /// Directions that the transients do not determine, the least uncertain first. Along them the motor stays where the
+    /// search began.
+    pub undetermined: Vec<UndeterminedDirection>,
+    /// The motor with the fitted parameters, at the preload of its data sheet.
+    pub motor: Motor,
+    /// Sum of the weighted squares that is left.
+    pub misfit: f64,
+    /// Its expectation: the number of means less that of the directions that are determined.
+    pub degrees_of_freedom: usize,
+    /// How often all motors have been computed.
+    pub evaluations: usize,
+}
+
+/// A place in the ranges and all that is known there.
+struct Linearised {
+    places: DVector<f64>,
+    local: Local,
+    weights: Weights,
+    directions: Directions,
+}
+
+impl Linearised {
+    fn at(
+        model: &Model<'_>,
+        places: DVector<f64>,
+        evaluations: &mut Evaluations,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        evaluations.spend(watch)?;
+        let local = model.with_derivatives(&places, |_| true, watch)?;
+        let weights = Weights::of(model, &local)?;
+        let directions = Directions::of(&weights, &local);
+        Ok(Self { places, local, weights, directions })
+    }
+
+    /// Whether the weights and directions are those of the other place as well.
+    fn is_near(&self, other: &Self) -> bool {
+        let moved = &self.directions.derivatives * (&self.places - &other.places);
+        self.directions.determined.ncols() == other.directions.determined.ncols() && moved.norm() < NEAR
+    }
+}
+
+impl ParameterFit {
+    /// Fits the parameters that have a range to the transients, which may be at different preloads. All else is that of the
+    /// data sheet, also the load; its preload is not used.
+    ///
+    /// # Errors
+    /// [`Error::FitRefused`] says why the fit would mean nothing: too few points, a motor that stays at rest, a parameter at the end of
+    /// its range, a search that found no end, a model that does not describe the transients. [`Error::NeverLeaves`] for a motor
+    /// whose rotor never leaves the stator at the preload of a transient; [`Error::OutOfRange`] for illegal settings, no
+    /// transient, no range, two of one parameter, and a range that is illegal or does not hold the data sheet's value.
+    pub fn new(
+        nominal: &Motor,
+        transients: &[MeasuredTransient],
+        ranges: &[FitRange],
+        settings: &ParameterFitSettings,
+    ) -> Result<Self, Error> {
+        Self::new_observed(nominal, transients, ranges, settings, &Unobserved)
+    }
+
+    /// [`Self::new`] with an observer; the items are the evaluations that the search may spend.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
+    /// breaks.
+    pub fn new_observed(
+        nominal: &Motor,
+        transients: &[MeasuredTransient],
+        ranges: &[FitRange],
+        settings: &ParameterFitSettings,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
+        let model = checked(nominal, transients, ranges, settings)?;
+        let watch = Watch::begin(observer, 0, settings.most_evaluations as u64)?;
+        let mut evaluations = Evaluations { spent: 0, most: settings.most_evaluations };
+        let start = ranges.iter().map(|range| range.place_of(range.parameter.of(nominal)).clamp(-1.0, 1.0));
+        let start = DVector::from_iterator(ranges.len(), start);
+        let mut state = Linearised::at(&model, start, &mut evaluations, &watch)?;
+        let mut is_near = state.directions.determined.ncols() == 0;
+        while !is_near {
+            let places = least_squares(&model, &state, &mut evaluations, &watch)?;
+            let next = Linearised::at(&model, places, &mut evaluations, &watch)?;
+            is_near = next.directions.determined.ncols() == 0 || next.is_near(&state);
+            state = next;
+        }
+        let fit = Self::of(&model, &state, evaluations.spent, &watch)?;
+        watch.end();
+        Ok(fit)
+    }
+
+    fn of(
+        model: &Model<'_>,
+        state: &Linearised,
+        evaluations: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let Linearised { places, local, weights, directions } = state;
+        let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
+        let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
+        let widening = widening_for(misfit, degrees_of_freedom, model)? * sample_widening(model);
+        let response = directions.response();
+        let resampled = resampled_places(model, local, weights, &response, &mut watch.work())?;
+        let mut parameters = Vec::with_capacity(model.ranges.len());
+        for (index, range) in model.ranges.iter().enumerate() {
+            let (low, high) = (percentile(&resampled[index], 0.025), percentile(&resampled[index], 0.975));
+            let place = places[index];
+            let mut estimate = None;
+            if directions.tells(index, (high - low) / (2.0 * NORMAL_QUANTILE)) {
+                let value = range.value_at(place);
+                if place.abs() >= 1.0 - AT_END {
+                    return refused(FitRefusal::AtRangeEnd {
+                        parameter: range.parameter,
+                        value,
+                        low: range.low,
+                        high: range.high,
+                    });
+                }
+                let end = |from: f64| range.value_at(place + widening * from);
+                estimate = Some(IntervalEstimate::about(value, end(low), end(high))?);
+            }
+            let nominal = range.parameter.of(&model.nominal);
+            parameters.push(ParameterEstimate { parameter: range.parameter, nominal, estimate });
+        }
+        let undetermined = directions.undetermined.iter();
+        Ok(Self {
+            parameters,
+            undetermined: undetermined
+                .map(|(direction, error)| named(model.ranges, direction, *error))
+                .collect(),
+            motor: model.motor(places)?,
+            misfit,
+            degrees_of_freedom,
+            evaluations,
+        })
+    }
+
+    /// The value and interval of a parameter; `None` if it was not fitted or is not determined.
+    #[must_use]
+    pub fn estimate(&self, parameter: FitParameter) -> Option<IntervalEstimate> {
+        self.parameters.iter().find(|fitted| fitted.parameter == parameter).and_then(|fitted| fitted.estimate)
+    }
+}
+
+/// The model of legal input.
+fn checked<'a>(
+    nominal: &Motor,
+    transients: &'a [MeasuredTransient],
+    ranges: &'a [FitRange],
+    settings: &'a ParameterFitSettings,
+) -> Result<Model<'a>, Error> {
+    settings.check()?;
+    check(!transients.is_empty(), "number of transients", 0.0, "[1, 1000]")?;
+    within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
+    check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 5]")?;
+    for (k, range) in ranges.iter().enumerate() {
+        range.check(nominal)?;
+        let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
+        check(again == 0, range.parameter.name(), (again + 1) as f64, "fitted once")?;
+    }
+    let mut windows = Vec::with_capacity(transients.len());
+    for transient in transients {
+        transient.check()?;
+        let peak_acceleration = transient.motor(nominal)?.system().peak_acceleration();
+        if peak_acceleration <= 1.0 {
+            return Err(Error::NeverLeaves { peak_acceleration });
+        }
+        windows.push(Windows::of(transient, settings.windows, transient.error_variance()?));
+    }
+    Ok(Model { nominal: *nominal, transients, ranges, settings, windows })
+}
+
+/// What the intervals are multiplied by because of a misfit that was allowed.
+fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, Error> {
+    if degrees == 0 {
+        return Ok(1.0);
+    }
+    // Wilson and Hilferty's approximation of the quantile.
+    let expected = degrees as f64;
+    let spread = 2.0 / (9.0 * expected);
+    let root = 1.0 - spread + RARE * spread.sqrt();
+    let rare = expected * root * root * root;
+    let largest = model.settings.largest_misfit * rare;
+    if misfit > largest {
+        return refused(FitRefusal::Misfit { misfit, degrees_of_freedom: degrees, largest });
+    }
+    Ok(if misfit > rare { (misfit / expected).sqrt() } else { 1.0 })
+}
+
+/// What the intervals are multiplied by because so few members were computed: their scatter is known no better, and the weights
+/// have an error.
+fn sample_widening(model: &Model<'_>) -> f64 {
+    let (members, most) =
+        (model.settings.members, model.windows.iter().map(Windows::count).max().unwrap_or(1));
+    let most = most as f64;
+    small_sample_widening(members) * (1.0 + (most - 1.0) / (members as f64 - most - 4.0)).sqrt()
+}
+
+/// A direction in the coordinates of the parameters.
+fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
+    let changes = ranges.iter().zip(direction.iter()).map(|(range, along)| along * range.half_width());
+    let changes: Vec<f64> = changes.collect();
+    let largest =
+        changes.iter().fold(0.0_f64, |most, change| if change.abs() > most.abs() { *change } else { most });
+    let direction =
+        ranges.iter().zip(&changes).map(|(range, change)| (range.parameter, change / largest)).collect();
+    UndeterminedDirection { direction, standard_error: error * largest.abs() }
+}
+
+#[cfg(test)]
+mod tests;
