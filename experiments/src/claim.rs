@@ -184,6 +184,8 @@ pub enum Source {
     Entry(String),
     /// Another reading of an entry that is answered elsewhere.
     Reading(String),
+    /// Not printed: a number of this work, expected by another computation of it.
+    Expected,
 }
 
 impl Claim {
@@ -406,6 +408,30 @@ impl Claim {
             printed_value: None,
             source: Source::default(),
         }
+    }
+
+    /// A number of this work against what another computation of it expects, within a tolerance, all in `unit`. It says
+    /// nothing of the paper. A note should say where the expected number and the tolerance come from. A NaN or infinity on
+    /// either side differs from every number.
+    ///
+    /// The expected number is written with six digits and compared with all it has.
+    pub fn expected(
+        id: impl Into<String>,
+        place: impl Into<String>,
+        quantity: impl Into<String>,
+        unit: impl Into<String>,
+        (expected, tolerance): (f64, f64),
+        computed: f64,
+    ) -> Self {
+        let rounded = format!("{expected:.5e}").parse().unwrap_or(expected);
+        let printed = if rounded.is_finite() { format!("{rounded}") } else { "none".to_owned() };
+        let mut claim = Self::number(id, place, quantity, unit, printed, computed);
+        claim.printed_value = expected.is_finite().then_some(expected);
+        claim.source = Source::Expected;
+        claim.verdict = Verdict::Differs;
+        claim.tolerance = tolerance.is_finite().then_some(tolerance);
+        claim.compare();
+        claim
     }
 
     /// A printed number or statement that cannot be computed from the paper's text, and why.
