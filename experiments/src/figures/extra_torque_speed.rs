@@ -37,13 +37,13 @@ impl Experiment for ExtraTorqueSpeed {
 
     fn caption(data: &ExtraTorqueSpeedData) -> String {
         let settings = &data.settings;
-        let bracket = data.stall.bracket_n_m.map(|torque| 1e3 * torque);
+        let bracket = data.stall.bracket_n_m.map(|torque| 1e6 * torque);
         format!(
             "The motor of Table III at 70 kHz under a load: (a) mean speed, (b) mechanical power. Dots: means over {} perturbed \
              members, whose perturbations all loads share; grey bands: 95 % intervals, of a standard error of at most {} % of the \
-             speed without load. Square: the load that stops the motor, bracketed between {:.3} and {:.3} mN m (blue band). \
+             speed without load. Square: the load that stops the motor, bracketed between {:.2} and {:.2} µN m (blue band). \
              Diamond: the paper's estimate from the run-up without load, the moment of inertia times α̇_ss/t_c, with the 95 % \
-             interval of {} transients. Beyond μ m g a_e = {:.3} mN m (grey) friction cannot hold the load and there is no steady \
+             interval of {} transients. Beyond μ m g a_e = {:.2} µN m (grey) friction cannot hold the load and there is no steady \
              speed. Dashed: the power if the speed fell along a straight line from no load to stall. Circle: the highest power. The \
              mass, {:.1} g, is that of the steel ball of 20 mm; it scales torques and powers and leaves speeds alone.",
             settings.members,
@@ -51,7 +51,7 @@ impl Experiment for ExtraTorqueSpeed {
             bracket[0],
             bracket[1],
             data.transient.members,
-            1e3 * data.largest_torque_n_m,
+            1e6 * data.largest_torque_n_m,
             1e3 * data.motor.mass(),
         )
     }
