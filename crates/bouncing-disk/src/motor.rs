@@ -20,3 +20,4 @@ pub(crate) mod statistics;
 pub(crate) mod transient;
 pub(crate) mod transient_fit;
 pub(crate) mod transients;
+pub(crate) mod traps;

@@ -1,7 +1,8 @@
-//! Tosses: a single one, and many in a row.
+//! Tosses: a single one, the best one, and many in a row.
 
 pub(crate) mod chattering_cycle;
 pub(crate) mod collisions;
+pub(crate) mod design;
 pub(crate) mod efficiency;
 pub(crate) mod multiple;
 pub(crate) mod period_one;

@@ -1,0 +1,259 @@
+//! The best hand motion of a toss (Sec. III) under constraints, and how much of it is left where its inputs are off.
+//!
+//! The search (`search.rs`) is deterministic; what it rests on, and how its result is certified, stands in
+//! docs/numerics/design.md.
+
+mod hand;
+pub(crate) mod robustness;
+mod search;
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use bouncing_disk_core::elementary::{acos, tan};
+use bouncing_disk_core::{Observer, Unobserved, Watch};
+
+use crate::error::{Error, check, finite, not_negative, positive};
+use crate::parameters::disk::DiskParameters;
+use crate::parameters::stroke::Stroke;
+use crate::toss::design::hand::{Evaluation, Hand};
+use crate::toss::design::robustness::{TossHalfUnits, TossRobustness, robustness};
+use crate::toss::design::search::search;
+use crate::toss::single::{InitialSpin, TossPerformance};
+
+/// What a toss is to be best at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum TossObjective {
+    /// The airborne rotary speed (rad/s), in whichever direction.
+    #[default]
+    AirborneSpeed,
+    /// The efficiency eta of Sec. III A.
+    Efficiency,
+    /// Turns of the dough until it is back at the height at which it left the hand, where it is caught.
+    TurnsPerToss,
+}
+
+/// How the objective is taken over a range of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum OverFriction {
+    /// Its least value: what the hand motion gives at any friction of the range.
+    #[default]
+    Worst,
+    /// Its mean, each friction of the range as likely as any other.
+    Mean,
+}
+
+/// What a hand motion may be, and what it is to be best at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct TossConstraints {
+    /// The dough. Its friction is not looked at ([`Self::friction`] is), nor is its restitution.
+    pub dough: DiskParameters,
+    /// How the dough turns at the start.
+    pub initial: InitialSpin,
+    /// Stroke c (m), positive: the half length of the path of the hand at the contact radius (Eq. 13).
+    pub stroke: f64,
+    /// Least and most coefficient of friction mu, not negative; twice the same if it is known.
+    pub friction: [f64; 2],
+    /// Least and most angular frequency omega (rad/s), positive.
+    pub angular_frequency: [f64; 2],
+    /// Least and most phase lag theta (rad), at most 2 pi apart. A lag that is larger by pi turns the dough as
+    /// fast the other way, so that half a circle holds all that can be had.
+    pub phase_lag: [f64; 2],
+    /// The highest that the dough may fly above the place where it leaves the hand (m), positive; `None` for no
+    /// limit.
+    pub highest_flight: Option<f64>,
+    /// What the toss is to be best at.
+    pub objective: TossObjective,
+    /// How that is taken over the range of friction.
+    pub over_friction: OverFriction,
+}
+
+impl TossConstraints {
+    /// Table I: its dough, its stroke, its friction and its frequency, each as the one value that is printed, all
+    /// phase lags, any height, and the largest airborne speed.
+    #[must_use]
+    pub fn pizza_toss() -> Self {
+        let system = crate::System::pizza_toss();
+        let (hand, dough) = (Stroke::pizza_toss(), system.disk().parameters());
+        Self {
+            dough,
+            initial: InitialSpin::AbsoluteRest,
+            stroke: hand.stroke,
+            friction: [dough.friction; 2],
+            angular_frequency: [hand.angular_frequency; 2],
+            phase_lag: [-FRAC_PI_2, FRAC_PI_2],
+            highest_flight: None,
+            objective: TossObjective::AirborneSpeed,
+            over_friction: OverFriction::Worst,
+        }
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.dough.build()?;
+        positive("stroke", self.stroke)?;
+        let [least, most] = self.friction;
+        not_negative("friction (least)", least)?;
+        not_negative("friction (most)", most)?;
+        check(least <= most, "friction (most)", most, "[friction (least), inf)")?;
+        let [least, most] = self.angular_frequency;
+        positive("angular_frequency (least)", least)?;
+        positive("angular_frequency (most)", most)?;
+        check(least <= most, "angular_frequency (most)", most, "[angular_frequency (least), inf)")?;
+        let peak_acceleration = self.stroke * most * most / self.gravity();
+        let [least, most] = self.phase_lag;
+        finite("phase_lag (least)", least)?;
+        check(
+            (least..=least + TAU).contains(&most),
+            "phase_lag (most)",
+            most,
+            "[phase_lag (least), phase_lag (least) + 2 pi]",
+        )?;
+        self.highest_flight.map(|height| positive("highest_flight", height)).transpose()?;
+        check(peak_acceleration.is_finite(), "stroke", self.stroke, "c omega^2/g up to 1.7e308")?;
+        if peak_acceleration <= 1.0 { Err(Error::NeverLeaves { peak_acceleration }) } else { Ok(()) }
+    }
+
+    const fn gravity(&self) -> f64 {
+        self.dough.preload_acceleration
+    }
+
+    /// The amplitude angles (rad) with which the dough leaves the hand, and no higher than it may
+    /// (docs/numerics/design.md, "The hand motions that are allowed"); `None` where it never leaves.
+    fn amplitude_angles(&self, angular_frequency: f64) -> Option<[f64; 2]> {
+        let (omega, g) = (angular_frequency, self.gravity());
+        let lift_off = g / (self.stroke * omega * omega);
+        if lift_off >= 1.0 {
+            return None;
+        }
+        let most = acos(lift_off);
+        let least = self.highest_flight.map_or(0.0, |height| {
+            let amplitude = (2.0 * g * height + g * g / (omega * omega)).sqrt() / omega;
+            let share = amplitude / self.stroke;
+            if share < 1.0 { acos(share) } else { 0.0 }
+        });
+        Some([least.min(most), most])
+    }
+}
+
+/// How an optimum is certified: by the grid from which it was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct TossCertificate {
+    /// Hand motions on the grid.
+    pub grid_points: usize,
+    /// The best of them: the refined optimum is not below it.
+    pub best_on_grid: f64,
+    /// What the objective could be above the optimum at most, farther from it than the next points of the grid, if
+    /// between two points it changes nowhere faster than it does from one to the other, or from either to the next one
+    /// beyond: zero if the optimum is sure under this premise.
+    pub hidden_gain: f64,
+}
+
+/// The best hand motion, and what it gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct TossDesign {
+    /// What was asked for.
+    pub constraints: TossConstraints,
+    /// The hand motion.
+    pub hand: Stroke,
+    /// L = a_e Phi/A, the tangent of the amplitude angle.
+    pub amplitude_ratio: f64,
+    /// The objective, over the range of friction: rad/s, a share, or turns.
+    pub value: f64,
+    /// The toss at the middle of the range of friction.
+    pub toss: TossPerformance,
+    /// How high the dough flies above the place where it leaves the hand (m).
+    pub flight_height: f64,
+    /// Turns until it is back there, at the middle of the range of friction.
+    pub turns: f64,
+    /// How the optimum is certified.
+    pub certificate: TossCertificate,
+}
+
+impl TossDesign {
+    /// How much of the objective is left where hand and dough are not quite those of the design: over everything
+    /// that rounds to the same digits, and over the range of friction.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of its
+    /// input; those of [`best_toss`].
+    pub fn robustness(&self, half_units: &TossHalfUnits) -> Result<TossRobustness, Error> {
+        robustness(self, half_units)
+    }
+}
+
+/// The hand motion that is best under these constraints: its frequency, its amplitude angle and its phase lag.
+///
+/// ```
+/// use bouncing_disk::{TossConstraints, best_toss};
+///
+/// // The dough of Table I, on hands whose flour makes the friction uncertain, no higher than half a metre.
+/// let constraints = TossConstraints {
+///     friction: [0.5, 0.7],
+///     angular_frequency: [10.0, 16.0],
+///     highest_flight: Some(0.5),
+///     ..TossConstraints::pizza_toss()
+/// };
+/// let design = best_toss(&constraints)?;
+/// assert!(design.value > 15.0 && design.flight_height < 0.5 + 1e-9);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none of the
+/// frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::single_toss).
+pub fn best_toss(constraints: &TossConstraints) -> Result<TossDesign, Error> {
+    best_toss_observed(constraints, &Unobserved)
+}
+
+/// [`best_toss`] with an observer; the items are steps of the search.
+///
+/// # Errors
+/// Those of [`best_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
+/// breaks.
+pub fn best_toss_observed(
+    constraints: &TossConstraints,
+    observer: &dyn Observer,
+) -> Result<TossDesign, Error> {
+    constraints.check()?;
+    let watch = Watch::begin(observer, 0, search::STAGES)?;
+    let found = search(constraints, &watch)?;
+    let hand = found.hand;
+    let evaluation = Evaluation::new(constraints, hand)?;
+    let toss = evaluation.middle;
+    let design = TossDesign {
+        constraints: *constraints,
+        hand: hand.stroke(constraints),
+        amplitude_ratio: tan(hand.amplitude_angle),
+        value: evaluation.value,
+        flight_height: flight_height(&toss, constraints.gravity()),
+        turns: turns(&toss, constraints.gravity()),
+        toss,
+        certificate: found.certificate,
+    };
+    watch.end();
+    Ok(design)
+}
+
+/// How high the dough rises above the place where it leaves (m).
+fn flight_height(toss: &TossPerformance, gravity: f64) -> f64 {
+    0.5 * toss.launch_speed * toss.launch_speed / gravity
+}
+
+/// Turns until it is back there.
+fn turns(toss: &TossPerformance, gravity: f64) -> f64 {
+    toss.airborne_speed.abs() * toss.launch_speed / (PI * gravity)
+}
+
+#[cfg(test)]
+mod tests;
