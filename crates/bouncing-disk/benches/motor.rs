@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::{System, TransientMember, TransientSettings, transient, transients};
+use bouncing_disk::{
+    Motor, OperatingSettings, System, TransientMember, TransientSettings, shared_transients, transient,
+    transients,
+};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Motor seconds of one transient.
@@ -53,5 +56,52 @@ fn w2(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, w2);
+/// Rotors under different loads on one vertical motion: the time of one second of it, however many it carries.
+fn w2_shared(c: &mut Criterion) {
+    let phase = Phase::new(4.0).expect("finite");
+    let settings =
+        TransientSettings { duration: f64::from(DURATION), seed: 0, ..TransientSettings::default() };
+    let mut group = c.benchmark_group("w2_shared");
+    group.sample_size(20).throughput(Throughput::Elements(u64::from(DURATION)));
+    let mut seed = 0;
+    for rotors in [1, 8, 32, 320] {
+        let largest = System::motor().disk().friction_acceleration();
+        let systems: Vec<System> = (0..rotors)
+            .map(|k| {
+                let load = 0.9 * largest * f64::from(k) / f64::from(rotors);
+                System::motor().with_disk(|rotor| rotor.load_acceleration = load).expect("legal")
+            })
+            .collect();
+        group.bench_function(format!("rotors_{rotors}"), |bencher| {
+            bencher.iter(|| {
+                seed += 1;
+                let settings = TransientSettings { seed, ..settings };
+                black_box(shared_transients(&systems, phase, &settings).expect("no failure"))
+            });
+        });
+    }
+    group.finish();
+}
+
+/// A torque-speed curve of 30 loads whose speeds have standard errors of 1 % of the speed without load.
+fn torque_speed_curve(c: &mut Criterion) {
+    let motor = Motor::paper_70_khz();
+    let loads: Vec<f64> = (0..30).map(|k| motor.largest_torque() * f64::from(k) / 31.0).collect();
+    let mut group = c.benchmark_group("torque_speed_curve");
+    group.sample_size(10);
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        let mut seed = 0;
+        group.bench_function(format!("threads_{threads}"), |bencher| {
+            bencher.iter(|| {
+                seed += 1;
+                let settings = OperatingSettings { seed, ..OperatingSettings::default() };
+                black_box(pool.install(|| motor.torque_speed_curve(&loads, &settings)).expect("no failure"))
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, w2, w2_shared, torque_speed_curve);
 criterion_main!(benches);

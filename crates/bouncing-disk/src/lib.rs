@@ -143,3 +143,8 @@ struct ReadmeExamples;
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/tutorial.md")]
 struct TutorialExamples;
+
+/// Compiles and runs the programs of the page on motors.
+#[cfg(all(doctest, feature = "storage"))]
+#[doc = include_str!("../../../docs/designing-a-motor.md")]
+struct MotorExamples;

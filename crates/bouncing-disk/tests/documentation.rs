@@ -168,12 +168,15 @@ fn examples() -> Vec<String> {
     files().iter().filter_map(name).collect()
 }
 
-/// The blocks of the tutorial in this language.
+/// The pages that show programs and what they print.
+const TUTORIALS: [&str; 2] = ["docs/tutorial.md", "docs/designing-a-motor.md"];
+
+/// The blocks of the tutorials in this language.
 fn blocks(language: &str) -> Vec<String> {
-    let tutorial = read("docs/tutorial.md");
     let fence = format!("```{language}\n");
     let body = |part: &str| part.split_once("```").map(|(body, _)| body.to_owned());
-    tutorial.split(&fence).skip(1).filter_map(body).collect()
+    let pages = TUTORIALS.map(read);
+    pages.iter().flat_map(|page| page.split(&fence).skip(1).filter_map(body)).collect()
 }
 
 #[test]
