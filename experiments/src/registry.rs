@@ -2,7 +2,7 @@
 
 use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
-    extra_torque_speed, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
+    extra_efficiency, extra_restitution_law, extra_torque_speed, extra_traps, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3,
 };
 use crate::measured::Layout;
@@ -37,7 +37,12 @@ const EXTRA: &str = "extra-";
 /// The figures beyond the paper, made only when they are asked for.
 pub fn extras() -> Vec<Box<dyn RegisteredExperiment>> {
     // One line per module of `figures`, whose name has underscores where the identifier has hyphens.
-    vec![entry::<extra_torque_speed::ExtraTorqueSpeed>()]
+    vec![
+        entry::<extra_torque_speed::ExtraTorqueSpeed>(),
+        entry::<extra_efficiency::ExtraEfficiency>(),
+        entry::<extra_restitution_law::ExtraRestitutionLaw>(),
+        entry::<extra_traps::ExtraTraps>(),
+    ]
 }
 
 /// All experiments: those of the paper, and behind them those beyond it.
