@@ -2,7 +2,7 @@
 
 use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
-    extra_efficiency, extra_restitution_law, extra_torque_speed, extra_traps, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
+    extra_design, extra_efficiency, extra_fit, extra_restitution_law, extra_torque_speed, extra_traps, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3,
 };
 use crate::measured::Layout;
@@ -42,6 +42,8 @@ pub fn extras() -> Vec<Box<dyn RegisteredExperiment>> {
         entry::<extra_efficiency::ExtraEfficiency>(),
         entry::<extra_restitution_law::ExtraRestitutionLaw>(),
         entry::<extra_traps::ExtraTraps>(),
+        entry::<extra_fit::ExtraFit>(),
+        entry::<extra_design::ExtraDesign>(),
     ]
 }
 

@@ -91,7 +91,7 @@ fn map(data: &ExtraEfficiencyData, area: Rect, levels: usize) -> Panel {
                 .size(7.0)
                 .width(1.4),
         )
-        .layer(Text::at_axes(0.5, 0.93, "driven back").anchor(Anchor::Centre).size(8.0))
+        .layer(Text::at_axes(0.5, 0.93, "driven back").anchor(Anchor::Centre).size(8.0).halo(Colour::PALE_GREY))
 }
 
 /// Lag over π and load at which the speed passes zero, on the straight line between two loads.

@@ -52,7 +52,7 @@ pub(super) fn compute(
     let viscoelastic = followed(&law, restitution, &sampling)?;
     progress.advance(1);
     let restitution_by_normalised_speed = (0..=120)
-        .map(|k| FASTEST * f64::from(k) / 120.0)
+        .map(|k| FASTEST * f64::from(k * k) / f64::from(120 * 120))
         .map(|normalised| (normalised, law.restitution(PI * normalised)))
         .collect();
     Ok(ExtraRestitutionLawData {

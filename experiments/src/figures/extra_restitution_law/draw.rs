@@ -35,12 +35,12 @@ fn diagram(
     name: &str,
 ) -> Panel {
     let (from, to) = data.axial_forcing_range;
-    let y = Axis::linear(0.0, 0.4).ticks(Ticks::every(0.1).minor(2));
+    let y = Axis::linear(-0.06, 0.3).ticks(Ticks::every(0.1).minor(2));
     let y = if letter == "a" { y.label(r"$\tau_{imp}/2\pi$") } else { y.without_numbers() };
     let dots: Vec<(f64, f64)> = followed
         .columns
         .iter()
-        .flat_map(|column| column.impact_phase_cycles.iter().map(|phase| (column.axial_forcing, *phase)))
+        .flat_map(|column| column.impact_phase_cycles.iter().map(|phase| (column.axial_forcing, shown(*phase))))
         .collect();
     let doubling = Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed);
     let mut panel = panel
@@ -49,12 +49,17 @@ fn diagram(
         .letter(letter)
         .layer(DensePoints::new(dots).colour(Colour::rgb(40, 40, 40)).radius(0.3))
         .layer(Rule::vertical(followed.first_doubling).stroke(doubling))
-        .layer(Text::at_axes(0.96, 0.06, name).anchor(Anchor::Right).size(8.5));
+        .layer(Text::at_axes(0.15, 0.915, name).anchor(Anchor::Left).size(8.5));
     if let Some(lost) = followed.lost_at {
         panel = panel
             .layer(Rule::vertical(lost).stroke(Stroke::new(Colour::VERMILION, 0.6).dashed(Dash::Dotted)));
     }
     panel
+}
+
+/// A phase in periods, from -1/2 on: the attractor passes zero.
+fn shown(phase: f64) -> f64 {
+    if phase > 0.5 { phase - 1.0 } else { phase }
 }
 
 fn laws(data: &ExtraRestitutionLawData, panel: Panel) -> Panel {

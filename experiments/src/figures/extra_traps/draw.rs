@@ -34,8 +34,8 @@ fn cells(map: &Map) -> Vec<u8> {
 pub(super) fn draw(data: &ExtraTrapsData) -> Figure {
     const HEIGHT: f64 = 235.0;
     let left = Rect::new(40.0, 12.0, 196.0, 188.0);
-    let right = Rect::new(278.0, 12.0, 166.0, 188.0);
-    let key = Rect::new(470.0, 40.0, 24.0, 8.0 * 10.0);
+    let right = Rect::new(276.0, 12.0, 166.0, 188.0);
+    let key = Rect::new(460.0, 40.0, 24.0, 80.0);
     let first = f64::from(data.whole_forcings.first().copied().unwrap_or(1));
     let rows = data.whole_forcings.len();
     let y = (first - 0.5, first + rows as f64 - 0.5);
