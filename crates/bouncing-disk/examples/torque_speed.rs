@@ -3,6 +3,8 @@
 //!     cargo run --release -p bouncing-disk --example torque_speed
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use std::f64::consts::FRAC_PI_6;
+
 use bouncing_disk::{Error, Motor, OperatingSettings, Operation};
 
 fn main() -> Result<(), Error> {
@@ -11,7 +13,7 @@ fn main() -> Result<(), Error> {
         sheet.drive_frequency = 40e3;
         sheet.amplitude = 0.5e-6;
         (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
-        sheet.phase_lag = 0.5236;
+        sheet.phase_lag = FRAC_PI_6;
         (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);
         (sheet.preload_force, sheet.preload_acceleration) = (Some(5.0), None);
         sheet.friction = 0.1;

@@ -72,6 +72,18 @@ pub enum Error {
         /// Load torque in units of m g a_e.
         load: f64,
     },
+    /// Low-period traps leave too few motors of a range for a straight line.
+    #[error(
+        "{traps} motors of the range are in low-period traps, which leaves {left}, and {needed} are needed"
+    )]
+    TooFewMotors {
+        /// Motors that are left.
+        left: usize,
+        /// Motors in traps.
+        traps: usize,
+        /// How many are needed.
+        needed: usize,
+    },
     /// A parameter that is needed, and has no default, is not there.
     #[error("{field} is not given")]
     NotGiven {
@@ -93,6 +105,18 @@ pub enum Error {
         one: &'static str,
         /// The name of the second.
         other: &'static str,
+    },
+    /// An axis of a sweep has no values.
+    #[error("the axis of {parameter} has no values; give at least one")]
+    EmptyAxis {
+        /// The parameter that was to be varied.
+        parameter: &'static str,
+    },
+    /// Two axes of a sweep vary the same parameter.
+    #[error("two axes vary {parameter}; leave one of them out")]
+    RepeatedAxis {
+        /// The parameter.
+        parameter: &'static str,
     },
     /// A curve gives no fit that could be trusted.
     #[error("the curve is not fitted: {reason}")]

@@ -23,13 +23,15 @@
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
+//! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
+//! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
 //! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
-//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`] |
-//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`; `StorageError` |
+//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
+//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`, `MotorSweep::run_with_journal`; `StorageError` |
 //! | vertical motion | [`mod@core`] |
 //!
 //! | feature | default | what it does |
@@ -39,7 +41,7 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
-//! | `csv` | no | measured speeds from comma-separated files |
+//! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
 //! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
@@ -79,6 +81,7 @@ pub use motor::braking_fit::{BrakingFit, BrakingRotor};
 pub use motor::data_sheet::Motor;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use motor::data_sheet::file::MotorFileError;
+pub use motor::data_sheet::motor_field::{MotorField, UnknownMotorField};
 pub use motor::data_sheet::parameters::MotorParameters;
 pub use motor::data_sheet::regime::MotorRegime;
 pub use motor::data_sheet::report::MotorReport;
@@ -94,15 +97,26 @@ pub use motor::interval_estimate::IntervalEstimate;
 pub use motor::measured_speeds::error::MeasuredSpeedsError;
 pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
+pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::stall_load::StallLoad;
+pub use motor::sensitivity::global::ParameterRange;
+pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
+pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};
+pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices, sobol_indices_observed};
 pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
 };
+pub use motor::sweep::MotorSweep;
+pub use motor::sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
+pub use motor::sweep::quantity::SweepQuantity;
+pub use motor::sweep::result::MotorSweepResult;
+pub use motor::sweep::run::MotorSweepRun;
 pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
 pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
 pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
@@ -118,6 +132,8 @@ pub use parameters::system::System;
 pub use storage::error::StorageError;
 #[cfg(feature = "storage")]
 pub use storage::journal::{JOURNAL, Journal};
+#[cfg(feature = "storage")]
+pub use storage::motor_sweep::MOTOR_SWEEP;
 #[cfg(feature = "storage")]
 pub use storage::provenance::{Format, Provenance};
 #[cfg(feature = "storage")]

@@ -1,4 +1,4 @@
-//! The motor: its data sheet, its steady operation under a load, speed transients and ensembles of them, fits with and
+//! The motor: its data sheet, its steady operation under a load and sweeps of it, speed transients and ensembles of them, fits with and
 //! without intervals, the balance of the impulse, stall, and braking.
 
 pub(crate) mod brake;
@@ -14,9 +14,11 @@ pub(crate) mod measured_speeds;
 pub(crate) mod operation;
 pub(crate) mod rotor;
 pub(crate) mod rotors;
+pub(crate) mod sensitivity;
 pub(crate) mod shared_orbit;
 pub(crate) mod stall;
 pub(crate) mod statistics;
+pub(crate) mod sweep;
 pub(crate) mod transient;
 pub(crate) mod transient_fit;
 pub(crate) mod transients;

@@ -35,8 +35,12 @@ pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
 /// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, and the same
 /// seconds.
 pub(crate) fn is_shared(one: &System, other: &System) -> bool {
-    let bits = |system: &System| of_vertical_motion(system).map(|(_, value)| value.to_bits());
-    bits(one) == bits(other)
+    vertical_key(one) == vertical_key(other)
+}
+
+/// What is the same for motors that share one vertical motion, and for these alone.
+pub(crate) fn vertical_key(system: &System) -> [u64; 4] {
+    of_vertical_motion(system).map(|(_, value)| value.to_bits())
 }
 
 fn of_vertical_motion(system: &System) -> [(&'static str, f64); 4] {

@@ -1,7 +1,8 @@
-//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short round of flights and
-//! rest, and hardly turns; the holes of Fig. 11, which a designer must avoid.
+//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short round of
+//! flights and rest, and hardly turns; the holes of Fig. 11, which a designer must avoid.
 //!
-//! Judged from the vertical motion alone, which is all that decides (docs/numerics/design.md, "Low-period traps").
+//! Judged from the vertical motion alone, which is all that decides (docs/numerics/design.md, "Low-period
+//! traps").
 
 mod excursion;
 pub(crate) mod nearest;
@@ -20,7 +21,8 @@ use crate::toss::chattering_cycle::ChatteringCycle;
 /// Perturbed relaunches of a rotor whose unperturbed round is short.
 const RELAUNCHES: u32 = 64;
 
-/// Impacts after which an excursion is given up: of the unperturbed one, which is short or none, and of a perturbed one.
+/// Impacts after which an excursion is given up: of the unperturbed one, which is short or none, and of a
+/// perturbed one.
 const MOST_IMPACTS: u64 = 400;
 const MOST_PERTURBED_IMPACTS: u64 = 4_000;
 
@@ -41,18 +43,18 @@ pub struct TrapVerdict {
     pub axial_forcing: f64,
     /// Its fractional part, in [0, 1): traps of a single flight are where it is about one half.
     pub forcing_fraction: f64,
-    /// From one separation to the next without perturbation, if that takes at most eight long flights; `None` if it
-    /// takes more, or the rotor is never thrown or never rests.
+    /// From one separation to the next without perturbation, if that takes at most eight long flights; `None`
+    /// if it takes more, or the rotor is never thrown or never rests.
     pub cycle: Option<ChatteringCycle>,
     /// Perturbed relaunches that were tried: 64, or none without a cycle.
     pub relaunches: u32,
     /// How many of them led through as many long flights and periods as the cycle has.
     pub returns: u32,
-    /// Mean number of the stator's periods from one perturbed relaunch to the next; at least that many where one of
-    /// them had not come to rest within 4000 impacts. `None` without a cycle.
+    /// Mean number of the stator's periods from one perturbed relaunch to the next; at least that many where
+    /// one of them had not come to rest within 4000 impacts. `None` without a cycle.
     pub mean_platform_periods: Option<f64>,
-    /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of that of the cycle, the rule of
-    /// [`MotorRegime::LowPeriodChattering`](crate::MotorRegime::LowPeriodChattering).
+    /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of that of the cycle, the rule
+    /// of [`MotorRegime::LowPeriodChattering`](crate::MotorRegime::LowPeriodChattering).
     pub is_trap: bool,
 }
 
@@ -100,20 +102,21 @@ impl TrapVerdict {
     }
 }
 
-/// The unperturbed round, if it is short. Every rest ends with the same separation, so that one excursion is the round.
+/// The unperturbed round, if it is short. Every rest ends with the same separation, so that one excursion is
+/// the round.
 fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<ChatteringCycle>, Error> {
     let excursion = Excursion::of(map, 0.0, (MOST_IMPACTS, LOCKED_FLIGHTS), work)?;
     Ok(excursion.and_then(|excursion| excursion.cycle))
 }
 
-/// Which of these preloads, as accelerations (m/s^2), trap a motor, in their order. Other alternatives of the data
-/// sheet are replaced by the acceleration.
+/// Which of these preloads, as accelerations (m/s^2), trap a motor, in their order. Other alternatives of the
+/// data sheet are replaced by the acceleration.
 ///
 /// ```
 /// use bouncing_disk::{Motor, low_period_traps};
 ///
 /// let motor = Motor::paper_70_khz();
-/// // Gamma is 12.5 in the middle of these: a flight of twelve and a half periods ends where the stator recedes.
+/// // Gamma is 12.51 in the middle of these: a flight of twelve and a half periods lands softly.
 /// let soft = motor.system().platform().peak_acceleration() / (12.51 * std::f64::consts::PI);
 /// let verdicts = low_period_traps(&motor, &[0.97 * soft, soft, 1.03 * soft])?;
 /// let trapped: Vec<bool> = verdicts.iter().map(|verdict| verdict.is_trap).collect();
@@ -130,8 +133,8 @@ pub fn low_period_traps(motor: &Motor, preloads: &[f64]) -> Result<Vec<TrapVerdi
 /// [`low_period_traps`] with an observer; the items are the preloads.
 ///
 /// # Errors
-/// Those of [`low_period_traps`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
+/// Those of [`low_period_traps`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+/// the observer breaks.
 pub fn low_period_traps_observed(
     motor: &Motor,
     preloads: &[f64],

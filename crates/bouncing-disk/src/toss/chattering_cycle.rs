@@ -32,7 +32,9 @@ impl ChatteringCycle {
 
 impl fmt::Display for ChatteringCycle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { impacts, platform_periods, long_flights } = self;
-        write!(f, "{long_flights} long flights, {impacts} impacts, {platform_periods} periods")
+        let Self { impacts, platform_periods, long_flights } = *self;
+        let of = |count: u64, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+        let (flights, impacts) = (of(long_flights as u64, "long flight"), of(impacts as u64, "impact"));
+        write!(f, "{flights}, {impacts}, {}", of(platform_periods, "period"))
     }
 }

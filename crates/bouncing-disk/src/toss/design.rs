@@ -1,4 +1,5 @@
-//! The best hand motion of a toss (Sec. III) under constraints, and how much of it is left where its inputs are off.
+//! The best hand motion of a toss (Sec. III) under constraints, and how much of it is left where its inputs
+//! are off.
 //!
 //! The search (`search.rs`) is deterministic; what it rests on, and how its result is certified, stands in
 //! docs/numerics/design.md.
@@ -15,7 +16,7 @@ use bouncing_disk_core::{Observer, Unobserved, Watch};
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::stroke::Stroke;
-use crate::toss::design::hand::{Evaluation, Hand};
+use crate::toss::design::hand::Evaluation;
 use crate::toss::design::robustness::{TossHalfUnits, TossRobustness, robustness};
 use crate::toss::design::search::search;
 use crate::toss::single::{InitialSpin, TossPerformance};
@@ -63,11 +64,11 @@ pub struct TossConstraints {
     pub friction: [f64; 2],
     /// Least and most angular frequency omega (rad/s), positive.
     pub angular_frequency: [f64; 2],
-    /// Least and most phase lag theta (rad), at most 2 pi apart. A lag that is larger by pi turns the dough as
-    /// fast the other way, so that half a circle holds all that can be had.
+    /// Least and most phase lag theta (rad), at most 2 pi apart. A lag that is larger by pi turns the dough
+    /// as fast the other way, so that half a circle holds all that can be had.
     pub phase_lag: [f64; 2],
-    /// The highest that the dough may fly above the place where it leaves the hand (m), positive; `None` for no
-    /// limit.
+    /// The highest that the dough may fly above the place where it leaves the hand (m), positive; `None` for
+    /// no limit.
     pub highest_flight: Option<f64>,
     /// What the toss is to be best at.
     pub objective: TossObjective,
@@ -76,8 +77,8 @@ pub struct TossConstraints {
 }
 
 impl TossConstraints {
-    /// Table I: its dough, its stroke, its friction and its frequency, each as the one value that is printed, all
-    /// phase lags, any height, and the largest airborne speed.
+    /// Table I: its dough, its stroke, its friction and its frequency, each as the one value that is printed,
+    /// all phase lags, any height, and the largest airborne speed.
     #[must_use]
     pub fn pizza_toss() -> Self {
         let system = crate::System::pizza_toss();
@@ -151,9 +152,9 @@ pub struct TossCertificate {
     pub grid_points: usize,
     /// The best of them: the refined optimum is not below it.
     pub best_on_grid: f64,
-    /// What the objective could be above the optimum at most, farther from it than the next points of the grid, if
-    /// between two points it changes nowhere faster than it does from one to the other, or from either to the next one
-    /// beyond: zero if the optimum is sure under this premise.
+    /// What the objective could be above the optimum at most, farther from it than the next points of the
+    /// grid, if between two points it changes nowhere faster than it does from one to the other, or from
+    /// either to the next one beyond: zero if the optimum is sure under this premise.
     pub hidden_gain: f64,
 }
 
@@ -181,18 +182,19 @@ pub struct TossDesign {
 }
 
 impl TossDesign {
-    /// How much of the objective is left where hand and dough are not quite those of the design: over everything
-    /// that rounds to the same digits, and over the range of friction.
+    /// How much of the objective is left where hand and dough are not quite those of the design: over
+    /// everything that rounds to the same digits, and over the range of friction.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of its
-    /// input; those of [`best_toss`].
+    /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of
+    /// its input; those of [`best_toss`].
     pub fn robustness(&self, half_units: &TossHalfUnits) -> Result<TossRobustness, Error> {
         robustness(self, half_units)
     }
 }
 
-/// The hand motion that is best under these constraints: its frequency, its amplitude angle and its phase lag.
+/// The hand motion that is best under these constraints: its frequency, its amplitude angle and its phase
+/// lag.
 ///
 /// ```
 /// use bouncing_disk::{TossConstraints, best_toss};
@@ -210,8 +212,8 @@ impl TossDesign {
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none of the
-/// frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::single_toss).
+/// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none
+/// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::single_toss).
 pub fn best_toss(constraints: &TossConstraints) -> Result<TossDesign, Error> {
     best_toss_observed(constraints, &Unobserved)
 }
@@ -219,8 +221,8 @@ pub fn best_toss(constraints: &TossConstraints) -> Result<TossDesign, Error> {
 /// [`best_toss`] with an observer; the items are steps of the search.
 ///
 /// # Errors
-/// Those of [`best_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-/// breaks.
+/// Those of [`best_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+/// observer breaks.
 pub fn best_toss_observed(
     constraints: &TossConstraints,
     observer: &dyn Observer,

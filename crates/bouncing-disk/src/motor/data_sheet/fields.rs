@@ -26,13 +26,11 @@ pub(super) struct Field {
     /// Other units in which the number may have been meant.
     pub(super) readings: &'static [Reading],
     pub(super) get: fn(&MotorParameters) -> Option<f64>,
-    #[cfg(any(feature = "json", feature = "toml"))]
     pub(super) set: fn(&mut MotorParameters, f64),
     /// Whether a file must have it.
     #[cfg(any(feature = "json", feature = "toml"))]
     pub(super) needed: bool,
     /// The paper's symbol, and other names under which it may be looked for.
-    #[cfg(any(feature = "json", feature = "toml"))]
     pub(super) also: &'static [&'static str],
 }
 
@@ -56,11 +54,9 @@ macro_rules! field {
             usual: $usual,
             readings: $readings,
             get: field!(@get $kind $name),
-            #[cfg(any(feature = "json", feature = "toml"))]
             set: field!(@set $kind $name),
             #[cfg(any(feature = "json", feature = "toml"))]
             needed: field!(@needed $kind),
-            #[cfg(any(feature = "json", feature = "toml"))]
             also: $also,
         }
     };

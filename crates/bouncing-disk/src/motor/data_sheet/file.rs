@@ -5,7 +5,6 @@
 
 #[cfg(feature = "json")]
 mod json;
-mod nearest;
 #[cfg(feature = "toml")]
 mod toml;
 
@@ -14,12 +13,8 @@ use std::fmt::{self, Display, Formatter};
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::fields::FIELDS;
+use crate::motor::data_sheet::nearest::{excerpt, nearest};
 use crate::motor::data_sheet::parameters::MotorParameters;
-
-use nearest::nearest;
-
-/// Most characters of a text of others that an error repeats.
-const LONGEST_EXCERPT: usize = 60;
 
 /// What can go wrong with the text of a data sheet. Every variant says where; keys are shown as they are
 /// escaped in Rust, so that none can disturb a terminal.
@@ -189,14 +184,6 @@ fn named(error: &Error) -> Option<&'static str> {
         }
         _ => None,
     }
-}
-
-/// The beginning of a text of others.
-fn excerpt(text: &str) -> String {
-    if text.chars().nth(LONGEST_EXCERPT).is_none() {
-        return text.to_owned();
-    }
-    text.chars().take(LONGEST_EXCERPT).chain("...".chars()).collect()
 }
 
 /// The text without a byte-order mark, which some editors put before it.

@@ -9,7 +9,6 @@ use super::point::{Estimate, OperatingPoint, Operation, Shortfall};
 use super::settings::OperatingSettings;
 use super::settling::{left_out, shortfall};
 use crate::error::{Error, positive, within_limit};
-use crate::motor::ensemble::MAX_MEMBERS;
 use crate::motor::shared_orbit::shared_by;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
@@ -21,6 +20,9 @@ const WINDOWS_OF_RISE: f64 = 2.0;
 
 /// With more windows, two and two become one.
 const MOST_WINDOWS: usize = 128;
+
+/// Most rotors of all members of one ensemble together: with their windows half a gigabyte.
+pub const MAX_OPERATED_ROTORS: usize = 1 << 17;
 
 /// Least impacts of a window, and least periods of the platform.
 const LEAST_IMPACTS: u64 = 50;
@@ -101,14 +103,15 @@ pub(crate) struct Operations {
 }
 
 /// The steady operation of motors that share one vertical motion; with them, at no cost worth naming, the first motor
-/// without load runs along, whose speed the errors are relative to.
+/// without load runs along. The errors are relative to the largest speed of those without load.
 pub(crate) fn operate(
     motors: &[LoadedMotor],
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<Operations, Error> {
     settings.check()?;
-    within_limit("rotors on one vertical motion", motors.len(), MAX_MEMBERS)?;
+    let rotors = motors.len().saturating_mul(settings.members);
+    within_limit("rotors of all members", rotors, MAX_OPERATED_ROTORS)?;
     let systems: Vec<System> = motors.iter().map(|motor| motor.system).collect();
     let first = *shared_by(&systems)?;
     for motor in motors {
@@ -267,17 +270,19 @@ impl Run {
     }
 
     fn judge(&mut self, settings: &OperatingSettings) {
-        let no_load = self.motors.len() - 1;
-        let system = &self.motors[no_load].system;
-        let total = |windows: &Vec<Vec<f64>>| windows.iter().flatten().sum::<f64>();
-        let speeds = self.speeds(no_load);
-        let count = (speeds.len() * speeds[0].len()) as f64;
-        // A motor without twist has no speed but that at which a load makes it creep.
-        let creep = system.dimensionless().friction() * system.scales().angular_speed;
-        let scale = 0.01 * system.platform().peak_angular_speed().max(creep);
-        self.wanted = settings.relative_error * (total(&speeds) / count).abs().max(scale);
-        self.shortfalls =
-            (0..self.motors.len()).map(|rotor| shortfall(&self.speeds(rotor), self.wanted)).collect();
+        let speeds: Vec<Vec<Vec<f64>>> = (0..self.motors.len()).map(|rotor| self.speeds(rotor)).collect();
+        let mean = |windows: &[Vec<f64>]| {
+            let count = windows.len() * windows[0].len();
+            windows.iter().flatten().sum::<f64>() / count as f64
+        };
+        let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.load() == 0.0);
+        let scale = unloaded.map(|(motor, speeds)| {
+            // A motor without twist has no speed but that at which a load makes it creep.
+            let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
+            mean(speeds).abs().max(0.01 * motor.system.platform().peak_angular_speed().max(creep))
+        });
+        self.wanted = settings.relative_error * scale.fold(0.0, f64::max);
+        self.shortfalls = speeds.iter().map(|speeds| shortfall(speeds, self.wanted)).collect();
     }
 
     fn results(&self) -> Result<Vec<(Operation, Vec<f64>)>, Error> {

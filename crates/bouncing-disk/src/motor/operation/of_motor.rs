@@ -3,7 +3,7 @@
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
 use super::best_phase_lag::{BestPhaseLag, best_phase_lag};
-use super::ensemble::{LoadedMotor, operate};
+use super::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operate};
 use super::point::{Estimate, Operation};
 use super::settings::OperatingSettings;
 use super::stall_load::{StallLoad, stall_load};
@@ -12,7 +12,7 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::shared_orbit::is_shared;
 
 impl LoadedMotor {
-    fn of(motor: &Motor) -> Self {
+    pub(crate) fn of(motor: &Motor) -> Self {
         Self { system: *motor.system(), mass: motor.mass(), load_torque: motor.load_torque() }
     }
 }
@@ -28,8 +28,8 @@ impl Motor {
     /// let operation = motor.operating_point(half, &OperatingSettings::default())?;
     /// let point = operation.steady().expect("known to 1 %");
     /// let (speed, efficiency) = (point.speed, point.efficiency.expect("it works"));
-    /// assert!((speed.value - 8.0).abs() < 0.5 && speed.standard_error < 0.2);
-    /// assert!((efficiency.value - 0.11).abs() < 0.01);
+    /// assert!((speed.value - 8.6).abs() < 0.3 && speed.standard_error < 0.2);
+    /// assert!((efficiency.value - 0.115).abs() < 0.01);
     /// // A load that friction cannot hold has no operating point.
     /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default())?;
     /// assert!(matches!(overload, Operation::Runaway { .. }));
@@ -37,7 +37,8 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; the errors of the flights. A motor that is
+    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; an error of the core for more than
+    /// [`MAX_OPERATED_ROTORS`] rotors of all members together; the errors of the flights. A motor that is
     /// not known well enough when all impacts are spent is no error but [`Operation::Unsettled`].
     pub fn operating_point(
         &self,
@@ -179,7 +180,9 @@ pub fn operations_observed(
 ) -> Result<Vec<Operation>, Error> {
     check(!motors.is_empty(), "number of motors", 0.0, "[1, 1000000]")?;
     let (total, mut all) = (motors.len() as u64, Vec::with_capacity(motors.len()));
-    for group in motors.chunk_by(|one, other| is_shared(one.system(), other.system())) {
+    let most = (MAX_OPERATED_ROTORS / settings.members.max(1)).max(1);
+    let groups = motors.chunk_by(|one, other| is_shared(one.system(), other.system()));
+    for group in groups.flat_map(|group| group.chunks(most)) {
         let done = all.len() as u64;
         let loaded: Vec<LoadedMotor> = group.iter().map(LoadedMotor::of).collect();
         all.extend(

@@ -93,7 +93,7 @@ fn speed_of(operation: &Operation) -> Estimate {
 }
 
 /// Where the least-squares line through the speeds at the shares from one index to another vanishes.
-fn crossing(shares: &[f64], speed: impl Fn(usize) -> f64, (from, to): (usize, usize)) -> f64 {
+pub(crate) fn crossing(shares: &[f64], speed: impl Fn(usize) -> f64, (from, to): (usize, usize)) -> f64 {
     let count = (to - from + 1) as f64;
     let (mut x, mut y) = (0.0, 0.0);
     for (k, share) in shares.iter().enumerate().take(to + 1).skip(from) {

@@ -20,8 +20,8 @@ pub(super) struct Excursion {
 }
 
 impl Excursion {
-    /// Of a rotor that leaves with this relative speed, given up after so many impacts or more long flights; `None` if
-    /// the platform never falls away.
+    /// Of a rotor that leaves with this relative speed, given up after so many impacts or more long flights;
+    /// `None` if the platform never falls away.
     pub(super) fn of(
         map: &ImpactMap,
         speed: f64,

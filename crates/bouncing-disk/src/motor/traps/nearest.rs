@@ -9,25 +9,27 @@ use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
 use crate::motor::traps::TrapVerdict;
 
-/// Step of the scan in the axial forcing parameter Gamma. Traps of a single flight are about a twentieth wide.
+/// Step of the scan in the axial forcing parameter Gamma. Traps of a single flight are about a twentieth
+/// wide.
 const STEP: f64 = 1.0 / 2048.0;
 
-/// Most steps on either side. A motor with so large a Gamma that they do not suffice is scanned in wider ones.
-const MOST_STEPS: f64 = 200_000.0;
+/// Most steps on either side. A motor with so large a Gamma that they do not suffice is scanned in wider
+/// ones.
+const MOST_STEPS: f64 = 100_000.0;
 
 /// Halvings of a step that find the edge of a trap: to 1e-9 of Gamma's unit.
 const HALVINGS: u32 = 20;
 
 /// The low-period trap that is nearest to a motor.
 ///
-/// Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of amplitude or of
-/// frequency: the near edge is given for each of them, the others kept.
+/// Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of
+/// amplitude or of frequency: the near edge is given for each of them, the others kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct NearestTrap {
-    /// Distance of the near edge: the relative change of amplitude or preload that reaches it, the smaller of the two
-    /// in size; zero for a motor in the trap.
+    /// Distance of the near edge: the relative change of amplitude or preload that reaches it, the smaller of
+    /// the two in size; zero for a motor in the trap.
     pub relative_distance: f64,
     /// Preload (m/s^2) of the near edge; that of the motor, if it is in the trap.
     pub preload_acceleration: f64,
@@ -44,8 +46,8 @@ pub struct NearestTrap {
 }
 
 impl Motor {
-    /// The low-period trap that is nearest to the motor, if there is one within a relative change of its preload or
-    /// amplitude of `relative_range`, in (0, 1].
+    /// The low-period trap that is nearest to the motor, if there is one within a relative change of its
+    /// preload or amplitude of `relative_range`, in (0, 1].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for another range; the errors of the flights.
@@ -56,8 +58,8 @@ impl Motor {
     /// [`Self::nearest_trap`] with an observer; the items are the steps to either side.
     ///
     /// # Errors
-    /// Those of [`Self::nearest_trap`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
+    /// Those of [`Self::nearest_trap`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
     pub fn nearest_trap_observed(
         &self,
         relative_range: f64,

@@ -1,5 +1,7 @@
 use super::*;
 use crate::MotorRegime;
+#[cfg(feature = "serde")]
+use crate::NearestTrap;
 
 fn at_forcing(motor: &Motor, forcing: f64) -> Motor {
     let preload = motor.system().platform().peak_acceleration() / (PI * forcing);
@@ -49,6 +51,18 @@ fn traps_of_a_single_flight_are_at_half_a_forcing() {
             let single = verdict.cycle.is_some_and(|cycle| cycle.long_flights == 1);
             assert!(!(verdict.is_trap && single), "{verdict:?}");
         }
+    }
+}
+
+/// The window begins just below the soft landing of docs/numerics/design.md, and is a twentieth wide.
+#[test]
+fn windows_of_a_single_flight_begin_at_the_soft_landing() {
+    for whole in [3.0, 6.0, 12.0, 100.0] {
+        let motor = at_forcing(&Motor::paper_70_khz(), whole + 0.51);
+        let [from, to] = motor.nearest_trap(0.01).expect("no failure").expect("one").forcing_from_to;
+        let soft = whole + 0.5 - 0.5 / (PI * PI * (whole + 0.5));
+        assert!((0.004..0.007).contains(&(soft - from)), "{whole}: {from}");
+        assert!((0.05..0.06).contains(&(to - soft)) || whole < 4.0, "{whole}: {to}");
     }
 }
 
@@ -137,4 +151,18 @@ fn a_motor_far_from_every_trap_has_none() {
     }
     let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
     assert!(motor.nearest_trap_observed(0.1, &stop).is_err());
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn what_is_stored_comes_back() {
+    let motor = at_forcing(&Motor::paper_70_khz(), 12.45);
+    let trap = motor.nearest_trap(0.1).expect("no failure").expect("one");
+    let text = serde_json::to_string(&trap).expect("writes");
+    assert_eq!(serde_json::from_str::<NearestTrap>(&text).expect("legal"), trap);
+    let unknown = text.replacen("is_trap", "is_hole", 1);
+    assert!(serde_json::from_str::<NearestTrap>(&unknown).is_err());
+    let none = motor.trap_verdict().expect("no failure");
+    let text = serde_json::to_string(&none).expect("writes");
+    assert_eq!(serde_json::from_str::<TrapVerdict>(&text).expect("legal"), none);
 }

@@ -8,8 +8,8 @@ use crate::parameters::system::System;
 use crate::toss::design::{OverFriction, TossConstraints, TossObjective, turns};
 use crate::toss::single::{InitialSpin, TossPerformance, single_toss};
 
-/// Coefficients of friction at which the objective is evaluated over a range: odd, so that the middle is one of
-/// them.
+/// Coefficients of friction at which the objective is evaluated over a range: odd, so that the middle is one
+/// of them.
 const FRICTIONS: usize = 5;
 
 /// What a hand can choose.
@@ -57,8 +57,9 @@ pub(super) fn of_toss(objective: TossObjective, toss: &TossPerformance, forwards
     }
 }
 
-/// The objective over a range of friction; a dough that never leaves has none of it. Forwards is what the dough
-/// turns at the middle of the range: a friction that turns it the other way counts against the hand motion.
+/// The objective over a range of friction; a dough that never leaves has none of it. Forwards is what the
+/// dough turns at the middle of the range: a friction that turns it the other way counts against the hand
+/// motion.
 pub(super) fn over_frictions(
     constraints: &TossConstraints,
     hand: Stroke,

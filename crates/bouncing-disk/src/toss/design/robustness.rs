@@ -51,8 +51,9 @@ const ALL: [TossInput; INPUTS] = [
     TossInput::PreloadAcceleration,
 ];
 
-/// Half a unit in the last digit to which each input is known or kept, not negative: 0.005 m for a stroke of 0.25 m.
-/// The default is none: all inputs are exact. Friction has its range in [`TossConstraints::friction`].
+/// Half a unit in the last digit to which each input is known or kept, not negative: 0.005 m for a stroke of
+/// 0.25 m. The default is none: all inputs are exact. Friction has its range in
+/// [`TossConstraints::friction`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -109,13 +110,13 @@ pub struct Robustness {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossRobustness {
-    /// Over everything that rounds to the same digits; the objective is taken over the range of friction, as in the
-    /// design. A dough that never leaves has none of it.
+    /// Over everything that rounds to the same digits; the objective is taken over the range of friction, as
+    /// in the design. A dough that never leaves has none of it.
     pub digits: Robustness,
     /// Over the range of friction, the other inputs as given; nominal is its middle.
     pub friction: Robustness,
-    /// The highest flight (m) over everything that rounds to the same digits: the limit of the design holds for the
-    /// inputs as given.
+    /// The highest flight (m) over everything that rounds to the same digits: the limit of the design holds
+    /// for the inputs as given.
     pub highest_flight: f64,
 }
 
@@ -199,8 +200,8 @@ impl<'a> Inputs<'a> {
         (0..INPUTS).filter(|&index| self.half_units[index] > 0.0).collect()
     }
 
-    /// The largest value of a function of the shifts: at the corners, faces and centre of the box first, from the best
-    /// of these by golden sections along one input after the other.
+    /// The largest value of a function of the shifts: at the corners, faces and centre of the box first, from
+    /// the best of these by golden sections along one input after the other.
     fn largest(&self, of: &dyn Fn(&[f64; INPUTS]) -> Result<f64, Error>) -> Result<f64, Error> {
         let doubtful = self.doubtful();
         let (mut best, mut at) = (of(&[0.0; INPUTS])?, [0.0; INPUTS]);

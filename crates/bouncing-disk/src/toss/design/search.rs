@@ -1,5 +1,5 @@
-//! The search: a grid over frequency, lag and amplitude angle, then golden sections inside of each other around its
-//! best points (docs/numerics/design.md, "The search").
+//! The search: a grid over frequency, lag and amplitude angle, then golden sections inside of each other
+//! around its best points (docs/numerics/design.md, "The search").
 
 use bouncing_disk_core::{Watch, WorkCount};
 
@@ -7,8 +7,9 @@ use crate::error::Error;
 use crate::toss::design::hand::{Hand, value_of};
 use crate::toss::design::{TossCertificate, TossConstraints};
 
-/// Points of the grid along frequency, lag and amplitude angle.
+/// Points of the grid along frequency, lag and amplitude angle; and where the frequency is given.
 const GRID: [usize; 3] = [9, 25, 33];
+const FINE_GRID: [usize; 3] = [1, 97, 129];
 
 /// How many peaks of the grid are refined.
 const PEAKS: usize = 4;
@@ -18,6 +19,10 @@ const BRACKETS: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
 
 /// Golden sections along each axis in one refinement: to 4.5e-4 of the bracket.
 const SECTIONS: usize = 16;
+
+/// Boxes that follow each other along a ridge at most, and the relative gain below which its top is reached.
+const MOST_BOXES: usize = 40;
+const CLIMBED: f64 = 1e-10;
 
 /// Stages that an observer hears of: the grid, and each refinement.
 pub(super) const STAGES: u64 = 1 + (PEAKS + BRACKETS.len() - 1) as u64;
@@ -69,7 +74,8 @@ impl Objective<'_, '_> {
         value_of(self.constraints, hand.stroke(self.constraints), self.constraints.dough)
     }
 
-    /// The best place in a box, from `axis` on: golden sections along this axis over the best along the next ones.
+    /// The best place in a box, from `axis` on: golden sections along this axis over the best along the next
+    /// ones.
     fn best_in(&mut self, bounds: &[[f64; 2]; 3], at: [f64; 3], axis: usize) -> Result<Place, Error> {
         if axis == 3 {
             return Ok(Place { at, value: self.value(at)? });
@@ -173,8 +179,9 @@ impl Grid {
         peaks
     }
 
-    /// What could be hidden above `best` between points that are not next to it, if between two points the objective
-    /// changes nowhere faster than it does from one to the other, or from either to the next one beyond.
+    /// What could be hidden above `best` between points that are not next to it, if between two points the
+    /// objective changes nowhere faster than it does from one to the other, or from either to the next one
+    /// beyond.
     fn hidden_gain(&self, best: &Place) -> f64 {
         let mut gain = 0.0_f64;
         for (index, value) in self.values.iter().enumerate() {
@@ -205,6 +212,24 @@ impl Grid {
     }
 }
 
+/// The best place in the box about a place, then in the box about that, and so on: along a ridge that leaves
+/// the box.
+fn climb(
+    objective: &mut Objective<'_, '_>,
+    mut best: Place,
+    around: impl Fn([f64; 3]) -> [[f64; 2]; 3],
+) -> Result<Place, Error> {
+    for _ in 0..MOST_BOXES {
+        let next = better(best, objective.best_in(&around(best.at), best.at, 0)?);
+        let gained = next.value - best.value;
+        best = next;
+        if gained <= CLIMBED * best.value.abs() {
+            break;
+        }
+    }
+    Ok(best)
+}
+
 /// The best hand motion of constraints that are legal.
 pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result<Found, Error> {
     let [least, most] = constraints.angular_frequency;
@@ -212,7 +237,8 @@ pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result
     let frequencies = [least.max(lift_off).min(most), most];
     let mut objective = Objective { constraints, frequencies, work: watch.work() };
     let ranges = [frequencies, constraints.phase_lag, [0.0, 1.0]];
-    let shape = std::array::from_fn(|axis| if ranges[axis][0] < ranges[axis][1] { GRID[axis] } else { 1 });
+    let points = if frequencies[0] < frequencies[1] { GRID } else { FINE_GRID };
+    let shape = std::array::from_fn(|axis| if ranges[axis][0] < ranges[axis][1] { points[axis] } else { 1 });
     let grid = Grid::new(&mut objective, shape)?;
     watch.finish(1);
 
@@ -228,13 +254,11 @@ pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result
     let mut best = Place { at: middle, value: objective.value(middle)? };
     for peak in grid.peaks() {
         let own = Place { at: grid.place(grid.indices(peak)), value: grid.values[peak] };
-        let refined = objective.best_in(&around(own.at, BRACKETS[0]), own.at, 0)?;
-        best = better(better(best, own), refined);
+        best = better(best, climb(&mut objective, own, |at| around(at, BRACKETS[0]))?);
         watch.finish(1);
     }
     for width in &BRACKETS[1..] {
-        let refined = objective.best_in(&around(best.at, *width), best.at, 0)?;
-        best = better(best, refined);
+        best = climb(&mut objective, best, |at| around(at, *width))?;
         watch.finish(1);
     }
     let peak_acceleration = constraints.stroke * most * most / constraints.dough.preload_acceleration;
@@ -246,4 +270,36 @@ pub(super) fn search(constraints: &TossConstraints, watch: &Watch<'_>) -> Result
             hidden_gain: grid.hidden_gain(&best),
         },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(values: &[f64]) -> Grid {
+        Grid { shape: [1, 1, values.len()], values: values.to_vec() }
+    }
+
+    #[test]
+    fn a_plateau_beside_a_cliff_may_hide_a_peak() {
+        let best = |share: f64| Place { at: [0.0, 0.0, share], value: 1.0 };
+        // Between two points at 0.9, each a step of 0.9 above the next one, there may be a peak of 0.9 +
+        // 0.45.
+        let gain = row(&[0.0, 1.0, 0.0, 0.0, 0.9, 0.9, 0.0, 0.0, 0.0]).hidden_gain(&best(0.125));
+        assert!((gain - 0.35).abs() < 1e-15, "{gain}");
+        // A ramp hides nothing, nor does what lies far below; what is next to the optimum has been searched.
+        for values in [[0.0, 0.2, 0.4, 0.6, 0.8, 1.0], [0.0, 0.1, 0.0, 0.1, 0.0, 1.0]] {
+            assert!(row(&values).hidden_gain(&best(1.0)).abs() <= 0.0, "{values:?}");
+        }
+        assert!(row(&[1.0]).hidden_gain(&best(0.0)).abs() <= 0.0);
+    }
+
+    #[test]
+    fn peaks_are_what_no_neighbour_exceeds_best_first() {
+        assert_eq!(row(&[0.5, 0.1, 0.9, 0.9, 0.2, 0.7]).peaks(), [2, 3, 5, 0]);
+        assert_eq!(row(&[3.0]).peaks(), [0]);
+        let square = Grid { shape: [2, 1, 2], values: vec![1.0, 3.0, 4.0, 2.0] };
+        assert_eq!(square.peaks(), [2, 1]);
+        assert_eq!((square.indices(3), square.place([1, 0, 1])), ([1, 0, 1], [1.0, 0.0, 1.0]));
+    }
 }

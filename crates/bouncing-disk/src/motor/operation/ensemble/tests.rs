@@ -258,6 +258,9 @@ fn illegal_settings_are_named() {
     }
     let error = operate(&[], &usual, &Unobserved).expect_err("none");
     assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    let many = vec![motors[0]; MAX_OPERATED_ROTORS / 16 + 1];
+    let error = operate(&many, &usual, &Unobserved).expect_err("too many");
+    assert!(matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { .. })), "{error}");
     let massless = LoadedMotor { mass: 0.0, ..motors[0] };
     let error = operate(&[massless], &usual, &Unobserved).expect_err("illegal");
     assert!(matches!(error, Error::OutOfRange { field: "mass", .. }), "{error}");

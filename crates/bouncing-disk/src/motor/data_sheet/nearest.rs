@@ -1,4 +1,4 @@
-//! The known key that a misspelt one was probably meant to be.
+//! The known field that a misspelt one was probably meant to be.
 
 use crate::motor::data_sheet::fields::FIELDS;
 
@@ -7,6 +7,17 @@ const LONGEST_KEY: usize = 64;
 
 /// Shortest part of a name that may stand for it: "load" for "load_torque".
 const SHORTEST_PART: usize = 4;
+
+/// Most characters of a text of others that an error repeats.
+const LONGEST_EXCERPT: usize = 60;
+
+/// The beginning of a text of others.
+pub(super) fn excerpt(text: &str) -> String {
+    if text.chars().nth(LONGEST_EXCERPT).is_none() {
+        return text.to_owned();
+    }
+    text.chars().take(LONGEST_EXCERPT).chain("...".chars()).collect()
+}
 
 /// The known key that is most like this one: that of the symbol or the other name that it is; that with the
 /// fewest changes of a letter, if they are less than half of its letters; that which it is a part of, or

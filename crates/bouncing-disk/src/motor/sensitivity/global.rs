@@ -1,0 +1,149 @@
+//! Global sensitivities of a motor: Sobol' indices and elementary effects over ranges of its parameters.
+
+use bouncing_disk_core::{Observer, Progress, Unobserved};
+
+use super::local::quantity_of;
+use super::morris::{ElementaryEffects, elementary_effects_observed};
+use super::parameter::{SensitivityParameter, SensitivityQuantity};
+use super::sobol::{SamplingSettings, SobolIndices, sobol_indices_observed};
+use crate::error::Error;
+use crate::motor::data_sheet::Motor;
+use crate::motor::operation::ensemble::{LoadedMotor, operate};
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::shared_orbit::is_shared;
+
+/// A parameter and the range over which it is spread.
+pub type ParameterRange = (SensitivityParameter, [f64; 2]);
+
+impl Motor {
+    /// Which share of the variance of the steady speed or the stall torque each of these parameters has, if
+    /// all of them are spread evenly over their ranges; in their order.
+    ///
+    /// A point of the sample is one ensemble, with the seed of the settings: what is left of its scatter, and
+    /// what low-period traps do, counts with the parameters of the vertical motion, as an effect of them
+    /// together with others.
+    ///
+    /// # Errors
+    /// Those of [`sobol_indices`](crate::sobol_indices), and of [`Motor::operating_point`] or
+    /// [`Motor::stall_load`]; [`Error::Overpowered`] where a load is more than friction can hold. A parameter
+    /// that is given twice takes its last value.
+    pub fn sobol_indices(
+        &self,
+        quantity: SensitivityQuantity,
+        ranges: &[ParameterRange],
+        sampling: SamplingSettings,
+        operating: &OperatingSettings,
+    ) -> Result<Vec<SobolIndices>, Error> {
+        self.sobol_indices_observed(quantity, ranges, sampling, operating, &Unobserved)
+    }
+
+    /// [`Self::sobol_indices`] with an observer; the items are the rows of the sample.
+    ///
+    /// # Errors
+    /// Those of [`Self::sobol_indices`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+    pub fn sobol_indices_observed(
+        &self,
+        quantity: SensitivityQuantity,
+        ranges: &[ParameterRange],
+        sampling: SamplingSettings,
+        operating: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<SobolIndices>, Error> {
+        let mut done = 0;
+        let rows = sampling.rows as u64;
+        let function = |points: &[Vec<f64>]| {
+            let within = |_: Progress| observer.observe(Progress { done, total: rows });
+            let values = self.values(quantity, ranges, points, operating, &within);
+            done += 1;
+            values
+        };
+        sobol_indices_observed(function, &widths(ranges), sampling, observer)
+    }
+
+    /// The elementary effects (Morris) of these parameters on the steady speed (rad/s per range) or the stall
+    /// torque (N m per range), in their order.
+    ///
+    /// # Errors
+    /// Those of [`Self::sobol_indices`].
+    pub fn elementary_effects(
+        &self,
+        quantity: SensitivityQuantity,
+        ranges: &[ParameterRange],
+        sampling: SamplingSettings,
+        operating: &OperatingSettings,
+    ) -> Result<Vec<ElementaryEffects>, Error> {
+        self.elementary_effects_observed(quantity, ranges, sampling, operating, &Unobserved)
+    }
+
+    /// [`Self::elementary_effects`] with an observer; the items are the trajectories.
+    ///
+    /// # Errors
+    /// Those of [`Self::elementary_effects`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+    pub fn elementary_effects_observed(
+        &self,
+        quantity: SensitivityQuantity,
+        ranges: &[ParameterRange],
+        sampling: SamplingSettings,
+        operating: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<ElementaryEffects>, Error> {
+        let mut done = 0;
+        let rows = sampling.rows as u64;
+        let function = |points: &[Vec<f64>]| {
+            let within = |_: Progress| observer.observe(Progress { done, total: rows });
+            let values = self.values(quantity, ranges, points, operating, &within);
+            done += 1;
+            values
+        };
+        elementary_effects_observed(function, &widths(ranges), sampling, observer)
+    }
+
+    /// The quantity at points of a sample: what shares a vertical motion is computed on one.
+    fn values(
+        &self,
+        quantity: SensitivityQuantity,
+        ranges: &[ParameterRange],
+        points: &[Vec<f64>],
+        operating: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<f64>, Error> {
+        let motors = points
+            .iter()
+            .map(|point| {
+                let mut pairs = ranges.iter().zip(point);
+                pairs.try_fold(*self, |motor, ((parameter, _), value)| parameter.set(&motor, *value))
+            })
+            .collect::<Result<Vec<Self>, Error>>()?;
+        let mut values = vec![f64::NAN; motors.len()];
+        let mut left: Vec<usize> = (0..motors.len()).collect();
+        while let Some(&first) = left.first() {
+            let (group, rest): (Vec<usize>, Vec<usize>) = left
+                .into_iter()
+                .partition(|&index| is_shared(motors[index].system(), motors[first].system()));
+            left = rest;
+            if quantity == SensitivityQuantity::SteadySpeed {
+                let loaded: Vec<LoadedMotor> =
+                    group.iter().map(|&index| LoadedMotor::of(&motors[index])).collect();
+                let operations = operate(&loaded, operating, observer)?.operations;
+                for ((&index, operation), motor) in group.iter().zip(operations).zip(&loaded) {
+                    let overpowered = Error::Overpowered { load: motor.load() };
+                    values[index] = operation.point().ok_or(overpowered)?.speed.value;
+                }
+            } else {
+                for index in group {
+                    values[index] = quantity_of(&motors[index], quantity, operating, observer)?.value;
+                }
+            }
+        }
+        Ok(values)
+    }
+}
+
+fn widths(ranges: &[ParameterRange]) -> Vec<[f64; 2]> {
+    ranges.iter().map(|(_, range)| *range).collect()
+}
+
+#[cfg(test)]
+mod tests;

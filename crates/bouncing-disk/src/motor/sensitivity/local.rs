@@ -1,0 +1,394 @@
+//! Local sensitivities: by which power of a parameter the steady speed or the stall torque changes (Fig. 13).
+
+use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::numerics::statistics::mean;
+use bouncing_disk_core::{Observer, Progress, Unobserved, read_checked};
+
+use super::parameter::{SensitivityParameter, SensitivityQuantity};
+use crate::error::{Error, check, positive};
+use crate::motor::data_sheet::Motor;
+use crate::motor::operation::ensemble::{LoadedMotor, operate};
+use crate::motor::operation::point::Estimate;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::stall_load::crossing;
+
+/// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m
+/// g a_e of the load: one of them is chosen.
+const STEPS: [f64; 5] = [0.16, 0.08, 0.04, 0.02, 0.01];
+
+/// Loads around the stall load at which the speeds of each motor are known, as shares of mu m g a_e: the
+/// stall load of each member is read off a straight line through them.
+const SHARES: [f64; 5] = [-0.06, -0.03, 0.0, 0.03, 0.06];
+
+/// Least motors that a regression needs.
+const LEAST_POINTS: usize = 5;
+
+/// How local sensitivities are computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+pub struct SensitivitySettings {
+    /// How each motor is operated.
+    pub operating: OperatingSettings,
+    /// Half the range, in the logarithm of a parameter of the vertical motion, over which motors are drawn,
+    /// in (0, 2]. Default 0.2: from 82 % to 122 % of it.
+    pub half_range: f64,
+    /// Motors that are drawn over it, in [5, 10000]. Default 24.
+    pub points: usize,
+}
+
+read_checked!(SensitivitySettings as UncheckedSettings {
+    operating: OperatingSettings,
+    half_range: f64,
+    points: usize,
+});
+
+impl Default for SensitivitySettings {
+    fn default() -> Self {
+        Self { operating: OperatingSettings::default(), half_range: 0.2, points: 24 }
+    }
+}
+
+impl SensitivitySettings {
+    fn check(&self) -> Result<(), Error> {
+        self.operating.check()?;
+        let legal = self.half_range > 0.0 && self.half_range <= 2.0;
+        check(legal, "half_range", self.half_range, "(0, 2]")?;
+        let points = (LEAST_POINTS..=10_000).contains(&self.points);
+        check(points, "points", self.points as f64, "[5, 10000]")?;
+        Ok(())
+    }
+}
+
+/// How a sensitivity was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+#[non_exhaustive]
+pub enum SensitivityMethod {
+    /// By a central difference of rotors on the same vertical motions.
+    SharedMotion {
+        /// The step that was chosen.
+        step: f64,
+        /// The standard error that the members give.
+        scatter: f64,
+        /// The estimated error of the difference quotient.
+        curvature: f64,
+    },
+    /// By a straight line through motors with different vertical motions, drawn over the range of the
+    /// settings.
+    Regression {
+        /// Motors on the line.
+        points: usize,
+        /// Motors that were left out, since they are in a low-period trap.
+        traps: usize,
+        /// Standard deviation of the motors about the line, relative to their mean.
+        scatter: f64,
+    },
+}
+
+/// How a quantity depends on a parameter next to a motor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct LocalSensitivity {
+    /// The parameter.
+    pub parameter: SensitivityParameter,
+    /// d ln(quantity)/d ln(parameter); of the phase lag, d ln(quantity)/d theta (1/rad); of the load torque,
+    /// d ln(quantity) over its change in units of mu m g a_e.
+    pub derivative: Estimate,
+    /// How it was found.
+    pub method: SensitivityMethod,
+}
+
+impl Motor {
+    /// How the steady speed or the stall torque depends on these parameters next to the motor, in their
+    /// order.
+    ///
+    /// ```no_run
+    /// use bouncing_disk::{Motor, SensitivityParameter, SensitivityQuantity, SensitivitySettings};
+    ///
+    /// let motor = Motor::paper_70_khz();
+    /// let all = motor.local_sensitivities(
+    ///     SensitivityQuantity::SteadySpeed,
+    ///     &[SensitivityParameter::Friction, SensitivityParameter::PeakAngularSpeed],
+    ///     &SensitivitySettings::default(),
+    /// )?;
+    /// // Friction hardly matters to the speed without load, and the speed of the stator all the more.
+    /// assert!(all[0].derivative.value < 0.1 && all[1].derivative.value > 0.9);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for illegal settings, and for a parameter that is zero and has no logarithm or
+    /// leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn, [`Error::Overpowered`] where
+    /// a load is more than friction can hold, [`Error::TooFewMotors`] where traps leave too few of them;
+    /// those of [`Motor::operating_point`].
+    pub fn local_sensitivities(
+        &self,
+        quantity: SensitivityQuantity,
+        parameters: &[SensitivityParameter],
+        settings: &SensitivitySettings,
+    ) -> Result<Vec<LocalSensitivity>, Error> {
+        self.local_sensitivities_observed(quantity, parameters, settings, &Unobserved)
+    }
+
+    /// [`Self::local_sensitivities`] with an observer; the items are ensembles of motors that share a
+    /// vertical motion.
+    ///
+    /// # Errors
+    /// Those of [`Self::local_sensitivities`]; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+    pub fn local_sensitivities_observed(
+        &self,
+        quantity: SensitivityQuantity,
+        parameters: &[SensitivityParameter],
+        settings: &SensitivitySettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<LocalSensitivity>, Error> {
+        settings.check()?;
+        let shared: Vec<_> =
+            parameters.iter().copied().filter(|parameter| parameter.shares_vertical_motion()).collect();
+        let others = parameters.len() - shared.len();
+        let total = (usize::from(!shared.is_empty()) + others * settings.points) as u64;
+        let mut done = 0;
+        let mut shared = if shared.is_empty() {
+            Vec::new()
+        } else {
+            let observer = |_: Progress| observer.observe(Progress { done: 0, total });
+            let results = by_differences(self, quantity, &shared, settings, &observer)?;
+            done += 1;
+            results
+        }
+        .into_iter();
+        let mut results = Vec::with_capacity(parameters.len());
+        for &parameter in parameters {
+            let known = if parameter.shares_vertical_motion() { shared.next() } else { None };
+            results.push(match known {
+                Some(known) => known,
+                None => by_regression(self, parameter, settings, &mut |motor| {
+                    let item = done;
+                    done += 1;
+                    let observer = |_: Progress| observer.observe(Progress { done: item, total });
+                    quantity_of(motor, quantity, &settings.operating, &observer)
+                })?,
+            });
+        }
+        // Whatever it says, there is nothing left to stop.
+        let _ = observer.observe(Progress { done: total, total });
+        Ok(results)
+    }
+}
+
+/// The quantity of a motor.
+pub(super) fn quantity_of(
+    motor: &Motor,
+    quantity: SensitivityQuantity,
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Estimate, Error> {
+    match quantity {
+        SensitivityQuantity::SteadySpeed => {
+            let operation = motor.operating_point_observed(motor.load_torque(), settings, observer)?;
+            let loaded = LoadedMotor::of(motor);
+            operation.point().map(|point| point.speed).ok_or(Error::Overpowered { load: loaded.load() })
+        }
+        SensitivityQuantity::StallTorque => Ok(motor.stall_load_observed(settings, observer)?.torque),
+    }
+}
+
+/// The logarithm's step, or that of what has none.
+fn moved(motor: &Motor, parameter: SensitivityParameter, step: f64) -> Result<Motor, Error> {
+    let value = parameter.of(motor);
+    let value = match parameter {
+        SensitivityParameter::PhaseLag => value + step,
+        SensitivityParameter::LoadTorque => value + step * motor.largest_torque(),
+        _ => positive(parameter.name(), value)? * exp(step),
+    };
+    parameter.set(motor, value)
+}
+
+/// All parameters that share the vertical motion: all their rotors, with all steps, on one ensemble of
+/// orbits.
+fn by_differences(
+    motor: &Motor,
+    quantity: SensitivityQuantity,
+    parameters: &[SensitivityParameter],
+    settings: &SensitivitySettings,
+    observer: &dyn Observer,
+) -> Result<Vec<LocalSensitivity>, Error> {
+    let mut motors = vec![*motor];
+    for &parameter in parameters {
+        for step in STEPS {
+            motors.push(moved(motor, parameter, step)?);
+            motors.push(moved(motor, parameter, -step)?);
+        }
+    }
+    let values = member_values(&motors, motor, quantity, &settings.operating, observer)?;
+    let own = Estimate::of(&values[0])?;
+    if own.value.abs() <= 4.0 * own.standard_error {
+        return Err(Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error });
+    }
+    let sign = 1.0_f64.copysign(own.value);
+    let divisors: Vec<f64> = values[0].iter().map(|value| sign * value).collect();
+    let mut pairs = values[1..].chunks_exact(2);
+    let mut results = Vec::with_capacity(parameters.len());
+    for &parameter in parameters {
+        let mut quotients = Vec::with_capacity(STEPS.len());
+        for (step, pair) in STEPS.iter().zip(&mut pairs) {
+            let differences: Vec<f64> =
+                pair[0].iter().zip(&pair[1]).map(|(up, down)| sign * (up - down) / (2.0 * step)).collect();
+            quotients.push(
+                Estimate::of_ratio(&differences, &divisors)
+                    .ok_or(Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error })?,
+            );
+        }
+        results.push(balanced(parameter, &quotients));
+    }
+    Ok(results)
+}
+
+/// The step with the smallest error, of the scatter over the members and of the curvature together: the error
+/// of a difference quotient is as the square of the step, so that a half of the step leaves a quarter of it.
+fn balanced(parameter: SensitivityParameter, quotients: &[Estimate]) -> LocalSensitivity {
+    let curvature = |index: usize| {
+        let gap = |wide: usize| (quotients[wide].value - quotients[wide + 1].value).abs() * 4.0 / 3.0;
+        if index + 1 < quotients.len() { gap(index) } else { 0.25 * gap(index - 1) }
+    };
+    let error = |index: usize| {
+        let (scatter, curvature) = (quotients[index].standard_error, curvature(index));
+        (scatter * scatter + curvature * curvature).sqrt()
+    };
+    let best = (0..quotients.len()).min_by(|&one, &other| error(one).total_cmp(&error(other))).unwrap_or(0);
+    LocalSensitivity {
+        parameter,
+        derivative: Estimate { value: quotients[best].value, standard_error: error(best) },
+        method: SensitivityMethod::SharedMotion {
+            step: STEPS[best],
+            scatter: quotients[best].standard_error,
+            curvature: curvature(best),
+        },
+    }
+}
+
+/// The quantity of each motor and member, all on the same vertical motions.
+fn member_values(
+    motors: &[Motor],
+    nominal: &Motor,
+    quantity: SensitivityQuantity,
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Vec<f64>>, Error> {
+    let overpowered = |motor: &LoadedMotor| Error::Overpowered { load: motor.load() };
+    match quantity {
+        SensitivityQuantity::SteadySpeed => {
+            let loaded: Vec<LoadedMotor> = motors.iter().map(LoadedMotor::of).collect();
+            let speeds = operate(&loaded, settings, observer)?.speeds;
+            let runaway = speeds.iter().position(Vec::is_empty);
+            runaway.map_or(Ok(speeds), |index| Err(overpowered(&loaded[index])))
+        }
+        SensitivityQuantity::StallTorque => {
+            let stall = nominal.stall_load_observed(settings, observer)?.share;
+            let shares = SHARES.map(|offset| (stall + offset).clamp(-0.999, 0.999));
+            let mut loaded = Vec::with_capacity(motors.len() * shares.len());
+            for motor in motors {
+                for share in shares {
+                    loaded.push(LoadedMotor::of(motor).with_load(share * motor.largest_torque())?);
+                }
+            }
+            let speeds = operate(&loaded, settings, observer)?.speeds;
+            let runaway = speeds.iter().position(Vec::is_empty);
+            if let Some(index) = runaway {
+                return Err(overpowered(&loaded[index]));
+            }
+            let torques = speeds.chunks_exact(shares.len()).zip(motors).map(|(speeds, motor)| {
+                (0..speeds[0].len())
+                    .map(|member| {
+                        let share = crossing(&shares, |k| speeds[k][member], (0, shares.len() - 1));
+                        share * motor.largest_torque()
+                    })
+                    .collect()
+            });
+            Ok(torques.collect())
+        }
+    }
+}
+
+/// The straight line through motors that are drawn over a range: one in each of its equal parts, as a grid
+/// could meet or miss the values at which a motor is in a trap.
+fn by_regression(
+    motor: &Motor,
+    parameter: SensitivityParameter,
+    settings: &SensitivitySettings,
+    quantity_of: &mut dyn FnMut(&Motor) -> Result<Estimate, Error>,
+) -> Result<LocalSensitivity, Error> {
+    let centre = positive(parameter.name(), parameter.of(motor))?;
+    let mut random = SplitMix64::new(settings.operating.seed);
+    let (mut offsets, mut values, mut traps) = (Vec::new(), Vec::new(), 0);
+    for index in 0..settings.points {
+        let share = (index as f64 + random.unit()) / settings.points as f64;
+        let offset = settings.half_range * (2.0 * share - 1.0);
+        let motor = parameter.set(motor, centre * exp(offset))?;
+        if motor.trap_verdict()?.is_trap {
+            traps += 1;
+        } else {
+            values.push(quantity_of(&motor)?.value);
+            offsets.push(ln(parameter.of(&motor) / centre));
+        }
+    }
+    if values.len() < LEAST_POINTS {
+        return Err(Error::TooFewMotors { left: values.len(), traps, needed: LEAST_POINTS });
+    }
+    let line = Line::through(&offsets, &values);
+    if line.centre.abs() <= 4.0 * line.scatter / (values.len() as f64).sqrt() {
+        let standard_error = line.scatter / (values.len() as f64).sqrt();
+        return Err(Error::DoesNotTurn { speed: line.centre, standard_error });
+    }
+    Ok(LocalSensitivity {
+        parameter,
+        derivative: Estimate {
+            value: line.slope / line.centre,
+            standard_error: line.slope_error / line.centre.abs(),
+        },
+        method: SensitivityMethod::Regression {
+            points: values.len(),
+            traps,
+            scatter: line.scatter / line.centre.abs(),
+        },
+    })
+}
+
+/// A least-squares line.
+struct Line {
+    /// Its value at offset zero.
+    centre: f64,
+    slope: f64,
+    slope_error: f64,
+    /// Standard deviation about it.
+    scatter: f64,
+}
+
+impl Line {
+    fn through(offsets: &[f64], values: &[f64]) -> Self {
+        let (x, y) = (mean(offsets), mean(values));
+        let (mut square, mut product) = (0.0, 0.0);
+        for (offset, value) in offsets.iter().zip(values) {
+            square += (offset - x) * (offset - x);
+            product += (offset - x) * (value - y);
+        }
+        let slope = product / square;
+        let rests = offsets.iter().zip(values).map(|(offset, value)| value - y - slope * (offset - x));
+        let rest = rests.map(|rest| rest * rest).sum::<f64>();
+        let variance = rest / (values.len() as f64 - 2.0);
+        Self {
+            centre: y - slope * x,
+            slope,
+            slope_error: (variance / square).sqrt(),
+            scatter: variance.sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

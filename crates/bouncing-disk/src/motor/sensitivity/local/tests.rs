@@ -1,0 +1,209 @@
+use SensitivityParameter as P;
+
+use super::*;
+
+fn quick() -> SensitivitySettings {
+    let operating = OperatingSettings { relative_error: 0.05, members: 8, ..OperatingSettings::default() };
+    SensitivitySettings { operating, half_range: 0.2, points: 8 }
+}
+
+fn near(one: &LocalSensitivity, truth: f64) -> bool {
+    (one.derivative.value - truth).abs() <= 4.0 * one.derivative.standard_error + 1e-6
+}
+
+/// What follows from the units: the rotary motion knows friction, twist and radii only as mu and as Q = a_g^2
+/// Phi omega^2 /(a_e g), and a speed is Q times a function of Q/mu without load. The stall torque is mu m g
+/// a_e times such a function.
+#[test]
+fn exponents_obey_the_units() {
+    let motor = Motor::paper_70_khz();
+    let parameters = [P::Friction, P::PeakAngularSpeed, P::ContactRadius, P::GyrationRadius, P::LoadTorque];
+    let speed =
+        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &parameters, &quick()).expect("turns");
+    let [friction, twist, contact, gyration, load] = speed.try_into().expect("as many as parameters");
+    // Speed = omega Phi f(a_g^2 omega Phi/(mu a_e)).
+    assert!(near(&twist, 1.0 - friction.derivative.value), "{twist:?} {friction:?}");
+    assert!(near(&contact, friction.derivative.value), "{contact:?} {friction:?}");
+    assert!(near(&gyration, -2.0 * friction.derivative.value), "{gyration:?} {friction:?}");
+    assert!(load.derivative.value < -0.3, "{load:?}");
+    // Friction leaves the speed alone (Fig. 13).
+    assert!(friction.derivative.value.abs() < 0.1, "{friction:?}");
+    for one in [friction, twist, contact, gyration, load] {
+        assert!(one.derivative.standard_error < 0.1, "{one:?}");
+        let SensitivityMethod::SharedMotion { step, scatter, curvature } = one.method else {
+            panic!("{one:?}")
+        };
+        let error = (scatter * scatter + curvature * curvature).sqrt();
+        assert!(STEPS.contains(&step) && (error - one.derivative.standard_error).abs() < 1e-12, "{one:?}");
+    }
+    let stall =
+        motor.local_sensitivities(SensitivityQuantity::StallTorque, &parameters, &quick()).expect("turns");
+    let [friction, twist, contact, gyration, load] = stall.try_into().expect("as many as parameters");
+    assert!(near(&friction, 1.0 - twist.derivative.value), "{twist:?} {friction:?}");
+    assert!(near(&contact, 1.0 - twist.derivative.value), "{contact:?} {twist:?}");
+    assert!(near(&gyration, 2.0 * twist.derivative.value), "{gyration:?} {twist:?}");
+    assert!(load.derivative.value.abs() < 1e-9, "{load:?}");
+    assert!((friction.derivative.value - 1.0).abs() < 0.1, "{friction:?}");
+}
+
+/// Differences on shared motions against motors that are operated one by one.
+#[test]
+fn differences_are_those_of_whole_operations() {
+    let motor = Motor::paper_70_khz()
+        .with(|sheet| {
+            sheet.phase_lag = 0.9;
+            sheet.load_torque = 4e-6;
+        })
+        .expect("legal");
+    let lag = motor
+        .local_sensitivities(SensitivityQuantity::SteadySpeed, &[P::PhaseLag], &quick())
+        .expect("turns")[0];
+    let settings = OperatingSettings { relative_error: 0.005, ..OperatingSettings::default() };
+    let at = |lag: f64| {
+        let motor = P::PhaseLag.set(&motor, lag).expect("legal");
+        quantity_of(&motor, SensitivityQuantity::SteadySpeed, &settings, &Unobserved).expect("turns")
+    };
+    let (up, own, down) = (at(1.0), at(0.9), at(0.8));
+    let expected = (up.value - down.value) / (0.2 * own.value);
+    let error = 5.0 * (up.standard_error + down.standard_error) / own.value;
+    assert!(
+        (lag.derivative.value - expected).abs() < 4.0 * lag.derivative.standard_error + error,
+        "{lag:?} {expected}"
+    );
+    assert!(lag.derivative.value < -0.5, "{lag:?}");
+}
+
+/// The stall torque is proportional to the preload and does not know the amplitude; nor does the speed (Sec.
+/// V).
+#[test]
+fn the_vertical_motion_is_fitted_over_a_range() {
+    let motor = Motor::paper_70_khz();
+    let parameters = [P::Preload, P::Amplitude];
+    let speed =
+        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &parameters, &quick()).expect("turns");
+    for one in &speed {
+        let SensitivityMethod::Regression { points, traps, scatter } = one.method else { panic!("{one:?}") };
+        assert!(points + traps == 8 && scatter < 0.2, "{one:?}");
+        assert!(one.derivative.value.abs() < 0.2 + 3.0 * one.derivative.standard_error, "{one:?}");
+    }
+    let stall = motor
+        .local_sensitivities(SensitivityQuantity::StallTorque, &[P::Preload], &quick())
+        .expect("turns")[0];
+    assert!((stall.derivative.value - 1.0).abs() < 0.1 + 3.0 * stall.derivative.standard_error, "{stall:?}");
+}
+
+#[test]
+fn lines_have_the_errors_of_textbooks() {
+    let line = Line::through(&[-1.0, 0.0, 1.0, 2.0], &[1.0, 3.0, 4.0, 8.0]);
+    // By hand: rests 0.3, 0.1, -1.1, 0.7 about 2.9 + 2.2 x, their variance 1.8/2; squares of the offsets 5.
+    assert!((line.slope - 2.2).abs() < 1e-14 && (line.centre - 2.9).abs() < 1e-14);
+    assert!(
+        (line.scatter - 0.9_f64.sqrt()).abs() < 1e-14 && (line.slope_error - 0.18_f64.sqrt()).abs() < 1e-14
+    );
+}
+
+/// The step balances both errors: without scatter the smallest, with much of it the widest.
+#[test]
+fn the_step_balances_scatter_and_curvature() {
+    let quotients = |scatter: &dyn Fn(f64) -> f64| {
+        STEPS.map(|step| Estimate { value: 2.0 + 3.0 * step * step, standard_error: scatter(step) })
+    };
+    let exact = balanced(P::Friction, &quotients(&|_| 0.0));
+    assert!(matches!(exact.method, SensitivityMethod::SharedMotion { step, .. } if step < 0.011));
+    assert!((exact.derivative.value - 2.0003).abs() < 1e-12, "{exact:?}");
+    assert!((exact.derivative.standard_error - 3e-4).abs() < 1e-12, "{exact:?}");
+    let noisy = balanced(P::Friction, &quotients(&|step| 1.0 / step));
+    assert!(matches!(noisy.method, SensitivityMethod::SharedMotion { step, .. } if step > 0.15));
+    let between = balanced(P::Friction, &quotients(&|step| 2e-4 / step));
+    assert!(
+        matches!(between.method, SensitivityMethod::SharedMotion { step, .. } if (step - 0.04).abs() < 1e-9)
+    );
+}
+
+#[test]
+fn what_has_no_sensitivity_is_refused() {
+    let motor = Motor::paper_70_khz();
+    let of = |motor: &Motor, parameters: &[P], settings: &SensitivitySettings| {
+        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, parameters, settings)
+    };
+    assert_eq!(of(&motor, &[], &quick()), Ok(Vec::new()));
+    // Zero has no logarithm.
+    for parameter in [P::Restitution, P::Friction] {
+        let zero = parameter.set(&motor, 0.0).expect("legal");
+        let error = of(&zero, &[parameter], &quick()).expect_err("zero");
+        assert!(matches!(error, Error::OutOfRange { field, .. } if field == parameter.name()), "{error}");
+    }
+    // A lag at which the motor does not turn.
+    let still = P::PeakAngularSpeed.set(&motor, 0.0).expect("legal");
+    let error = of(&still, &[P::Friction], &quick()).expect_err("still");
+    assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
+    // A load that one of the differences cannot hold.
+    let loaded = P::LoadTorque.set(&motor, 0.97 * motor.largest_torque()).expect("legal");
+    let error = of(&loaded, &[P::LoadTorque], &quick()).expect_err("runs away");
+    assert!(matches!(error, Error::Overpowered { .. }), "{error}");
+    for (settings, name) in [
+        (SensitivitySettings { half_range: 0.0, ..quick() }, "half_range"),
+        (SensitivitySettings { half_range: f64::NAN, ..quick() }, "half_range"),
+        (SensitivitySettings { half_range: 2.1, ..quick() }, "half_range"),
+        (SensitivitySettings { points: 4, ..quick() }, "points"),
+        (SensitivitySettings { points: 10_001, ..quick() }, "points"),
+    ] {
+        let error = of(&motor, &[P::Friction], &settings).expect_err("illegal");
+        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+    }
+    // A plastic rotor repeats a ramp whatever the preload: nothing is left for a line.
+    let plastic = P::Restitution.set(&motor, 0.0).expect("legal");
+    let error = of(&plastic, &[P::Preload], &quick()).expect_err("traps");
+    assert!(matches!(error, Error::TooFewMotors { left, traps, needed: 5 } if left + traps == 8), "{error}");
+    let stop = |_: Progress| std::ops::ControlFlow::Break(());
+    let stopped =
+        motor.local_sensitivities_observed(SensitivityQuantity::SteadySpeed, &[P::Friction], &quick(), &stop);
+    assert!(stopped.is_err());
+}
+
+/// A parameter that is set is the one that is read, and the others are kept.
+#[test]
+fn parameters_are_set_one_by_one() {
+    let motor = Motor::paper_70_khz().with(|sheet| sheet.load_torque = 1e-6).expect("legal");
+    for parameter in P::ALL {
+        let value = if parameter == P::PhaseLag { 0.3 } else { 1.25 * parameter.of(&motor) };
+        let changed = parameter.set(&motor, value).expect("legal");
+        for other in P::ALL {
+            let expected = if other == parameter { value } else { other.of(&motor) };
+            assert!((other.of(&changed) - expected).abs() <= 1e-14 * expected.abs(), "{parameter} {other}");
+        }
+        assert_eq!(
+            parameter.shares_vertical_motion(),
+            crate::motor::shared_orbit::is_shared(motor.system(), changed.system()),
+            "{parameter}"
+        );
+        assert!(parameter.set(&motor, f64::NAN).is_err(), "{parameter}");
+    }
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn what_is_stored_comes_back() {
+    let settings = quick();
+    let text = serde_json::to_string(&settings).expect("writes");
+    assert_eq!(serde_json::from_str::<SensitivitySettings>(&text).expect("legal"), settings);
+    for (from, to) in [("\"points\":8", "\"points\":4"), ("\"half_range\":0.2", "\"half_range\":2.5")] {
+        let illegal = text.replace(from, to);
+        assert!(illegal != text && serde_json::from_str::<SensitivitySettings>(&illegal).is_err(), "{to}");
+    }
+    for method in [
+        SensitivityMethod::SharedMotion { step: 0.02, scatter: 0.01, curvature: 1e-3 },
+        SensitivityMethod::Regression { points: 20, traps: 4, scatter: 0.1 },
+    ] {
+        let derivative = Estimate { value: -0.5, standard_error: 0.01 };
+        let one = LocalSensitivity { parameter: P::ContactRadius, derivative, method };
+        let text = serde_json::to_string(&one).expect("writes");
+        assert_eq!(serde_json::from_str::<LocalSensitivity>(&text).expect("legal"), one);
+        let illegal = text.replace("\"standard_error\":0.01", "\"standard_error\":-0.01");
+        assert!(illegal != text && serde_json::from_str::<LocalSensitivity>(&illegal).is_err());
+    }
+    let sampling = crate::SamplingSettings::default();
+    let text = serde_json::to_string(&sampling).expect("writes");
+    assert_eq!(serde_json::from_str::<crate::SamplingSettings>(&text).expect("legal"), sampling);
+    assert!(serde_json::from_str::<crate::SamplingSettings>(&text.replace("256", "7")).is_err());
+}

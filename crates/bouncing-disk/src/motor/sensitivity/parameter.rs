@@ -1,0 +1,135 @@
+//! The parameters of a motor that sensitivities are asked for, and the quantities.
+
+use crate::error::Error;
+use crate::motor::data_sheet::Motor;
+
+/// What is asked of a motor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum SensitivityQuantity {
+    /// The mean speed under the load of the data sheet (rad/s).
+    SteadySpeed,
+    /// The load torque that stops the motor (N m): the true stall. The load of the data sheet does not
+    /// matter.
+    StallTorque,
+}
+
+/// A parameter of a motor that is varied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum SensitivityParameter {
+    /// Coefficient of friction mu.
+    Friction,
+    /// Largest angular speed omega Phi of the stator (rad/s).
+    PeakAngularSpeed,
+    /// Phase lag theta (rad).
+    PhaseLag,
+    /// Contact radius a_e (m).
+    ContactRadius,
+    /// Radius of gyration a_g (m).
+    GyrationRadius,
+    /// Load torque T_L (N m).
+    LoadTorque,
+    /// Axial amplitude A (m), the twist kept.
+    Amplitude,
+    /// Preload acceleration g (m/s^2).
+    Preload,
+    /// Coefficient of restitution.
+    Restitution,
+    /// Drive frequency (Hz), the largest angular speed of the stator kept.
+    DriveFrequency,
+}
+
+impl SensitivityParameter {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Friction,
+        Self::PeakAngularSpeed,
+        Self::PhaseLag,
+        Self::ContactRadius,
+        Self::GyrationRadius,
+        Self::LoadTorque,
+        Self::Amplitude,
+        Self::Preload,
+        Self::Restitution,
+        Self::DriveFrequency,
+    ];
+
+    /// The name of the parameter.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Friction => "friction",
+            Self::PeakAngularSpeed => "peak_angular_speed",
+            Self::PhaseLag => "phase_lag",
+            Self::ContactRadius => "contact_radius",
+            Self::GyrationRadius => "gyration_radius",
+            Self::LoadTorque => "load_torque",
+            Self::Amplitude => "amplitude",
+            Self::Preload => "preload",
+            Self::Restitution => "restitution",
+            Self::DriveFrequency => "drive_frequency",
+        }
+    }
+
+    /// Whether the vertical motion does not depend on it, so that all its values share one orbit.
+    #[must_use]
+    pub const fn shares_vertical_motion(self) -> bool {
+        !matches!(self, Self::Amplitude | Self::Preload | Self::Restitution | Self::DriveFrequency)
+    }
+
+    /// Its value for a motor.
+    #[must_use]
+    pub fn of(self, motor: &Motor) -> f64 {
+        let (platform, disk) = (motor.system().platform(), motor.system().disk());
+        match self {
+            Self::Friction => disk.friction(),
+            Self::PeakAngularSpeed => platform.peak_angular_speed(),
+            Self::PhaseLag => platform.phase_lag(),
+            Self::ContactRadius => disk.contact_radius(),
+            Self::GyrationRadius => disk.gyration_radius(),
+            Self::LoadTorque => motor.load_torque(),
+            Self::Amplitude => platform.amplitude(),
+            Self::Preload => motor.preload_acceleration(),
+            Self::Restitution => disk.restitution(),
+            Self::DriveFrequency => motor.parameters().drive_frequency,
+        }
+    }
+
+    /// The motor with another value of it; where the data sheet gives an alternative, that is replaced.
+    ///
+    /// # Errors
+    /// Those of [`MotorParameters::build`](crate::MotorParameters::build).
+    pub fn set(self, motor: &Motor, value: f64) -> Result<Motor, Error> {
+        let speed = motor.system().platform().peak_angular_speed();
+        motor.with(|sheet| match self {
+            Self::Friction => sheet.friction = value,
+            Self::PeakAngularSpeed => {
+                (sheet.twist_amplitude, sheet.peak_angular_speed) = (None, Some(value));
+            }
+            Self::PhaseLag => sheet.phase_lag = value,
+            Self::ContactRadius => sheet.contact_radius = value,
+            Self::GyrationRadius => sheet.gyration_radius = Some(value),
+            Self::LoadTorque => sheet.load_torque = value,
+            Self::Amplitude => sheet.amplitude = value,
+            Self::Preload => {
+                (sheet.preload_force, sheet.preload_acceleration) = (None, Some(value));
+            }
+            Self::Restitution => sheet.restitution = value,
+            Self::DriveFrequency => {
+                sheet.drive_frequency = value;
+                (sheet.twist_amplitude, sheet.peak_angular_speed) = (None, Some(speed));
+            }
+        })
+    }
+}
+
+impl std::fmt::Display for SensitivityParameter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,169 @@
+//! Sweeps: a motor in steady operation over one or two of its parameters.
+//!
+//! What is varied is in `sweep/axis.rs`; which cells are computed together in `sweep/groups.rs`; the run, which may
+//! be stopped and gone on with, in `sweep/run.rs`; what comes out, as numbers and as a table, in `sweep/result.rs`,
+//! `sweep/quantity.rs` and `sweep/csv_table.rs`. The journal and the files are in `storage/motor_sweep.rs`.
+
+pub(crate) mod axis;
+#[cfg(feature = "csv")]
+mod csv_table;
+mod groups;
+pub(crate) mod quantity;
+pub(crate) mod result;
+pub(crate) mod run;
+
+use bouncing_disk_core::{Observer, Unobserved, read_checked};
+
+use self::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
+use self::result::MotorSweepResult;
+use self::run::MotorSweepRun;
+use crate::error::Error;
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::operation::settings::OperatingSettings;
+
+/// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
+///
+/// A sweep has a cell for each value of its axis, or each pair of values of its two; the cells are numbered row by
+/// row, the first axis being that of the rows. Each cell is the motor's data sheet with the values of the cell. Where
+/// a parameter has an alternative, a value sets the alternative to nothing: a sweep over `preload_force` of a motor
+/// with a `preload_acceleration` has the force alone ([`Self::replaced`] tells).
+///
+/// Cells of one vertical motion (they differ in load, friction, phase lag, twist, radii or mass only) are computed
+/// on one orbit, wherever they lie: a map of load and phase lag has one, a map of amplitude and load one for each
+/// amplitude. Such a group, of 256 cells at most, runs until each of its cells is known well enough. A number
+/// of a cell therefore depends on what else is in its group, within its standard error; the cells of a group share
+/// their perturbations, so that their differences are sharper than each is by itself. Groups depend on the sweep
+/// alone. The results are the same bits for any number of threads and however often a run was stopped.
+///
+/// ```
+/// use bouncing_disk::{Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
+///
+/// let motor = Motor::paper_70_khz();
+/// let loads = [0.0, 0.5, 1.5].map(|share| share * motor.largest_torque());
+/// let sweep = MotorSweep::new(
+///     motor,
+///     vec![
+///         SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),
+///         SweepAxis::new(MotorField::LoadTorque, loads.to_vec()),
+///     ],
+///     OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() },
+/// )?;
+/// // They share the vertical motion.
+/// assert_eq!((sweep.cells(), sweep.groups().len()), (6, 1));
+/// let speeds = sweep.run()?.matrix(SweepQuantity::Speed);
+/// assert!(speeds[0][0] > speeds[0][1] && speeds[0][1] < speeds[1][1]);
+/// // The last load is more than the smaller friction can hold: there is no speed.
+/// assert_eq!(speeds[0][2], None);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweep"))]
+pub struct MotorSweep {
+    motor: Motor,
+    axes: Vec<SweepAxis>,
+    settings: OperatingSettings,
+    #[cfg_attr(feature = "serde", serde(skip_serializing))]
+    groups: Vec<Vec<usize>>,
+}
+
+read_checked!(MotorSweep as UncheckedSweep {
+    motor: Motor,
+    axes: Vec<SweepAxis>,
+    settings: OperatingSettings,
+} => MotorSweep::new);
+
+impl MotorSweep {
+    /// A sweep over one or two axes.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for another number of axes, a value that is not finite and illegal settings;
+    /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter, or of
+    /// two that exclude each other; an error of the core
+    /// ([`TooLarge`](bouncing_disk_core::Error::TooLarge)) for more than
+    /// [`MAX_SWEEP_CELLS`](crate::MAX_SWEEP_CELLS) cells; those of
+    /// [`MotorParameters::build`](crate::MotorParameters::build) for the first cell whose motor is not legal.
+    pub fn new(motor: Motor, axes: Vec<SweepAxis>, settings: OperatingSettings) -> Result<Self, Error> {
+        settings.check()?;
+        check_axes(&axes)?;
+        let sheet = motor.parameters();
+        let motors = (0..cells(&axes)).map(|cell| sheet_of_cell(sheet, &axes, cell).build());
+        let groups = groups::of(motors, groups::most_cells(&settings))?;
+        Ok(Self { motor, axes, settings, groups })
+    }
+
+    /// The motor that is varied.
+    #[must_use]
+    pub const fn motor(&self) -> &Motor {
+        &self.motor
+    }
+
+    /// The axes: one or two.
+    #[must_use]
+    pub fn axes(&self) -> &[SweepAxis] {
+        &self.axes
+    }
+
+    /// How each cell is computed.
+    #[must_use]
+    pub const fn settings(&self) -> &OperatingSettings {
+        &self.settings
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        cells(&self.axes)
+    }
+
+    /// The cells that are computed together, by their indices: each cell is in one group. The groups are in the order of
+    /// their first cells.
+    #[must_use]
+    pub fn groups(&self) -> &[Vec<usize>] {
+        &self.groups
+    }
+
+    /// Fields of the motor's data sheet in whose place the axes give others: they are set to nothing in every cell.
+    #[must_use]
+    pub fn replaced(&self) -> Vec<MotorField> {
+        let sheet = self.motor.parameters();
+        let excluded = self.axes.iter().flat_map(|axis| axis.parameter.excluded());
+        excluded.copied().filter(|field| field.value(&sheet).is_some()).collect()
+    }
+
+    /// The motor of a cell.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a cell that does not exist.
+    pub fn motor_of(&self, cell: usize) -> Result<Motor, Error> {
+        if cell >= self.cells() {
+            let legal = "below the number of cells";
+            return Err(Error::OutOfRange { field: "cell of a sweep", value: cell as f64, legal });
+        }
+        sheet_of_cell(self.motor.parameters(), &self.axes, cell).build()
+    }
+
+    /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
+    ///
+    /// # Errors
+    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
+    pub fn run(&self) -> Result<MotorSweepResult, Error> {
+        self.run_observed(&Unobserved)
+    }
+
+    /// [`Self::run`] with an observer; the items are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
+    /// finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
+    /// breaks.
+    pub fn run_observed(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
+        let mut run = MotorSweepRun::new(self);
+        run.advance(self, observer)?;
+        run.into_result(self)
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,104 @@
+//! What comes out of a sweep.
+
+use bouncing_disk_core::read_checked;
+
+use super::MotorSweep;
+use super::axis::{SweepAxis, cells, check_axes, values_of_cell};
+use super::quantity::SweepQuantity;
+use crate::error::Error;
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::operation::point::Operation;
+use crate::motor::operation::settings::OperatingSettings;
+
+/// The operation of each cell of a [`MotorSweep`], with what was computed.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweepResult"))]
+pub struct MotorSweepResult {
+    motor: Motor,
+    settings: OperatingSettings,
+    axes: Vec<SweepAxis>,
+    cells: Vec<Operation>,
+}
+
+read_checked!(MotorSweepResult as UncheckedSweepResult {
+    motor: Motor,
+    settings: OperatingSettings,
+    axes: Vec<SweepAxis>,
+    cells: Vec<Operation>,
+});
+
+impl MotorSweepResult {
+    /// `operations` of all cells.
+    pub(super) fn of(sweep: &MotorSweep, operations: Vec<Operation>) -> Self {
+        let (motor, settings, axes) = (*sweep.motor(), *sweep.settings(), sweep.axes().to_vec());
+        Self { motor, settings, axes, cells: operations }
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        check_axes(&self.axes)?;
+        let (found, expected) = (self.cells.len() as u64, cells(&self.axes) as u64);
+        if found != expected {
+            let what = "cells of a sweep";
+            return Err(bouncing_disk_core::Error::Unfitting { what, found, expected }.into());
+        }
+        Ok(())
+    }
+
+    /// The motor that was varied.
+    #[must_use]
+    pub const fn motor(&self) -> &Motor {
+        &self.motor
+    }
+
+    /// How each cell was computed.
+    #[must_use]
+    pub const fn settings(&self) -> &OperatingSettings {
+        &self.settings
+    }
+
+    /// The axes: one or two.
+    #[must_use]
+    pub fn axes(&self) -> &[SweepAxis] {
+        &self.axes
+    }
+
+    /// The operation of each cell, row by row: the first axis is that of the rows, and a single axis has one cell in each.
+    #[must_use]
+    pub fn cells(&self) -> &[Operation] {
+        &self.cells
+    }
+
+    /// The cells with the values of the axes there, in the order of the axes.
+    pub fn iter(&self) -> impl Iterator<Item = (Vec<(MotorField, f64)>, &Operation)> {
+        self.cells.iter().enumerate().map(|(cell, operation)| {
+            let values = values_of_cell(&self.axes, cell).collect();
+            (values, operation)
+        })
+    }
+
+    /// The rows of a map: for each value of the first axis the operations along the second one; with a single axis, one
+    /// operation in each row.
+    pub fn rows(&self) -> impl Iterator<Item = &[Operation]> {
+        let columns = self.axes.get(1).map_or(1, |axis| axis.values.len());
+        self.cells.chunks(columns.max(1))
+    }
+
+    /// A quantity as a matrix, `[row][column]` as in [`Self::rows`]: its values, however well they are known. `None` for a
+    /// runaway, and for an efficiency that there is not.
+    #[must_use]
+    pub fn matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
+        self.map(|operation| quantity.of(operation).map(|estimate| estimate.value))
+    }
+
+    /// The standard errors of [`Self::matrix`].
+    #[must_use]
+    pub fn error_matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
+        self.map(|operation| quantity.of(operation).map(|estimate| estimate.standard_error))
+    }
+
+    fn map(&self, value: impl Fn(&Operation) -> Option<f64>) -> Vec<Vec<Option<f64>>> {
+        self.rows().map(|row| row.iter().map(&value).collect()).collect()
+    }
+}

@@ -1,0 +1,218 @@
+//! A sweep under way: it may be stopped, stored and gone on with.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use bouncing_disk_core::{Observer, PartialResults, Progress, Watch};
+
+use super::MotorSweep;
+use super::axis::sheet_of_cell;
+use super::result::MotorSweepResult;
+use crate::error::Error;
+use crate::motor::operation::of_motor::operations_observed;
+use crate::motor::operation::point::Operation;
+
+/// A [`MotorSweep`] under way: the groups of cells that are finished.
+///
+/// A run that is stopped, written, read and gone on with gives the result of one call of [`MotorSweep::run`] without a
+/// stop, bit for bit, for any number of threads. The sweep is not stored: whoever goes on brings the same one.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use std::sync::atomic::{AtomicU32, Ordering};
+///
+/// use bouncing_disk::core::Progress;
+/// use bouncing_disk::{Motor, MotorField, MotorSweep, MotorSweepRun, OperatingSettings, SweepAxis, Unobserved};
+///
+/// let sweep = MotorSweep::new(
+///     Motor::paper_70_khz(),
+///     vec![SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.5e-8, 2e-8])],
+///     OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() },
+/// )?;
+/// let mut run = MotorSweepRun::new(&sweep);
+/// let asked = AtomicU32::new(0);
+/// let stopped = run.advance(&sweep, &|_: Progress| match asked.fetch_add(1, Ordering::Relaxed) {
+///     0..5 => ControlFlow::Continue(()),
+///     _ => ControlFlow::Break(()),
+/// });
+/// assert!(stopped.is_err() && !run.is_done());
+/// run.advance(&sweep, &Unobserved)?;
+/// assert_eq!(run.into_result(&sweep)?, sweep.run()?);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
+pub struct MotorSweepRun {
+    groups: PartialResults<Vec<Operation>>,
+}
+
+/// A run that goes on from the groups that are finished.
+impl From<PartialResults<Vec<Operation>>> for MotorSweepRun {
+    fn from(groups: PartialResults<Vec<Operation>>) -> Self {
+        Self { groups }
+    }
+}
+
+impl MotorSweepRun {
+    /// A run of a sweep of which nothing is finished.
+    #[must_use]
+    pub fn new(sweep: &MotorSweep) -> Self {
+        Self { groups: PartialResults::new(sweep.groups().len()) }
+    }
+
+    /// Computes the groups that are not finished. What an earlier call has finished stays; so it does when this call
+    /// returns an error. The items of the observer are cells; groups under way when it breaks are begun again by
+    /// the next call.
+    ///
+    /// # Errors
+    /// Errors of the core: [`Stopped`](bouncing_disk_core::Error::Stopped) if the observer breaks,
+    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another sweep than that of the run, as far as their
+    /// groups differ in number or size. The error of the first group that has one: it is not finished, all
+    /// others are.
+    pub fn advance(&mut self, sweep: &MotorSweep, observer: &dyn Observer) -> Result<(), Error> {
+        self.advance_recording(sweep, observer, &|_, _| {})
+    }
+
+    /// [`Self::advance`] which tells the operations of each group as soon as it is finished: for those who store them.
+    /// `record` is given the index of the group; it is called by the threads that do the work, several at a time and in no
+    /// certain order.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`].
+    pub fn advance_recording(
+        &mut self,
+        sweep: &MotorSweep,
+        observer: &dyn Observer,
+        record: &(dyn Fn(usize, &[Operation]) + Sync),
+    ) -> Result<(), Error> {
+        let open = self.open(sweep)?;
+        let done: usize = self.groups.iter().map(|(_, cells)| cells.len()).sum();
+        let watch = Watch::begin(observer, done as u64, sweep.cells() as u64)?;
+        let next = AtomicUsize::new(0);
+        let worker = || {
+            let mut outcomes = Vec::new();
+            while !watch.is_stopped()
+                && let Some(&group) = open.get(next.fetch_add(1, Ordering::Relaxed))
+            {
+                let outcome = operations_of(sweep, group, &watch);
+                if let Ok(cells) = &outcome {
+                    record(group, cells);
+                    watch.finish(cells.len() as u64);
+                }
+                outcomes.push((group, outcome));
+            }
+            outcomes
+        };
+        let mut outcomes = workers(open.len(), sweep.settings().members, worker);
+        outcomes.sort_by_key(|(group, _)| *group);
+        let mut failure = None;
+        self.groups.extend(outcomes.into_iter().filter_map(|(group, outcome)| match outcome {
+            Ok(cells) => Some((group, cells)),
+            Err(error) => {
+                if !matches!(error, Error::Core(bouncing_disk_core::Error::Stopped { .. })) {
+                    failure.get_or_insert(error);
+                }
+                None
+            }
+        }));
+        match failure {
+            _ if self.is_done() => {
+                watch.end();
+                Ok(())
+            }
+            Some(error) if !watch.is_stopped() => Err(error),
+            _ => Err(self.stopped(sweep)),
+        }
+    }
+
+    /// The groups that are not finished, if all others are those of this sweep.
+    fn open(&self, sweep: &MotorSweep) -> Result<Vec<usize>, Error> {
+        let open = self.groups.open(sweep.groups().len())?;
+        for (group, cells) in self.groups.iter() {
+            let (found, expected) = (cells.len() as u64, sweep.groups()[group].len() as u64);
+            if found != expected {
+                let what = "cells of a group of a sweep";
+                return Err(bouncing_disk_core::Error::Unfitting { what, found, expected }.into());
+            }
+        }
+        Ok(open)
+    }
+
+    fn stopped(&self, sweep: &MotorSweep) -> Error {
+        let done: usize = self.groups.iter().map(|(_, cells)| cells.len()).sum();
+        bouncing_disk_core::Error::Stopped { done: done as u64, total: sweep.cells() as u64 }.into()
+    }
+
+    /// The operations of the groups, as far as they are finished, in the order of [`MotorSweep::groups`].
+    #[must_use]
+    pub const fn groups(&self) -> &PartialResults<Vec<Operation>> {
+        &self.groups
+    }
+
+    /// Whether all groups are finished.
+    #[must_use]
+    pub const fn is_done(&self) -> bool {
+        self.groups.is_done()
+    }
+
+    /// The operation of each cell, row by row; `None` where it is not finished.
+    ///
+    /// # Errors
+    /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) for another sweep than that of the run.
+    pub fn cells(&self, sweep: &MotorSweep) -> Result<Vec<Option<Operation>>, Error> {
+        self.open(sweep)?;
+        let mut all = vec![None; sweep.cells()];
+        for (group, operations) in self.groups.iter() {
+            for (&cell, operation) in sweep.groups()[group].iter().zip(operations) {
+                all[cell] = Some(*operation);
+            }
+        }
+        Ok(all)
+    }
+
+    /// The result of the sweep.
+    ///
+    /// # Errors
+    /// Those of [`Self::cells`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if a group is not
+    /// finished: [`Self::is_done`] tells before.
+    pub fn into_result(self, sweep: &MotorSweep) -> Result<MotorSweepResult, Error> {
+        let cells: Option<Vec<Operation>> = self.cells(sweep)?.into_iter().collect();
+        Ok(MotorSweepResult::of(sweep, cells.ok_or_else(|| self.stopped(sweep))?))
+    }
+}
+
+/// What became of a group.
+type Outcome = (usize, Result<Vec<Operation>, Error>);
+
+fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<Operation>, Error> {
+    let sheet = sweep.motor().parameters();
+    let cells = sweep.groups()[group].iter();
+    let motors = cells
+        .map(|&cell| sheet_of_cell(sheet, sweep.axes(), cell).build())
+        .collect::<Result<Vec<_>, Error>>()?;
+    let ask = |_: Progress| match watch.ask() {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
+    };
+    operations_observed(&motors, sweep.settings(), &ask)
+}
+
+/// Groups under way for each thread that their members alone would leave idle: members end at different times.
+#[cfg(feature = "parallel")]
+const GROUPS_PER_SHARE: usize = 4;
+
+/// The outcomes of as many workers as keep the threads busy. The members of a group are spread over the threads
+/// themselves; the fewer groups are under way, the less is lost by a stop.
+#[cfg(feature = "parallel")]
+fn workers(groups: usize, members: usize, work: impl Fn() -> Vec<Outcome> + Sync) -> Vec<Outcome> {
+    use rayon::prelude::*;
+    let threads = rayon::current_num_threads();
+    let workers = (GROUPS_PER_SHARE * threads).div_ceil(members).min(threads).min(groups);
+    (0..workers).into_par_iter().with_max_len(1).flat_map_iter(|_| work()).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn workers(_: usize, _: usize, work: impl Fn() -> Vec<Outcome>) -> Vec<Outcome> {
+    work()
+}

@@ -1,0 +1,298 @@
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use bouncing_disk_core::Progress;
+
+use super::quantity::SweepQuantity;
+use super::*;
+use crate::{MAX_SWEEP_CELLS, Operation, operations};
+
+/// Little is asked for, so that much can be tried.
+pub(crate) fn rough() -> OperatingSettings {
+    OperatingSettings {
+        relative_error: 0.2,
+        members: 4,
+        most_impacts: 100_000,
+        ..OperatingSettings::default()
+    }
+}
+
+fn axis(parameter: MotorField, values: &[f64]) -> SweepAxis {
+    SweepAxis::new(parameter, values.to_vec())
+}
+
+fn sweep(axes: &[SweepAxis]) -> Result<MotorSweep, Error> {
+    MotorSweep::new(Motor::paper_70_khz(), axes.to_vec(), rough())
+}
+
+fn result(axes: &[SweepAxis]) -> MotorSweepResult {
+    sweep(axes).and_then(|sweep| sweep.run()).expect("no failure")
+}
+
+/// Shares of the largest torque; the last two overpower the motor.
+fn loads(shares: &[f64]) -> SweepAxis {
+    let largest = Motor::paper_70_khz().largest_torque();
+    SweepAxis::new(MotorField::LoadTorque, shares.iter().map(|share| share * largest).collect())
+}
+
+/// Six groups, one of a motor that never bounces; all states but a drift occur.
+pub(crate) fn mixed() -> MotorSweep {
+    let amplitudes = [1e-8, 0.0, 1.5e-8, 1e-8, 2e-8, 4e-11, 3e-8];
+    sweep(&[axis(MotorField::Amplitude, &amplitudes), loads(&[0.0, 0.5, 1.2])]).expect("legal")
+}
+
+/// Each row of a map of amplitude and load is the torque-speed curve of its amplitude, wherever the load's axis is.
+#[test]
+fn the_rows_of_a_map_are_curves() {
+    let (amplitudes, shares) = ([1e-8, 1.7e-8], [0.0, 0.3, 0.6, -0.2, 1.1]);
+    let load = loads(&shares);
+    let by_rows = result(&[axis(MotorField::Amplitude, &amplitudes), load.clone()]);
+    let by_columns = result(&[load.clone(), axis(MotorField::Amplitude, &amplitudes)]);
+    assert_eq!((by_rows.rows().count(), by_columns.rows().count()), (2, 5));
+    for (row, amplitude) in amplitudes.into_iter().enumerate() {
+        let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = amplitude).expect("legal");
+        let curve = motor.torque_speed_curve(&load.values, &rough()).expect("no failure");
+        assert_eq!(by_rows.rows().nth(row), Some(&curve[..]));
+        let column: Vec<Operation> = by_columns.rows().map(|cells| cells[row]).collect();
+        assert_eq!(column, curve);
+    }
+    assert_ne!(by_rows.cells()[0], by_rows.cells()[5]);
+    let speeds = by_rows.matrix(SweepQuantity::Speed);
+    assert_eq!(speeds[1][4], None);
+    let (matrix, errors) =
+        (by_columns.matrix(SweepQuantity::Speed), by_columns.error_matrix(SweepQuantity::Speed));
+    for (row, speeds) in speeds.iter().enumerate() {
+        for (column, speed) in speeds.iter().enumerate() {
+            assert_eq!(matrix[column][row].map(f64::to_bits), speed.map(f64::to_bits));
+            assert_eq!(errors[column][row].is_some(), speed.is_some());
+        }
+    }
+}
+
+/// Where everything shares one motion, a map is one call for all of its motors.
+#[test]
+fn a_map_of_one_motion_is_one_group() {
+    let axes = [axis(MotorField::PhaseLag, &[0.0, 0.4, 3.5]), axis(MotorField::Friction, &[0.05, 0.1, 0.0])];
+    let sweep = sweep(&axes).expect("legal");
+    assert_eq!(sweep.groups(), [(0..9).collect::<Vec<_>>()]);
+    let motors: Vec<Motor> = (0..9).map(|cell| sweep.motor_of(cell).expect("legal")).collect();
+    let (fifth, last) = (motors[5].parameters(), motors[8].parameters());
+    assert_eq!((fifth.phase_lag, fifth.friction, last.phase_lag, last.friction), (0.4, 0.0, 3.5, 0.0));
+    let result = sweep.run().expect("no failure");
+    assert_eq!(result.cells(), operations(&motors, &rough()).expect("no failure"));
+    for ((values, _), motor) in result.iter().zip(&motors) {
+        let sheet = motor.parameters();
+        assert_eq!(values, [(MotorField::PhaseLag, sheet.phase_lag), (MotorField::Friction, sheet.friction)]);
+    }
+    let error = sweep.motor_of(9).expect_err("there are nine");
+    assert!(matches!(error, Error::OutOfRange { field: "cell of a sweep", .. }), "{error}");
+}
+
+#[test]
+fn values_may_be_few_alike_unsorted_and_extreme() {
+    let one = result(&[axis(MotorField::Amplitude, &[1e-8])]);
+    assert_eq!((one.cells().len(), one.matrix(SweepQuantity::Efficiency).len()), (1, 1));
+    let alone = Motor::paper_70_khz().operating_point(0.0, &rough()).expect("no failure");
+    assert_eq!(one.cells(), [alone]);
+    let values = [2e-8, 1e-8, 2e-8, 0.0, -0.0, 5e-324];
+    let many = result(&[axis(MotorField::Amplitude, &values)]);
+    assert_eq!(many.cells()[0], many.cells()[2]);
+    assert_eq!(many.cells()[1], alone);
+    assert!(many.matrix(SweepQuantity::Speed).iter().flatten().all(Option::is_some));
+    // The sign of nothing makes no other motion.
+    assert_eq!(many.cells()[3], many.cells()[4]);
+}
+
+#[test]
+fn axes_that_are_none_are_refused_with_the_reason() {
+    use MotorField::*;
+    let refused = |axes: &[SweepAxis]| sweep(axes).expect_err("refused");
+    for count in [0, 3] {
+        let axes = [Friction, PhaseLag, Restitution].map(|field| axis(field, &[0.1]));
+        let error = refused(&axes[..count]);
+        assert!(matches!(error, Error::OutOfRange { field: "number of axes of a sweep", .. }), "{error}");
+    }
+    assert_eq!(refused(&[axis(Mass, &[])]), Error::EmptyAxis { parameter: "mass" });
+    assert_eq!(
+        refused(&[axis(Mass, &[1.0]), axis(Friction, &[])]),
+        Error::EmptyAxis { parameter: "friction" }
+    );
+    assert_eq!(refused(&[axis(Mass, &[1.0]), axis(Mass, &[2.0])]), Error::RepeatedAxis { parameter: "mass" });
+    for (one, other) in
+        [(PreloadForce, PreloadAcceleration), (TwistAmplitude, PeakAngularSpeed), (Mass, Density)]
+    {
+        for (one, other) in [(one, other), (other, one)] {
+            let both = Error::BothGiven { one: one.name(), other: other.name() };
+            assert_eq!(refused(&[axis(one, &[1.0]), axis(other, &[1.0])]), both);
+        }
+    }
+    let both = Error::BothGiven { one: "rotor_thickness", other: "mass" };
+    assert_eq!(refused(&[axis(RotorThickness, &[0.01]), axis(Mass, &[1.0])]), both);
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let error = refused(&[axis(LoadTorque, &[0.0, value])]);
+        assert!(matches!(error, Error::OutOfRange { field: "load_torque", .. }), "{error}");
+    }
+    for (field, value) in [(Friction, -0.1), (Restitution, 1.0), (PreloadForce, 0.0), (Mass, -1e-3)] {
+        let error = refused(&[axis(PhaseLag, &[0.0, 1.0]), axis(field, &[0.2, value])]);
+        let Error::OutOfRange { field: named, value: shown, .. } = error else { panic!("{error}") };
+        assert_eq!((named, shown.to_bits()), (field.name(), value.to_bits()));
+    }
+    // What a value needs beside itself is named, too.
+    assert_eq!(refused(&[axis(Density, &[7850.0])]), Error::NotGiven { field: "rotor_radius" });
+    let settings = OperatingSettings { members: 1, ..rough() };
+    let error = MotorSweep::new(Motor::paper_70_khz(), vec![axis(Friction, &[0.1])], settings);
+    assert!(matches!(error, Err(Error::OutOfRange { field: "members", .. })));
+}
+
+#[test]
+fn there_may_be_so_many_cells_and_no_more() {
+    let values = vec![0.1; MAX_SWEEP_CELLS];
+    let many = sweep(&[axis(MotorField::PhaseLag, &values)]).expect("just as many as there may be");
+    assert_eq!(many.groups().len(), MAX_SWEEP_CELLS.div_ceil(256));
+    let too_many = |axes: &[SweepAxis], cells: u64| {
+        let (what, limit) = ("cells of a sweep", MAX_SWEEP_CELLS as u64);
+        let error = bouncing_disk_core::Error::TooLarge { what, count: cells, limit };
+        assert_eq!(sweep(axes), Err(Error::Core(error)));
+    };
+    let one_more: Vec<f64> = values.iter().copied().chain([0.1]).collect();
+    too_many(&[axis(MotorField::PhaseLag, &one_more)], 100_001);
+    too_many(&[axis(MotorField::PhaseLag, &values), axis(MotorField::Friction, &values)], 10_000_000_000);
+}
+
+#[test]
+fn an_alternative_takes_the_place_of_the_other_one() {
+    let motor = Motor::paper_70_khz();
+    let force = motor.preload_force();
+    let sweep = sweep(&[axis(MotorField::PreloadForce, &[force, 2.0 * force])]).expect("legal");
+    assert_eq!(sweep.replaced(), [MotorField::PreloadAcceleration]);
+    let second = sweep.motor_of(1).expect("legal");
+    assert_eq!(second.parameters().preload_acceleration, None);
+    assert!((second.preload_acceleration() / motor.preload_acceleration() - 2.0).abs() < 1e-15);
+    // The motor itself stays what it is, and what it has already is not replaced.
+    assert_eq!(*sweep.motor(), motor);
+    let own = MotorSweep::new(motor, vec![axis(MotorField::PreloadAcceleration, &[9.8])], rough());
+    assert_eq!(own.expect("legal").replaced(), []);
+}
+
+/// An observer that breaks at its call of this number.
+fn stop_at(calls: &AtomicUsize, call: usize) -> impl Fn(Progress) -> ControlFlow<()> + Sync {
+    move |_: Progress| {
+        let early = calls.fetch_add(1, Ordering::Relaxed) < call;
+        if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+#[test]
+fn threads_and_stops_change_no_bit() {
+    let sweep = mixed();
+    assert_eq!(sweep.groups().len(), 6);
+    let at_once = sweep.run().expect("no failure");
+    for threads in [1, 2, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+        assert!(pool.install(|| sweep.run()).expect("no failure") == at_once, "{threads} threads");
+        let mut run = MotorSweepRun::new(&sweep);
+        let mut kept = Vec::new();
+        for stops in 0.. {
+            let calls = AtomicUsize::new(0);
+            let outcome = pool.install(|| run.advance(&sweep, &stop_at(&calls, (1 << stops) - 1)));
+            let cells = run.cells(&sweep).expect("of this sweep");
+            let done = cells.iter().flatten().count() as u64;
+            kept.push(done);
+            match outcome {
+                Ok(()) => break,
+                Err(error) => {
+                    let total = sweep.cells() as u64;
+                    assert_eq!(error, Error::Core(bouncing_disk_core::Error::Stopped { done, total }));
+                    assert_eq!(run.clone().into_result(&sweep), Err(error));
+                }
+            }
+            #[cfg(feature = "json")]
+            {
+                let text = serde_json::to_string(&run).expect("writes");
+                run = serde_json::from_str(&text).expect("reads");
+            }
+        }
+        // It was stopped before anything was finished, and in between.
+        assert!(kept[0] == 0 && kept.iter().any(|&done| 0 < done && done < 21), "{threads}: {kept:?}");
+        assert!(run.into_result(&sweep).expect("done") == at_once, "{threads} threads, in parts");
+    }
+}
+
+#[test]
+fn the_observer_counts_cells() {
+    let sweep = mixed();
+    let most = AtomicUsize::new(0);
+    let observer = |progress: Progress| {
+        assert_eq!(progress.total, 21);
+        most.fetch_max(progress.done as usize, Ordering::Relaxed);
+        ControlFlow::Continue(())
+    };
+    sweep.run_observed(&observer).expect("nobody stops it");
+    assert_eq!(most.into_inner(), 21);
+    let stopped = sweep.run_observed(&|_: Progress| ControlFlow::Break(()));
+    let error = bouncing_disk_core::Error::Stopped { done: 0, total: 21 };
+    assert_eq!(stopped, Err(Error::Core(error)));
+}
+
+/// A motor whose flights are too long to be followed takes no other with it.
+#[test]
+fn a_group_that_fails_leaves_the_others() {
+    let motor = Motor::paper_70_khz().with(|sheet| sheet.restitution = 0.99).expect("legal");
+    let axes = vec![axis(MotorField::Amplitude, &[1e-8, 5e-3, 2e-8, 4.9e-3])];
+    let sweep = MotorSweep::new(motor, axes, rough()).expect("legal");
+    let mut run = MotorSweepRun::new(&sweep);
+    let alone = |cell: usize| sweep.motor_of(cell).expect("legal").operating_point(0.0, &rough());
+    let failure = alone(1).expect_err("too violent");
+    let too_long =
+        |error: &Error| matches!(error, Error::Core(bouncing_disk_core::Error::FlightTooLong { .. }));
+    assert!(too_long(&failure), "{failure}");
+    assert!(alone(3).is_err_and(|error| too_long(&error) && error != failure));
+    for _ in 0..2 {
+        assert_eq!(run.advance(&sweep, &Unobserved), Err(failure));
+        let cells = run.cells(&sweep).expect("of this sweep");
+        assert_eq!(cells, [alone(0).ok(), None, alone(2).ok(), None]);
+    }
+    assert_eq!(sweep.run(), Err(failure));
+}
+
+#[test]
+fn a_run_of_another_sweep_is_refused() {
+    let (one, other) = (mixed(), sweep(&[axis(MotorField::Friction, &[0.1])]).expect("legal"));
+    let unfitting =
+        |what, found, expected| Error::Core(bouncing_disk_core::Error::Unfitting { what, found, expected });
+    let mut run = MotorSweepRun::new(&one);
+    assert_eq!(run.advance(&other, &Unobserved), Err(unfitting("items of a run", 1, 6)));
+    // As many groups, of another size.
+    let mut finished = bouncing_disk_core::PartialResults::new(1);
+    finished.extend([(0, Vec::new())]);
+    let mut run = MotorSweepRun::from(finished);
+    let wrong = unfitting("cells of a group of a sweep", 0, 1);
+    assert_eq!(run.advance(&other, &Unobserved), Err(wrong));
+    assert_eq!(run.into_result(&other), Err(wrong));
+}
+
+#[cfg(feature = "json")]
+#[test]
+fn what_is_stored_comes_back_and_what_is_not_legal_does_not() {
+    let sweep = mixed();
+    let text = serde_json::to_string(&sweep).expect("writes");
+    assert_eq!(serde_json::from_str::<MotorSweep>(&text).expect("legal"), sweep);
+    for (good, bad, complaint) in [
+        ("[1e-8,0.0,", "[1e-8,-1.0,", "amplitude = -1.0"),
+        ("\"load_torque\",", "\"amplitude\",", "two axes vary amplitude"),
+        ("\"parameter\":\"load_torque\"", "\"parameter\":\"load\"", "did you mean \"load_torque\"?"),
+        ("\"axes\"", "\"axis\"", "axis"),
+    ] {
+        assert!(text.contains(good), "{text}");
+        let error = serde_json::from_str::<MotorSweep>(&text.replacen(good, bad, 1)).expect_err(bad);
+        assert!(error.to_string().contains(complaint), "{error}");
+    }
+    let result = sweep.run().expect("no failure");
+    let text = serde_json::to_string(&result).expect("writes");
+    assert_eq!(serde_json::from_str::<MotorSweepResult>(&text).expect("legal"), result);
+    // A value more on an axis, and no cells for it.
+    let more = text.replacen("[1e-8,0.0,", "[1e-8,1e-8,0.0,", 1);
+    assert_ne!(more, text);
+    let error = serde_json::from_str::<MotorSweepResult>(&more).expect_err("cells are missing");
+    assert!(error.to_string().contains("cells of a sweep: 21 where 24 would be legal"), "{error}");
+}
