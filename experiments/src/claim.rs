@@ -642,6 +642,25 @@ mod tests {
     }
 
     #[test]
+    fn what_this_work_expects_of_itself_is_compared_with_all_digits_and_says_nothing_of_the_paper() {
+        let claim = |expected, tolerance, computed| {
+            Claim::expected("extra-fit", "this work", "speed", "rad/s", (expected, tolerance), computed)
+        };
+        let exact = claim(20.123_456_789, 1e-8, 20.123_456_785);
+        assert_eq!((exact.verdict(), exact.printed_text()), (Verdict::Reproduced, "20.1235"));
+        assert_eq!((exact.class(), exact.source()), (Class::ThisWork, &Source::Expected));
+        assert_eq!(claim(20.123_456_789, 1e-9, 20.123_456_785).verdict(), Verdict::Differs);
+        for (expected, tolerance, computed) in [
+            (f64::NAN, 1.0, 1.0),
+            (1.0, f64::NAN, 1.0),
+            (1.0, 1.0, f64::NAN),
+            (f64::INFINITY, 1.0, f64::INFINITY),
+        ] {
+            assert_eq!(claim(expected, tolerance, computed).verdict(), Verdict::Differs);
+        }
+    }
+
+    #[test]
     fn a_text_that_is_no_number_differs() {
         let claim = Claim::number("fig06", "caption", "ratio", "", "about five", 5.0);
         assert_eq!(claim.verdict(), Verdict::Differs);

@@ -554,6 +554,33 @@ mod tests {
     }
 
     #[test]
+    fn what_is_beyond_the_paper_stands_behind_it_and_is_not_counted_with_it() {
+        let section = |id: &str| Section {
+            id: id.to_owned(),
+            title: "A title".to_owned(),
+            caption: String::new(),
+            parameters: Vec::new(),
+            claims: vec![Claim::expected(id, "this work", "speed", "rad/s", (2.0, 0.1), 2.05)],
+            quality: Quality::Draft,
+            run_time_s: 0.1,
+            warnings: Vec::new(),
+            outdated: false,
+            has_table: false,
+            width: None,
+        };
+        let page = |ids: &[&str]| {
+            html(&provenance::new(provenance::GALLERY), &ids.iter().map(|id| section(id)).collect::<Vec<_>>())
+        };
+        let both = page(&["extra-fit", "fig06"]);
+        let place = |text: &str| both.find(text).unwrap_or_else(|| panic!("{text} in {both}"));
+        assert!(place("<section id=\"fig06\"") < place("<h2 id=\"beyond\""));
+        assert!(place("<h2 id=\"beyond\"") < place("<section id=\"extra-fit\""));
+        assert!(both.contains("1 figures and tables, and 1 <a href=\"#beyond\">beyond the paper</a>"));
+        assert!(both.contains("Expected against computed") && both.contains("Printed against computed"));
+        assert!(!page(&["fig06"]).contains("beyond"));
+    }
+
+    #[test]
     fn the_page_needs_nothing_from_outside() {
         let section = Section {
             id: "fig06".to_owned(),

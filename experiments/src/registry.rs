@@ -2,7 +2,8 @@
 
 use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
-    extra_design, extra_efficiency, extra_fit, extra_restitution_law, extra_torque_speed, extra_traps, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
+    extra_design, extra_efficiency, extra_fit, extra_restitution_law, extra_torque_speed, extra_traps, fig01,
+    fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3,
 };
 use crate::measured::Layout;
@@ -147,7 +148,10 @@ mod tests {
         assert!(!ids.is_empty());
         for id in ids {
             let words = id.strip_prefix(EXTRA).expect("the prefix");
-            assert!(words.split('-').all(|word| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase())), "{id}");
+            assert!(
+                words.split('-').all(|word| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase())),
+                "{id}"
+            );
         }
     }
 

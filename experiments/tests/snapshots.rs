@@ -31,8 +31,29 @@ macro_rules! snapshots {
 }
 
 snapshots![
-    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
-    table2, table3, extra_torque_speed, extra_efficiency, extra_restitution_law, extra_traps, extra_fit, extra_design,
+    fig01,
+    fig02,
+    fig03,
+    fig04,
+    fig05,
+    fig06,
+    fig07,
+    fig08,
+    fig09,
+    fig10,
+    fig11,
+    fig12,
+    fig13,
+    fig14,
+    table1,
+    table2,
+    table3,
+    extra_torque_speed,
+    extra_efficiency,
+    extra_restitution_law,
+    extra_traps,
+    extra_fit,
+    extra_design,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

@@ -32,7 +32,10 @@ impl Experiment for ExtraRestitutionLaw {
         data.caption()
     }
 
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraRestitutionLawData, ExperimentError> {
+    fn compute(
+        quality: Quality,
+        progress: &dyn Progress,
+    ) -> Result<ExtraRestitutionLawData, ExperimentError> {
         compute::compute(quality, progress)
     }
 

@@ -1,6 +1,6 @@
 //! A motor's steady operation against its load, as data of a figure.
 
-use bouncing_disk::{Estimate, Motor, Operation, OperatingPoint, OperatingSettings};
+use bouncing_disk::{Estimate, Motor, OperatingPoint, OperatingSettings, Operation};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
@@ -136,9 +136,8 @@ mod tests {
 
     #[test]
     fn the_top_of_a_parabola_is_found_and_a_valley_has_none() {
-        let points: Vec<_> = [0.1, 0.17, 0.3, 0.36, 0.5]
-            .map(|x: f64| (x, 2.0 - 5.0 * (x - 0.32) * (x - 0.32)))
-            .to_vec();
+        let points: Vec<_> =
+            [0.1, 0.17, 0.3, 0.36, 0.5].map(|x: f64| (x, 2.0 - 5.0 * (x - 0.32) * (x - 0.32))).to_vec();
         let (x, y) = top(&points).expect("a top");
         assert!((x - 0.32).abs() < 1e-13 && (y - 2.0).abs() < 1e-13, "{x} {y}");
         let valley: Vec<_> = points.iter().map(|(x, y)| (*x, -y)).collect();

@@ -2,6 +2,7 @@
 
 use super::data::ExtraDesignData;
 use crate::claim::{self, Claim};
+use crate::figures::samples::six_decimals;
 
 const ID: &str = "extra-design";
 const PLACE: &str = "this work";
@@ -10,7 +11,8 @@ pub(super) fn claims(data: &ExtraDesignData) -> Vec<Claim> {
     let best = &data.at_table_one;
     let certificate = best.certificate;
     let points = || data.curves.iter().flat_map(|curve| &curve.points);
-    let worst = points().map(|point| point.design.certificate.hidden_gain / point.design.value).fold(0.0, f64::max);
+    let worst =
+        points().map(|point| point.design.certificate.hidden_gain / point.design.value).fold(0.0, f64::max);
     let limited = data.curves.iter().filter_map(|curve| curve.highest_flight_m.map(|height| (height, curve)));
     let heights = limited.flat_map(|(height, curve)| {
         curve.points.iter().map(move |point| point.design.flight_height - height)
@@ -44,7 +46,8 @@ pub(super) fn claims(data: &ExtraDesignData) -> Vec<Claim> {
                 best.value,
                 data.table_one_speed_rad_per_s,
                 best.hand.amplitude_angle,
-                best.hand.phase_lag,
+                // Without the sign of what is zero but for rounding.
+                six_decimals(best.hand.phase_lag) + 0.0,
                 data.table_one.amplitude_angle,
                 data.table_one.phase_lag,
             ),
@@ -61,11 +64,17 @@ pub(super) fn claims(data: &ExtraDesignData) -> Vec<Claim> {
             PLACE,
             "a lower limit of height never gives more speed",
             claim::all(data.curves.windows(2), |pair| {
-                pair[0].points.iter().zip(&pair[1].points).all(|(free, limited)| {
-                    limited.design.value <= free.design.value * (1.0 + 1e-6)
-                })
+                pair[0]
+                    .points
+                    .iter()
+                    .zip(&pair[1].points)
+                    .all(|(free, limited)| limited.design.value <= free.design.value * (1.0 + 1e-6))
             }),
-            format!("{} frequencies; what may hide between the points of the grids is at most {:.2} %", data.curves.first().map_or(0, |curve| curve.points.len()), 100.0 * worst),
+            format!(
+                "{} frequencies; what may hide between the points of the grids is at most {:.2} %",
+                data.curves.first().map_or(0, |curve| curve.points.len()),
+                100.0 * worst
+            ),
         ),
     ]
 }

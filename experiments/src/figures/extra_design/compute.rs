@@ -3,8 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::{
-    InitialSpin, Platform, Stroke, System, TossConstraints, TossDesign, TossHalfUnits, best_toss,
-    single_toss,
+    InitialSpin, Platform, Stroke, System, TossConstraints, TossDesign, TossHalfUnits, best_toss, single_toss,
 };
 use rayon::prelude::*;
 
@@ -36,10 +35,7 @@ const HALF_UNITS: TossHalfUnits = TossHalfUnits {
     preload_acceleration: 0.0,
 };
 
-pub(super) fn compute(
-    quality: Quality,
-    progress: &dyn Progress,
-) -> Result<ExtraDesignData, ExperimentError> {
+pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraDesignData, ExperimentError> {
     let table = TossConstraints::pizza_toss();
     let count = quality.choose(9, 41);
     let frequencies: Vec<f64> = (0..count)

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter,
+    Ticks,
 };
 
 use super::data::{Best, Curve, ExtraDesignData};
@@ -41,9 +42,8 @@ pub(super) fn draw(data: &ExtraDesignData) -> Figure {
         .opacity(0.15)
     });
     let named = data.curves.iter().zip(STYLES).map(|(curve, style)| {
-        let name = curve
-            .highest_flight_m
-            .map_or("any height".to_owned(), |height| format!("at most {height} m"));
+        let name =
+            curve.highest_flight_m.map_or("any height".to_owned(), |height| format!("at most {height} m"));
         line(curve, style, |point| point.design.value).name(name)
     });
     let plain = |of: fn(&Best) -> f64| -> Vec<Line> {
@@ -56,7 +56,7 @@ pub(super) fn draw(data: &ExtraDesignData) -> Figure {
         .layers(bands)
         .layers(named)
         .layer(circle(data.table_one_worst_rad_per_s).name("Table I"))
-        .legend(Legend::at(Corner::TopLeft));
+        .legend(Legend::at(Corner::BottomRight));
     let angles = Panel::new(upper)
         .x(frequencies().without_numbers())
         .y(Axis::linear(0.0, 0.5).label(r"$\phi_L/\pi$").ticks(Ticks::every(0.25).minor(5)))

@@ -37,7 +37,8 @@ pub(super) fn claims(data: &ExtraEfficiencyData) -> Vec<Claim> {
         let spent = point.mechanical_power.value + point.restitution_loss.value + point.friction_loss.value;
         (spent / (point.input_power.value + point.perturbation_power) - 1.0).abs() < 1e-2
     });
-    let worst_mirror = data.mirrored.iter().map(|[one, other]| (one.value + other.value).abs()).fold(0.0, f64::max);
+    let worst_mirror =
+        data.mirrored.iter().map(|[one, other]| (one.value + other.value).abs()).fold(0.0, f64::max);
     vec![
         Claim::expected(
             ID,

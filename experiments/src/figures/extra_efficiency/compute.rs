@@ -120,10 +120,8 @@ fn best(
 /// Speeds without load at some lags and half a circle away from them.
 fn mirrored(motor: &Motor, settings: &OperatingSettings) -> Result<Vec<[Estimate; 2]>, ExperimentError> {
     let lags = (0..MIRRORED).map(|k| PI * k as f64 / MIRRORED as f64);
-    let motors = lags
-        .flat_map(|lag| [lag, lag + PI])
-        .map(|lag| at(motor, lag, 0.0))
-        .collect::<Result<Vec<_>, _>>()?;
+    let motors =
+        lags.flat_map(|lag| [lag, lag + PI]).map(|lag| at(motor, lag, 0.0)).collect::<Result<Vec<_>, _>>()?;
     let speeds: Vec<Estimate> = operations(&motors, settings)?
         .iter()
         .filter_map(|operation| operation.point().map(|point| point.speed))

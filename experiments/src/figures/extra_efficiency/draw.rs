@@ -76,13 +76,16 @@ fn map(data: &ExtraEfficiencyData, area: Rect, levels: usize) -> Panel {
     let x_ends = (lag(0), lag(columns - 1));
     let last = data.load_shares.last().copied().unwrap_or(1.0);
     Panel::new(area)
-        .x(Axis::linear(x_ends.0, x_ends.1).label(r"phase lag $\theta/\pi$").ticks(Ticks::every(0.2).minor(2)))
+        .x(Axis::linear(x_ends.0, x_ends.1)
+            .label(r"phase lag $\theta/\pi$")
+            .ticks(Ticks::every(0.2).minor(2)))
         .y(Axis::linear(0.0, last).label(r"load $T/(\mu m g a_e)$").ticks(Ticks::every(0.2).minor(4)))
         .letter_in("a", Corner::TopRight)
         .layer(Raster::new(wide, high, cells, &palette(levels), x_ends, (0.0, last)))
-        .layer(Rule::vertical(data.motor.parameters().phase_lag / PI).stroke(
-            Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::Dotted),
-        ))
+        .layer(
+            Rule::vertical(data.motor.parameters().phase_lag / PI)
+                .stroke(Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::Dotted)),
+        )
         .layer(Line::new(stall_line(data)).width(0.9))
         .layer(
             Scatter::new([(data.best.phase_lag_rad / PI, data.best.load_share)])
@@ -91,7 +94,9 @@ fn map(data: &ExtraEfficiencyData, area: Rect, levels: usize) -> Panel {
                 .size(7.0)
                 .width(1.4),
         )
-        .layer(Text::at_axes(0.5, 0.93, "driven back").anchor(Anchor::Centre).size(8.0).halo(Colour::PALE_GREY))
+        .layer(
+            Text::at_axes(0.5, 0.93, "driven back").anchor(Anchor::Centre).size(8.0).halo(Colour::PALE_GREY),
+        )
 }
 
 /// Lag over π and load at which the speed passes zero, on the straight line between two loads.
@@ -146,9 +151,8 @@ fn shares(data: &ExtraEfficiencyData, area: Rect) -> Panel {
         Line::new(driving.iter().map(|(load, parts)| (*load, of(parts))).collect::<Vec<_>>()).width(0.7)
     };
     let middle = driving.get(driving.len() / 2).map_or([0.3; 3], |(_, parts)| *parts);
-    let label = |height: f64, words: &str| {
-        Text::at_data(0.5 * last, height, words).anchor(Anchor::Centre).size(8.5)
-    };
+    let label =
+        |height: f64, words: &str| Text::at_data(0.5 * last, height, words).anchor(Anchor::Centre).size(8.5);
     Panel::new(area)
         .x(Axis::linear(0.0, last).label(r"load $T/(\mu m g a_e)$").ticks(Ticks::every(0.2).minor(4)))
         .y(Axis::linear(0.0, 1.0).label("share of the energy put in").ticks(Ticks::every(0.2).minor(2)))

@@ -36,10 +36,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
     let mean = (0..times_s.len()).map(|k| members.iter().map(|member| member[k]).sum::<f64>() / count);
     let exponential = fit.exponential;
     let ramp = fit.ramp.map(|ramp| {
-        times_s
-            .iter()
-            .map(|time| ramp.steady_speed.value * (time / ramp.constant.value).min(1.0))
-            .collect()
+        times_s.iter().map(|time| ramp.steady_speed.value * (time / ramp.constant.value).min(1.0)).collect()
     });
     let durations = DURATIONS
         .into_iter()

@@ -1,8 +1,8 @@
 //! The drawing of the figure.
 
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Line, Marker, Panel, Rect, Rule, Scatter, Stroke,
-    Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Line, Marker, Panel, Rect, Rule, Scatter,
+    Stroke, Ticks,
 };
 
 use super::data::{Duration, ExtraFitData};
@@ -44,8 +44,7 @@ fn transient(data: &ExtraFitData, area: Rect) -> Panel {
         .layers(members)
         .layer(Line::new(curve(&data.exponential_rad_per_s)).colour(Colour::BLUE).width(1.1));
     if let Some(ramp) = &data.ramp_rad_per_s {
-        panel = panel
-            .layer(Line::new(curve(ramp)).colour(Colour::VERMILION).dash(Dash::Dashed).width(0.9));
+        panel = panel.layer(Line::new(curve(ramp)).colour(Colour::VERMILION).dash(Dash::Dashed).width(0.9));
     }
     panel.layer(Scatter::new(mean).size(2.6))
 }
@@ -61,10 +60,11 @@ fn intervals(data: &ExtraFitData, area: Rect) -> Panel {
         .iter()
         .filter_map(|duration| duration.time_constant_s.map(|interval| (duration.time_constants, interval)))
         .collect();
-    let refused =
-        data.durations.iter().filter(|duration| duration.time_constant_s.is_none()).map(|duration| {
-            (duration.time_constants, low + 0.1 * (high - low))
-        });
+    let refused = data
+        .durations
+        .iter()
+        .filter(|duration| duration.time_constant_s.is_none())
+        .map(|duration| (duration.time_constants, low + 0.1 * (high - low)));
     let bars = found.iter().flat_map(|(at, interval)| {
         let cap = 0.06;
         [
@@ -77,7 +77,10 @@ fn intervals(data: &ExtraFitData, area: Rect) -> Panel {
         .x(durations().without_numbers())
         .y(Axis::linear(low, high).label(r"$t_c$ (s)").ticks(Ticks::every(0.2).minor(2)))
         .letter_in("b", Corner::TopRight)
-        .layer(Rule::horizontal(data.time_constant_s).stroke(Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed)))
+        .layer(
+            Rule::horizontal(data.time_constant_s)
+                .stroke(Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed)),
+        )
         .layers(bars)
         .layer(Scatter::new(found.iter().map(|(at, interval)| (*at, interval.value))).size(4.0))
         .layer(Scatter::new(refused).marker(Marker::Cross).colour(Colour::VERMILION).size(5.0).width(1.0))
@@ -88,17 +91,13 @@ fn coverage(data: &ExtraFitData, area: Rect) -> Panel {
         data.durations
             .iter()
             .filter(|duration| 2 * duration.accepted > duration.tried)
-            .map(|duration| {
-                (duration.time_constants, of(duration) as f64 / duration.accepted as f64)
-            })
+            .map(|duration| (duration.time_constants, of(duration) as f64 / duration.accepted as f64))
             .collect()
     };
     let refused = data.durations.iter().map(|duration| {
         let (at, half) = (duration.time_constants, 0.12);
         let height = 1.0 - duration.accepted as f64 / duration.tried as f64;
-        Band::new([(at - half, 0.0, height), (at + half, 0.0, height)])
-            .colour(Colour::ORANGE)
-            .opacity(0.6)
+        Band::new([(at - half, 0.0, height), (at + half, 0.0, height)]).colour(Colour::ORANGE).opacity(0.6)
     });
     Panel::new(area)
         .x(durations().label(r"duration ($t_c$)"))
@@ -106,6 +105,11 @@ fn coverage(data: &ExtraFitData, area: Rect) -> Panel {
         .letter_in("c", Corner::BottomRight)
         .layers(refused)
         .layer(Rule::horizontal(0.95).stroke(Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed)))
-        .layer(Scatter::new(share(|duration| duration.speeds_covered)).marker(Marker::Square).colour(Colour::BLUE).size(5.0))
+        .layer(
+            Scatter::new(share(|duration| duration.speeds_covered))
+                .marker(Marker::Square)
+                .colour(Colour::BLUE)
+                .size(5.0),
+        )
         .layer(Scatter::new(share(|duration| duration.constants_covered)).size(3.6))
 }

@@ -132,10 +132,10 @@ fn monodromy<L: RestitutionLaw>(
     law: &L,
 ) -> Result<(f64, f64, f64), ExperimentError> {
     let start = period_one(axial_forcing, restitution)?;
-    let (impact, derivative) =
-        map(axial_forcing, law)?.step_with_derivative(start).map_err(core_error)?;
+    let (impact, derivative) = map(axial_forcing, law)?.step_with_derivative(start).map_err(core_error)?;
     let end = ImpactState::from(impact);
-    let off = (end.phase().angle() - start.phase().angle()).abs().max((end.velocity() - start.velocity()).abs());
+    let off =
+        (end.phase().angle() - start.phase().angle()).abs().max((end.velocity() - start.velocity()).abs());
     let trace = derivative.x_axis.x + derivative.y_axis.y;
     Ok((trace, derivative.determinant(), off))
 }

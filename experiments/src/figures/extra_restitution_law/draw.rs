@@ -1,8 +1,8 @@
 //! The drawing of the figure.
 
 use bouncing_disk_plot::{
-    Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
-    Panel, Rule, Scatter, Stroke, Text, Ticks,
+    Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line,
+    Margins, Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
 
 use super::data::{ExtraRestitutionLawData, Followed};
@@ -40,7 +40,9 @@ fn diagram(
     let dots: Vec<(f64, f64)> = followed
         .columns
         .iter()
-        .flat_map(|column| column.impact_phase_cycles.iter().map(|phase| (column.axial_forcing, shown(*phase))))
+        .flat_map(|column| {
+            column.impact_phase_cycles.iter().map(|phase| (column.axial_forcing, shown(*phase)))
+        })
         .collect();
     let doubling = Stroke::new(Colour::BLUE, 0.6).dashed(Dash::Dashed);
     let mut panel = panel

@@ -61,8 +61,9 @@ fn numbers(data: &ExtraTorqueSpeedData) -> Vec<Claim> {
     let power_allowed = tolerance(peaks.power_w.standard_error, spread(peaks.power_w.standard_error));
     let load_allowed =
         tolerance(peaks.load_torque_n_m.standard_error, spread(peaks.load_torque_n_m.standard_error));
-    let origin =
-        format!("expected: the mean of {seeds} curves with other seeds; three standard errors of the difference");
+    let origin = format!(
+        "expected: the mean of {seeds} curves with other seeds; three standard errors of the difference"
+    );
     claims.push(
         Claim::expected(
             ID,
@@ -116,7 +117,11 @@ fn statements(data: &ExtraTorqueSpeedData) -> Vec<Claim> {
             PLACE,
             "loads of μ m g a_e and above run away, and none on the curve does",
             claim::all(&data.overloads, |load| load.runs_away),
-            format!("{runaways} of {} overloads, {} points of the curve", data.overloads.len(), data.curve.points.len()),
+            format!(
+                "{runaways} of {} overloads, {} points of the curve",
+                data.overloads.len(),
+                data.curve.points.len()
+            ),
         ),
         Claim::statement(
             ID,

@@ -124,8 +124,7 @@ fn true_stall(
 fn transient(motor: &Motor, members: usize) -> Result<Transient, ExperimentError> {
     let system = motor.system();
     let duration_s = RISES * system.rise_time();
-    let settings =
-        TransientSettings { duration: duration_s, intervals: 240, ..TransientSettings::default() };
+    let settings = TransientSettings { duration: duration_s, intervals: 240, ..TransientSettings::default() };
     let runs = ensemble(system, &settings, members)?;
     let fit = TransientFit::new(&runs.curves, &FitSettings::default())?;
     let IntervalEstimate { value, low, high } = fit.stall_acceleration();

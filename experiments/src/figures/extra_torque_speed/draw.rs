@@ -50,7 +50,8 @@ fn speeds(data: &ExtraTorqueSpeedData, grid: &Grid) -> Panel {
     let fastest = points.iter().map(|point| point.speed.value).fold(0.0_f64, f64::max);
     let slowest = points.iter().map(|point| point.speed.value).fold(0.0_f64, f64::min);
     let (low, high) = (1.08 * slowest, 1.3 * fastest);
-    let y = Axis::linear(low, high).ticks(Ticks::every(5.0).minor(5)).label(r"mean speed $\dot{\alpha}$ (rad/s)");
+    let y =
+        Axis::linear(low, high).ticks(Ticks::every(5.0).minor(5)).label(r"mean speed $\dot{\alpha}$ (rad/s)");
     let curve = || points.iter().map(|point| (MICRO * point.load_torque, point.speed.value));
     let band = points.iter().map(|point| {
         let (load, half) = (MICRO * point.load_torque, BARS * point.speed.standard_error);
@@ -115,7 +116,13 @@ fn powers(data: &ExtraTorqueSpeedData, grid: &Grid) -> Panel {
     let peak = &data.drawn_peak;
     frame(data, grid, 1, y, (low, high))
         .layer(Band::new(band).colour(Colour::LIGHT_GREY).opacity(0.8))
-        .layer(Line::new(parabola).dash(Dash::Dashed).colour(Colour::GREY).width(0.7).name("of a straight speed line"))
+        .layer(
+            Line::new(parabola)
+                .dash(Dash::Dashed)
+                .colour(Colour::GREY)
+                .width(0.7)
+                .name("of a straight speed line"),
+        )
         .layer(Line::new(curve()).width(0.8))
         .layer(Scatter::new(curve()).size(2.6))
         .layer(

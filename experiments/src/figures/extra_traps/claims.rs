@@ -40,7 +40,11 @@ pub(super) fn claims(data: &ExtraTrapsData) -> Vec<Claim> {
         .judged_over(Agreement { holding: checked.agreeing, tried: checked.motors })
         .note(format!("{} of {} are traps", checked.trapped, checked.motors)),
     );
-    let most = data.share_of_fig11.iter().map(|share| share.trapped as f64 / share.motors as f64).fold(0.0, f64::max);
+    let most = data
+        .share_of_fig11
+        .iter()
+        .map(|share| share.trapped as f64 / share.motors as f64)
+        .fold(0.0, f64::max);
     claims.push(Claim::statement(
         ID,
         PLACE,

@@ -60,10 +60,7 @@ fn middles([from, to]: [f64; 2], count: usize) -> Vec<f64> {
 }
 
 /// Verdicts on a motor with the preloads that give these Γ.
-fn verdicts(
-    motor: &Motor,
-    forcings: impl Iterator<Item = f64>,
-) -> Result<Vec<TrapVerdict>, ExperimentError> {
+fn verdicts(motor: &Motor, forcings: impl Iterator<Item = f64>) -> Result<Vec<TrapVerdict>, ExperimentError> {
     let peak = motor.system().platform().peak_acceleration();
     let preloads: Vec<f64> = forcings.map(|forcing| peak / (PI * forcing)).collect();
     Ok(low_period_traps(motor, &preloads)?)

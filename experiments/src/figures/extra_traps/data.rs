@@ -72,8 +72,8 @@ pub(super) struct TrappedShare {
 
 impl ExtraTrapsData {
     pub(super) fn caption(&self) -> String {
-        let [from, to] =
-            [self.whole_forcings.first(), self.whole_forcings.last()].map(|end| end.copied().unwrap_or_default());
+        let [from, to] = [self.whole_forcings.first(), self.whole_forcings.last()]
+            .map(|end| end.copied().unwrap_or_default());
         let shares: Vec<String> = self
             .share_of_fig11
             .iter()
