@@ -150,7 +150,9 @@ impl CacheKey {
 fn key(id: &str, quality: Quality) -> String {
     let mut hasher = DefaultHasher::new();
     (id, quality.name(), SHARED).hash(&mut hasher);
-    match MODULES.iter().find(|(module, _)| *module == id) {
+    // A module cannot have the hyphens of an identifier.
+    let name = id.replace('-', "_");
+    match MODULES.iter().find(|(module, _)| *module == name) {
         Some((_, digest)) => digest.hash(&mut hasher),
         // Without a module of its own it may depend on any.
         None => MODULES.hash(&mut hasher),
@@ -212,5 +214,13 @@ mod tests {
     fn the_key_depends_on_figure_and_quality() {
         assert_ne!(key("demo", Quality::Draft), key("demo", Quality::Paper));
         assert_ne!(key("demo", Quality::Draft), key("other", Quality::Draft));
+    }
+
+    #[test]
+    fn every_experiment_has_a_module_by_its_name() {
+        for entry in crate::registry::all() {
+            let name = entry.id().replace('-', "_");
+            assert!(MODULES.iter().any(|(module, _)| *module == name), "{name}");
+        }
     }
 }

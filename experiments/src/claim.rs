@@ -184,6 +184,8 @@ pub enum Source {
     Entry(String),
     /// Another reading of an entry that is answered elsewhere.
     Reading(String),
+    /// Not printed: a number of this work, expected by another computation of it.
+    Expected,
 }
 
 impl Claim {
@@ -408,6 +410,30 @@ impl Claim {
         }
     }
 
+    /// A number of this work against what another computation of it expects, within a tolerance, all in `unit`. It says
+    /// nothing of the paper. A note should say where the expected number and the tolerance come from. A NaN or infinity on
+    /// either side differs from every number.
+    ///
+    /// The expected number is written with six digits and compared with all it has.
+    pub fn expected(
+        id: impl Into<String>,
+        place: impl Into<String>,
+        quantity: impl Into<String>,
+        unit: impl Into<String>,
+        (expected, tolerance): (f64, f64),
+        computed: f64,
+    ) -> Self {
+        let rounded = format!("{expected:.5e}").parse().unwrap_or(expected);
+        let printed = if rounded.is_finite() { format!("{rounded}") } else { "none".to_owned() };
+        let mut claim = Self::number(id, place, quantity, unit, printed, computed);
+        claim.printed_value = expected.is_finite().then_some(expected);
+        claim.source = Source::Expected;
+        claim.verdict = Verdict::Differs;
+        claim.tolerance = tolerance.is_finite().then_some(tolerance);
+        claim.compare();
+        claim
+    }
+
     /// A printed number or statement that cannot be computed from the paper's text, and why.
     pub(crate) fn not_computable(
         id: impl Into<String>,
@@ -613,6 +639,25 @@ mod tests {
         let names: Vec<_> =
             Class::ALL.iter().map(|class| serde_json::to_value(class).expect("a name")).collect();
         assert!(Class::ALL.iter().zip(names).all(|(class, name)| name == class.name()));
+    }
+
+    #[test]
+    fn what_this_work_expects_of_itself_is_compared_with_all_digits_and_says_nothing_of_the_paper() {
+        let claim = |expected, tolerance, computed| {
+            Claim::expected("extra-fit", "this work", "speed", "rad/s", (expected, tolerance), computed)
+        };
+        let exact = claim(20.123_456_789, 1e-8, 20.123_456_785);
+        assert_eq!((exact.verdict(), exact.printed_text()), (Verdict::Reproduced, "20.1235"));
+        assert_eq!((exact.class(), exact.source()), (Class::ThisWork, &Source::Expected));
+        assert_eq!(claim(20.123_456_789, 1e-9, 20.123_456_785).verdict(), Verdict::Differs);
+        for (expected, tolerance, computed) in [
+            (f64::NAN, 1.0, 1.0),
+            (1.0, f64::NAN, 1.0),
+            (1.0, 1.0, f64::NAN),
+            (f64::INFINITY, 1.0, f64::INFINITY),
+        ] {
+            assert_eq!(claim(expected, tolerance, computed).verdict(), Verdict::Differs);
+        }
     }
 
     #[test]

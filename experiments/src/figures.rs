@@ -1,6 +1,7 @@
-//! One module per figure or table of the paper, named as its identifier (`fig06`, `table2`).
+//! One module per figure or table of the paper, named as its identifier (`fig06`, `table2`), and one per figure beyond it,
+//! named with underscores (`extra_torque_speed`).
 //!
-//! A new module is declared here and listed once in [`crate::registry::all`].
+//! A new module is declared here and listed once in [`crate::registry::paper`] or [`crate::registry::extras`].
 
 mod alike;
 mod angle_grid;
@@ -8,6 +9,12 @@ pub mod braking_record;
 mod circular;
 mod cylinder;
 pub mod dough_record;
+pub mod extra_design;
+pub mod extra_efficiency;
+pub mod extra_fit;
+pub mod extra_restitution_law;
+pub mod extra_torque_speed;
+pub mod extra_traps;
 pub mod fig01;
 pub mod fig02;
 pub mod fig03;
@@ -25,6 +32,7 @@ pub mod fig14;
 mod hand_path;
 mod least_squares;
 mod motor_case;
+mod operating_curve;
 mod power_of_ten;
 mod printed_inputs;
 mod regression;

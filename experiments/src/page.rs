@@ -8,9 +8,16 @@ use crate::claim::{Claim, Class, Computed, Verdict};
 use crate::count::Counts;
 use crate::experiment::Quality;
 use crate::printed::is_multiple_of_pi;
+use crate::registry::is_extra;
 use crate::visible::visible;
 
 const STYLE: &str = include_str!("page.css");
+
+/// What comes before the figures that the paper does not have.
+const BEYOND: &str = "<h2 id=\"beyond\">Beyond the paper</h2>\n\
+    <p>Figures that the paper does not have, of what the same model says about loads, power, fits and designs. All their \
+    rows are of class <i>this work</i>: what is expected follows from another computation, and counts neither for nor \
+    against the paper.</p>\n";
 
 /// One figure of the gallery.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +60,14 @@ pub fn html(provenance: &Provenance, sections: &[Section]) -> String {
     );
     push_header(&mut page, sections);
     page.push_str("<main>\n");
-    for section in sections {
+    for section in sections.iter().filter(|section| !is_extra(&section.id)) {
+        push_section(&mut page, section);
+    }
+    let mut extras = sections.iter().filter(|section| is_extra(&section.id)).peekable();
+    if extras.peek().is_some() {
+        page.push_str(BEYOND);
+    }
+    for section in extras {
         push_section(&mut page, section);
     }
     page.push_str(
@@ -78,8 +92,12 @@ fn push_header(page: &mut String, sections: &[Section]) {
     );
     let _ = writeln!(
         page,
-        "<p>{} figures and tables. <b>{}</b> {}</p>",
-        sections.len(),
+        "<p>{} figures and tables{}. <b>{}</b> {}</p>",
+        sections.iter().filter(|section| !is_extra(&section.id)).count(),
+        match sections.iter().filter(|section| is_extra(&section.id)).count() {
+            0 => String::new(),
+            extras => format!(", and {extras} <a href=\"#beyond\">beyond the paper</a>"),
+        },
         escaped(&counts.headline()),
         escaped(&counts.beside())
     );
@@ -115,7 +133,7 @@ fn push_section(page: &mut String, section: &Section) {
         let _ = writeln!(page, "<p class=\"differs\">Measurements not shown: {}</p>", escaped(warning));
     }
     push_parameters(page, &section.parameters);
-    push_claims(page, &section.claims);
+    push_claims(page, &section.claims, is_extra(&section.id));
     let table =
         if section.has_table { format!(", <a href=\"{id}.csv\">table (CSV)</a>") } else { String::new() };
     let _ = writeln!(
@@ -138,13 +156,15 @@ fn push_parameters(page: &mut String, parameters: &[(String, String)]) {
     page.push_str("</tbody>\n</table>\n");
 }
 
-fn push_claims(page: &mut String, claims: &[Claim]) {
+fn push_claims(page: &mut String, claims: &[Claim], beyond_paper: bool) {
     if claims.is_empty() {
         return;
     }
-    page.push_str(
-        "<h3>Printed against computed</h3>\n<table class=\"claims\">\n<thead><tr><th>Place</th><th>Quantity</th>\
-         <th>Printed</th><th>Computed</th><th>Tolerance</th><th>Class</th><th>Verdict</th><th>Note</th></tr></thead>\n<tbody>\n",
+    let reference = if beyond_paper { "Expected" } else { "Printed" };
+    let _ = write!(
+        page,
+        "<h3>{reference} against computed</h3>\n<table class=\"claims\">\n<thead><tr><th>Place</th><th>Quantity</th>\
+         <th>{reference}</th><th>Computed</th><th>Tolerance</th><th>Class</th><th>Verdict</th><th>Note</th></tr></thead>\n<tbody>\n",
     );
     for claim in claims {
         let ClaimTexts { computed, printed, tolerance } = ClaimTexts::new(claim);
@@ -155,7 +175,7 @@ fn push_claims(page: &mut String, claims: &[Claim]) {
         let cells = [
             ("Place", "", claim.place()),
             ("Quantity", "", claim.quantity()),
-            ("Printed", "number", printed.as_str()),
+            (reference, "number", printed.as_str()),
             ("Computed", "number", computed.as_str()),
             ("Tolerance", "number", tolerance.as_str()),
             ("Class", "", class_words(claim.class())),
@@ -531,6 +551,33 @@ mod tests {
         assert_eq!(name("fig13"), "Fig. 13");
         assert_eq!(name("table3"), "Table III");
         assert_eq!(name("demo"), "demo");
+    }
+
+    #[test]
+    fn what_is_beyond_the_paper_stands_behind_it_and_is_not_counted_with_it() {
+        let section = |id: &str| Section {
+            id: id.to_owned(),
+            title: "A title".to_owned(),
+            caption: String::new(),
+            parameters: Vec::new(),
+            claims: vec![Claim::expected(id, "this work", "speed", "rad/s", (2.0, 0.1), 2.05)],
+            quality: Quality::Draft,
+            run_time_s: 0.1,
+            warnings: Vec::new(),
+            outdated: false,
+            has_table: false,
+            width: None,
+        };
+        let page = |ids: &[&str]| {
+            html(&provenance::new(provenance::GALLERY), &ids.iter().map(|id| section(id)).collect::<Vec<_>>())
+        };
+        let both = page(&["extra-fit", "fig06"]);
+        let place = |text: &str| both.find(text).unwrap_or_else(|| panic!("{text} in {both}"));
+        assert!(place("<section id=\"fig06\"") < place("<h2 id=\"beyond\""));
+        assert!(place("<h2 id=\"beyond\"") < place("<section id=\"extra-fit\""));
+        assert!(both.contains("1 figures and tables, and 1 <a href=\"#beyond\">beyond the paper</a>"));
+        assert!(both.contains("Expected against computed") && both.contains("Printed against computed"));
+        assert!(!page(&["fig06"]).contains("beyond"));
     }
 
     #[test]

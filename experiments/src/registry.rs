@@ -1,14 +1,15 @@
-//! The list of all experiments.
+//! The lists of all experiments: those of the paper, and those beyond it.
 
 use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
-    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
+    extra_design, extra_efficiency, extra_fit, extra_restitution_law, extra_torque_speed, extra_traps, fig01,
+    fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
     table2, table3,
 };
 use crate::measured::Layout;
 
-/// All experiments, in the order of the paper.
-pub fn all() -> Vec<Box<dyn RegisteredExperiment>> {
+/// The figures and tables of the paper, in its order.
+pub fn paper() -> Vec<Box<dyn RegisteredExperiment>> {
     // One line per module of `figures`: `entry::<fig06::Fig06>(),`
     vec![
         entry::<fig01::Fig01>(),
@@ -29,6 +30,32 @@ pub fn all() -> Vec<Box<dyn RegisteredExperiment>> {
         entry::<table2::Table2>(),
         entry::<table3::Table3>(),
     ]
+}
+
+/// What the identifiers of the figures beyond the paper begin with.
+const EXTRA: &str = "extra-";
+
+/// The figures beyond the paper, made only when they are asked for.
+pub fn extras() -> Vec<Box<dyn RegisteredExperiment>> {
+    // One line per module of `figures`, whose name has underscores where the identifier has hyphens.
+    vec![
+        entry::<extra_torque_speed::ExtraTorqueSpeed>(),
+        entry::<extra_efficiency::ExtraEfficiency>(),
+        entry::<extra_restitution_law::ExtraRestitutionLaw>(),
+        entry::<extra_traps::ExtraTraps>(),
+        entry::<extra_fit::ExtraFit>(),
+        entry::<extra_design::ExtraDesign>(),
+    ]
+}
+
+/// All experiments: those of the paper, and behind them those beyond it.
+pub fn all() -> Vec<Box<dyn RegisteredExperiment>> {
+    paper().into_iter().chain(extras()).collect()
+}
+
+/// Whether a figure is one beyond the paper, by its identifier.
+pub fn is_extra(id: &str) -> bool {
+    id.starts_with(EXTRA)
 }
 
 /// The files of measurements that all experiments together can show.
@@ -110,8 +137,22 @@ mod tests {
     fn every_figure_and_table_of_the_paper_is_there() {
         let figures = (1..=14).map(|figure| format!("fig{figure:02}"));
         let expected: Vec<_> = figures.chain((1..=3).map(|table| format!("table{table}"))).collect();
-        let ids: Vec<_> = all().iter().map(|entry| entry.id()).collect();
+        let ids: Vec<_> = paper().iter().map(|entry| entry.id()).collect();
         assert_eq!(ids, expected);
+        assert!(paper().iter().all(|entry| !is_extra(entry.id())));
+    }
+
+    #[test]
+    fn what_is_beyond_the_paper_says_so_in_its_identifier() {
+        let ids: Vec<_> = extras().iter().map(|entry| entry.id()).collect();
+        assert!(!ids.is_empty());
+        for id in ids {
+            let words = id.strip_prefix(EXTRA).expect("the prefix");
+            assert!(
+                words.split('-').all(|word| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase())),
+                "{id}"
+            );
+        }
     }
 
     #[test]

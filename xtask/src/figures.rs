@@ -40,9 +40,12 @@ const USAGE: u8 = 2;
 /// The options of `cargo xtask figures`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Figures and tables to make, such as fig06 or table2; all when none is given
+    /// Figures and tables to make, such as fig06 or table2; those of the paper when none is given
     #[arg(value_name = "ID")]
     ids: Vec<String>,
+    /// Make the figures beyond the paper, such as extra-torque-speed
+    #[arg(long, conflicts_with = "ids")]
+    extras: bool,
     /// How finely to sample: draft (seconds per figure) or paper
     #[arg(long, default_value = "paper", value_name = "QUALITY")]
     quality: Quality,
@@ -58,8 +61,8 @@ pub(crate) struct Options {
     /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
-    /// Make everything and write docs/results.md, docs/errata.md and docs/figures from it
-    #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
+    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it
+    #[arg(long, conflicts_with_all = ["ids", "extras", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date
     #[arg(long)]
@@ -84,6 +87,9 @@ impl Options {
         for id in ids {
             command.push(' ');
             command.push_str(id);
+        }
+        if self.extras && ids.is_empty() {
+            command.push_str(" --extras");
         }
         if self.quality != Quality::default() {
             command.push_str(&format!(" --quality {}", self.quality));
@@ -124,6 +130,9 @@ fn shell_word(text: &OsStr) -> String {
 pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let entries = registry::all();
     let selected = match registry::select(&entries, &options.ids) {
+        Ok(selected) if options.ids.is_empty() => {
+            selected.into_iter().filter(|entry| registry::is_extra(entry.id()) == options.extras).collect()
+        }
         Ok(selected) => selected,
         Err(error) => {
             complain!("error: {error}");
@@ -172,7 +181,7 @@ struct Run<'a> {
     selected: &'a [&'a dyn RegisteredExperiment],
 }
 
-/// Makes everything in both qualities and the documentation from it. A user's measurements are not shown there.
+/// Makes the figures of the paper in both qualities and the documentation from it. A user's measurements are not shown there.
 fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
     let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
     for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
@@ -183,7 +192,7 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
         }
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    results::write(errata::TEMPLATE, run.entries, folder, &drafts, &docs)
+    results::write(errata::TEMPLATE, &registry::paper(), folder, &drafts, &docs)
         .context("the documentation cannot be written")?;
     say!("{} is up to date", visible_path(&docs.path().join(results::RESULTS_FILE)))?;
     Ok(ExitCode::SUCCESS)
@@ -206,15 +215,22 @@ fn list(
     measurements: &Measurements,
 ) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
+    let widest_id = width_of_ids(selected.iter().map(|entry| entry.id()));
     let widest = selected.iter().map(|entry| entry.title().chars().count()).max().unwrap_or_default();
     for entry in selected {
         let state = match state(*entry, options.quality, &folder, measurements) {
             Ok(()) => "up to date".to_owned(),
             Err(stale) => stale.to_string(),
         };
-        say!("{:<8} {:<widest$}  {state}", entry.id(), entry.title())?;
+        say!("{:<widest_id$} {:<widest$}  {state}", entry.id(), entry.title())?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The width of the column of the identifiers.
+fn width_of_ids<'a>(ids: impl Iterator<Item = &'a str>) -> usize {
+    const LEAST: usize = 8;
+    ids.map(str::len).fold(LEAST, usize::max)
 }
 
 /// Whether a figure is up to date with the sources and the measurements.
@@ -275,11 +291,12 @@ fn check(
         say!("{fault}")?;
     }
     let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
-    // A figure with a user's measurements is not the one of the documentation.
+    // A figure with a user's measurements is not the one of the documentation, which has none beyond the paper.
     let none = Measurements::none();
     let comparable: Vec<&dyn RegisteredExperiment> = selected
         .iter()
         .copied()
+        .filter(|entry| !registry::is_extra(entry.id()))
         .filter(|entry| measurements.digest(entry.measurements()) == none.digest(entry.measurements()))
         .collect();
     let committed = results::outdated(errata::TEMPLATE, &comparable, options.quality, &folder, &docs)?;
@@ -297,11 +314,9 @@ fn check(
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
-    let ids = if outdated.len() == entries.len() { &options.ids[..0] } else { &options.ids[..] };
-    let named: Vec<&str> = match (ids.is_empty(), outdated.len() == selected.len()) {
-        (true, true) => Vec::new(),
-        _ => outdated,
-    };
+    let all = options.ids.is_empty() && outdated.len() == selected.len()
+        || outdated.iter().eq(registry::paper().iter().map(|entry| entry.id()).collect::<Vec<_>>().iter());
+    let named = if all { Vec::new() } else { outdated };
     say!("to repair: {}", options.command(&named))?;
     Ok(ExitCode::FAILURE)
 }
@@ -317,8 +332,9 @@ fn make(
         .iter()
         .copied()
         .partition(|entry| !options.force && state(*entry, quality, folder, measurements).is_ok());
+    let widest = width_of_ids(current.iter().map(|entry| entry.id()));
     for entry in &current {
-        say!("{:<8} up to date", entry.id())?;
+        say!("{:<widest$} up to date", entry.id())?;
     }
     let report = Report::new();
     let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
@@ -354,8 +370,9 @@ fn conclude(
     made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
     if !made.is_empty() {
         say!("\nrun times, longest first")?;
+        let widest = width_of_ids(made.iter().map(|figure| figure.id));
         for figure in &made {
-            say!("{:<8} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
+            say!("{:<widest$} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
         }
     }
     say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
@@ -396,6 +413,7 @@ mod tests {
     fn options(quality: Quality, out: Option<&str>) -> Options {
         Options {
             ids: Vec::new(),
+            extras: false,
             quality,
             out: out.map(PathBuf::from),
             measured: None,
@@ -410,6 +428,9 @@ mod tests {
     #[test]
     fn the_command_repeats_the_options() {
         assert_eq!(options(Quality::Paper, None).command(&[]), "cargo xtask figures");
+        let extras = Options { extras: true, ..options(Quality::Draft, None) };
+        assert_eq!(extras.command(&[]), "cargo xtask figures --extras --quality draft");
+        assert_eq!(extras.command(&["extra-fit"]), "cargo xtask figures extra-fit --quality draft");
         assert_eq!(
             options(Quality::Draft, Some("my figures")).command(&["fig06"]),
             "cargo xtask figures fig06 --quality draft --out='my figures'"
