@@ -104,7 +104,7 @@ pub(crate) fn top(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let slope = determinant([count, y0, s2], [s1, y1, s3], [s2, y2, s4]) / whole;
     let curvature = determinant([count, s1, y0], [s1, s2, y1], [s2, s3, y2]) / whole;
     let x = -0.5 * slope / curvature;
-    (curvature < 0.0).then(|| (centre + width * x, constant + 0.5 * slope * x))
+    (curvature < 0.0).then_some((centre + width * x, constant + 0.5 * slope * x))
 }
 
 /// Names and values with units of a motor and of how its operation is computed, for the gallery.

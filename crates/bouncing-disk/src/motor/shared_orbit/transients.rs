@@ -62,7 +62,8 @@ pub fn shared_transients_observed(
     observer: &dyn Observer,
 ) -> Result<Vec<SpeedCurve>, Error> {
     let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
-    let curves = with_instructions(systems, phase, settings, InstructionSet::best(), &mut watch.work())?;
+    let curves =
+        with_instructions(systems, phase, settings, (InstructionSet::best(), true), &mut watch.work())?;
     watch.end();
     Ok(curves)
 }
@@ -72,7 +73,7 @@ pub(crate) fn with_instructions(
     systems: &[System],
     phase: Phase,
     settings: &TransientSettings,
-    set: InstructionSet,
+    (set, is_whole_call): (InstructionSet, bool),
     work: &mut WorkCount<'_>,
 ) -> Result<Vec<SpeedCurve>, Error> {
     let first = shared_by(systems)?;
@@ -86,7 +87,7 @@ pub(crate) fn with_instructions(
         return systems.iter().map(|system| SpeedCurve::alone(system, phase, settings, work)).collect();
     };
     let mut run = SharedRun::new(systems, phase, settings, vertical, set)?;
-    run.compute(work)?;
+    run.compute(is_whole_call, work)?;
     run.finished()
 }
 
@@ -159,14 +160,17 @@ impl SharedRun {
         self.interval.reached >= self.duration
     }
 
-    fn compute(&mut self, work: &mut WorkCount<'_>) -> Result<(), Error> {
+    fn compute(&mut self, is_whole_call: bool, work: &mut WorkCount<'_>) -> Result<(), Error> {
         let rotors = self.carried.len() as u64;
         // A start on a platform that falls away is a flight.
         if self.carried.iter().all(|one| one.rotor.launch().is_none()) {
             self.rest(|_, _| {})?;
         }
         while !self.is_done() {
-            work.watch().set_done(self.interval.index as u64);
+            // In a longer call its items are not the intervals of a curve.
+            if is_whole_call {
+                work.watch().set_done(self.interval.index as u64);
+            }
             match self.vertical.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
                     self.hit(&impact);
