@@ -314,8 +314,8 @@ fn check(
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
-    let all = options.ids.is_empty() && outdated.len() == selected.len()
-        || outdated.iter().eq(registry::paper().iter().map(|entry| entry.id()).collect::<Vec<_>>().iter());
+    let paper: Vec<&str> = registry::paper().iter().map(|entry| entry.id()).collect();
+    let all = options.ids.is_empty() && outdated.len() == selected.len() || outdated == paper;
     let named = if all { Vec::new() } else { outdated };
     say!("to repair: {}", options.command(&named))?;
     Ok(ExitCode::FAILURE)
