@@ -374,9 +374,8 @@ struct Sum {
 
 impl Sum {
     fn add(&mut self, window: &Window, rotor: usize) {
-        let mut sum = Window { axial: self.axial, rotors: vec![self.rotor] };
-        sum.add(&Window { axial: window.axial, rotors: vec![window.rotors[rotor]] });
-        (self.axial, self.rotor) = (sum.axial, sum.rotors[0]);
+        self.axial.add(&window.axial);
+        self.rotor.add(&window.rotors[rotor]);
     }
 
     /// What the energy balance leaves, relative to the energy that came in; where less came in than a disk that moves with

@@ -60,22 +60,33 @@ pub(super) struct Window {
     pub(super) rotors: Vec<RotorWindow>,
 }
 
+impl RotorWindow {
+    pub(super) fn add(&mut self, next: &Self) {
+        self.angle += next.angle;
+        self.friction_work += next.friction_work;
+        self.friction_loss += next.friction_loss;
+        self.load_work += next.load_work;
+        self.kinetic_change += next.kinetic_change;
+    }
+}
+
+impl AxialWindow {
+    pub(super) fn add(&mut self, next: &Self) {
+        self.duration += next.duration;
+        self.normal_work += next.normal_work;
+        self.perturbation_work += next.perturbation_work;
+        self.restitution_loss += next.restitution_loss;
+        self.energy_change += next.energy_change;
+        self.impacts += next.impacts;
+    }
+}
+
 impl Window {
     /// This window and the one that follows it as one.
     pub(super) fn add(&mut self, next: &Self) {
-        let (axial, other) = (&mut self.axial, &next.axial);
-        axial.duration += other.duration;
-        axial.normal_work += other.normal_work;
-        axial.perturbation_work += other.perturbation_work;
-        axial.restitution_loss += other.restitution_loss;
-        axial.energy_change += other.energy_change;
-        axial.impacts += other.impacts;
-        for (rotor, other) in self.rotors.iter_mut().zip(&next.rotors) {
-            rotor.angle += other.angle;
-            rotor.friction_work += other.friction_work;
-            rotor.friction_loss += other.friction_loss;
-            rotor.load_work += other.load_work;
-            rotor.kinetic_change += other.kinetic_change;
+        self.axial.add(&next.axial);
+        for (rotor, next) in self.rotors.iter_mut().zip(&next.rotors) {
+            rotor.add(next);
         }
     }
 }
