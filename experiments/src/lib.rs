@@ -34,6 +34,7 @@ pub mod registry;
 pub mod regular_file;
 pub mod results;
 pub mod summary;
+pub mod sweep_picture;
 pub mod table;
 #[cfg(test)]
 mod testing;
@@ -44,6 +45,7 @@ pub use experiment::{Experiment, ExperimentError, Quality};
 pub use finite::FiniteError;
 pub use measured::Measurements;
 pub use progress::{Progress, Silent};
+pub use sweep_picture::sweep_picture;
 pub use table::Table;
 
 /// Compiles and runs the examples of the workspace's README, which no packaged crate may read.
