@@ -50,14 +50,7 @@ impl Motor {
         operating: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<SobolIndices>, Error> {
-        let mut done = 0;
-        let rows = sampling.rows as u64;
-        let function = |points: &[Vec<f64>]| {
-            let within = |_: Progress| observer.observe(Progress { done, total: rows });
-            let values = self.values(quantity, ranges, points, operating, &within);
-            done += 1;
-            values
-        };
+        let function = self.counted_values(quantity, ranges, sampling.rows, operating, observer);
         sobol_indices_observed(function, &widths(ranges), sampling, observer)
     }
 
@@ -89,15 +82,26 @@ impl Motor {
         operating: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<ElementaryEffects>, Error> {
+        let function = self.counted_values(quantity, ranges, sampling.rows, operating, observer);
+        elementary_effects_observed(function, &widths(ranges), sampling, observer)
+    }
+
+    /// [`Self::values`], which tells an observer the rows of the sample that are done.
+    fn counted_values<'a>(
+        &'a self,
+        quantity: SensitivityQuantity,
+        ranges: &'a [ParameterRange],
+        rows: usize,
+        operating: &'a OperatingSettings,
+        observer: &'a dyn Observer,
+    ) -> impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error> + 'a {
         let mut done = 0;
-        let rows = sampling.rows as u64;
-        let function = |points: &[Vec<f64>]| {
-            let within = |_: Progress| observer.observe(Progress { done, total: rows });
+        move |points| {
+            let within = |_: Progress| observer.observe(Progress { done, total: rows as u64 });
             let values = self.values(quantity, ranges, points, operating, &within);
             done += 1;
             values
-        };
-        elementary_effects_observed(function, &widths(ranges), sampling, observer)
+        }
     }
 
     /// The quantity at points of a sample: what shares a vertical motion is computed on one.
