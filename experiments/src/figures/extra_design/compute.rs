@@ -18,8 +18,9 @@ pub(super) const SEED: u64 = 5;
 /// Friction between hand and dough, with more or less flour.
 const FRICTION: [f64; 2] = [0.4, 0.7];
 
-/// Angular frequencies of the hand (rad/s).
-const FREQUENCIES: [f64; 2] = [8.0, 16.0];
+/// Angular frequencies of the hand (rad/s): at 8 rad/s and below the dough hardly leaves the hand, and any error keeps it
+/// there.
+const FREQUENCIES: [f64; 2] = [9.0, 16.0];
 
 /// Limits of the flight (m): none, and that of a low ceiling.
 const LIMITS: [Option<f64>; 3] = [None, Some(0.4), Some(0.2)];
@@ -37,7 +38,7 @@ const HALF_UNITS: TossHalfUnits = TossHalfUnits {
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraDesignData, ExperimentError> {
     let table = TossConstraints::pizza_toss();
-    let count = quality.choose(9, 41);
+    let count = quality.choose(8, 36);
     let frequencies: Vec<f64> = (0..count)
         .map(|k| FREQUENCIES[0] + (FREQUENCIES[1] - FREQUENCIES[0]) * f64::from(k) / f64::from(count - 1))
         .collect();

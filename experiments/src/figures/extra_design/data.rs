@@ -56,7 +56,7 @@ impl ExtraDesignData {
         format!(
             "The best hand motion for the dough of Table I with its stroke of {} m, at each frequency: the largest airborne speed that it \
              gives at every friction from {} to {}, with the flight limited in height ({}). (a) That speed; bands: its least and most over \
-             everything that rounds to the same digits, zero where the dough may not leave the hand at all; circle: the hand of Table I, over the same range of friction. (b) Amplitude \
+             everything that rounds to the same digits; circle: the hand of Table I, over the same range of friction. (b) Amplitude \
              angle, where 0 is a vertical motion and 1/2 a rotary one, and (c) phase lag of the best hand.",
             self.stroke_m,
             self.friction[0],

@@ -18,7 +18,7 @@ pub(super) fn draw(data: &ExtraDesignData) -> Figure {
     let left = Rect::new(40.0, 12.0, 210.0, 165.0);
     let upper = Rect::new(306.0, 12.0, 192.0, 78.0);
     let lower = Rect::new(306.0, 98.0, 192.0, 79.0);
-    let frequencies = || Axis::linear(7.6, 16.4).ticks(Ticks::every(2.0).minor(2));
+    let frequencies = || Axis::linear(8.6, 16.4).ticks(Ticks::every(2.0).minor(2));
     let hand = &data.table_one;
     let circle = |value: f64| {
         Scatter::new([(hand.angular_frequency, value)])

@@ -1,7 +1,7 @@
 //! The drawing of the figure.
 
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Line, Marker, Panel, Rect, Rule, Scatter,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule, Scatter,
     Stroke, Ticks,
 };
 
@@ -33,7 +33,11 @@ fn transient(data: &ExtraFitData, area: Rect) -> Panel {
     let members = data
         .members_rad_per_s
         .iter()
-        .map(|member| Line::new(curve(member)).colour(Colour::LIGHT_GREY).width(0.4));
+        .enumerate()
+        .map(|(place, member)| {
+            let line = Line::new(curve(member)).colour(Colour::LIGHT_GREY).width(0.4);
+            if place == 0 { line.name("members") } else { line }
+        });
     let mean: Vec<(f64, f64)> = curve(&data.mean_rad_per_s).into_iter().step_by(DOT_EVERY).collect();
     let mut panel = Panel::new(area)
         .x(Axis::linear(0.0, last).label(r"$t$ (s)").ticks(Ticks::every(1.0).minor(5)))
@@ -42,11 +46,11 @@ fn transient(data: &ExtraFitData, area: Rect) -> Panel {
             .ticks(Ticks::every(10.0).minor(5)))
         .letter("a")
         .layers(members)
-        .layer(Line::new(curve(&data.exponential_rad_per_s)).colour(Colour::BLUE).width(1.1));
+        .layer(Line::new(curve(&data.exponential_rad_per_s)).colour(Colour::BLUE).width(1.1).name("exponential"));
     if let Some(ramp) = &data.ramp_rad_per_s {
-        panel = panel.layer(Line::new(curve(ramp)).colour(Colour::VERMILION).dash(Dash::Dashed).width(0.9));
+        panel = panel.layer(Line::new(curve(ramp)).colour(Colour::VERMILION).dash(Dash::Dashed).width(0.9).name("ramp"));
     }
-    panel.layer(Scatter::new(mean).size(2.6))
+    panel.layer(Scatter::new(mean).size(2.6).name("mean")).legend(Legend::at(Corner::BottomRight))
 }
 
 fn durations() -> Axis {
@@ -82,8 +86,9 @@ fn intervals(data: &ExtraFitData, area: Rect) -> Panel {
                 .stroke(Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed)),
         )
         .layers(bars)
-        .layer(Scatter::new(found.iter().map(|(at, interval)| (*at, interval.value))).size(4.0))
-        .layer(Scatter::new(refused).marker(Marker::Cross).colour(Colour::VERMILION).size(5.0).width(1.0))
+        .layer(Scatter::new(found.iter().map(|(at, interval)| (*at, interval.value))).size(4.0).name("fitted"))
+        .layer(Scatter::new(refused).marker(Marker::Cross).colour(Colour::VERMILION).size(5.0).width(1.0).name("refused"))
+        .legend(Legend::at(Corner::TopLeft))
 }
 
 fn coverage(data: &ExtraFitData, area: Rect) -> Panel {
@@ -94,22 +99,26 @@ fn coverage(data: &ExtraFitData, area: Rect) -> Panel {
             .map(|duration| (duration.time_constants, of(duration) as f64 / duration.accepted as f64))
             .collect()
     };
-    let refused = data.durations.iter().map(|duration| {
+    let refused = data.durations.iter().enumerate().map(|(place, duration)| {
         let (at, half) = (duration.time_constants, 0.12);
         let height = 1.0 - duration.accepted as f64 / duration.tried as f64;
-        Band::new([(at - half, 0.0, height), (at + half, 0.0, height)]).colour(Colour::ORANGE).opacity(0.6)
+        let band = Band::new([(at - half, 0.0, height), (at + half, 0.0, height)]);
+        let band = band.colour(Colour::ORANGE).opacity(0.6);
+        if place == 0 { band.name("refused") } else { band }
     });
     Panel::new(area)
         .x(durations().label(r"duration ($t_c$)"))
-        .y(Axis::linear(0.0, 1.12).label("share").ticks(Ticks::every(0.5).minor(5)))
-        .letter_in("c", Corner::BottomRight)
+        .y(Axis::linear(0.0, 1.3).label("share").ticks(Ticks::every(0.5).minor(5)))
+        .letter_in("c", Corner::TopRight)
         .layers(refused)
         .layer(Rule::horizontal(0.95).stroke(Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed)))
         .layer(
             Scatter::new(share(|duration| duration.speeds_covered))
                 .marker(Marker::Square)
                 .colour(Colour::BLUE)
-                .size(5.0),
+                .size(5.0)
+                .name("speed covered"),
         )
-        .layer(Scatter::new(share(|duration| duration.constants_covered)).size(3.6))
+        .layer(Scatter::new(share(|duration| duration.constants_covered)).size(3.6).name(r"$t_c$ covered"))
+        .legend(Legend::at(Corner::BottomRight))
 }

@@ -32,12 +32,12 @@ pub(super) fn compute(
 ) -> Result<ExtraTorqueSpeedData, ExperimentError> {
     let motor = Motor::paper_70_khz();
     let settings = OperatingSettings {
-        relative_error: quality.choose(0.02, 0.005),
-        members: quality.choose(8, 32),
+        relative_error: quality.choose(0.02, 0.0075),
+        members: quality.choose(8, 16),
         most_impacts: quality.choose(10_000_000, 200_000_000),
         ..OperatingSettings::default()
     };
-    let repeats = quality.choose(4_u64, 8);
+    let repeats = quality.choose(4_u64, 6);
     progress.start(repeats + 4, "ensembles");
     let count = quality.choose(16, 48);
     let shares: Vec<f64> = (0..=count).map(|k| LAST_SHARE * f64::from(k) / f64::from(count)).collect();
