@@ -1,8 +1,8 @@
 //! The drawing of the figure.
 
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule, Scatter,
-    Stroke, Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule,
+    Scatter, Stroke, Ticks,
 };
 
 use super::data::{Duration, ExtraFitData};
@@ -30,14 +30,10 @@ fn transient(data: &ExtraFitData, area: Rect) -> Panel {
         data.times_s.iter().copied().zip(speeds.iter().copied()).collect()
     };
     let last = data.times_s.last().copied().unwrap_or(1.0);
-    let members = data
-        .members_rad_per_s
-        .iter()
-        .enumerate()
-        .map(|(place, member)| {
-            let line = Line::new(curve(member)).colour(Colour::LIGHT_GREY).width(0.4);
-            if place == 0 { line.name("members") } else { line }
-        });
+    let members = data.members_rad_per_s.iter().enumerate().map(|(place, member)| {
+        let line = Line::new(curve(member)).colour(Colour::LIGHT_GREY).width(0.4);
+        if place == 0 { line.name("members") } else { line }
+    });
     let mean: Vec<(f64, f64)> = curve(&data.mean_rad_per_s).into_iter().step_by(DOT_EVERY).collect();
     let mut panel = Panel::new(area)
         .x(Axis::linear(0.0, last).label(r"$t$ (s)").ticks(Ticks::every(1.0).minor(5)))
@@ -46,9 +42,13 @@ fn transient(data: &ExtraFitData, area: Rect) -> Panel {
             .ticks(Ticks::every(10.0).minor(5)))
         .letter("a")
         .layers(members)
-        .layer(Line::new(curve(&data.exponential_rad_per_s)).colour(Colour::BLUE).width(1.1).name("exponential"));
+        .layer(
+            Line::new(curve(&data.exponential_rad_per_s)).colour(Colour::BLUE).width(1.1).name("exponential"),
+        );
     if let Some(ramp) = &data.ramp_rad_per_s {
-        panel = panel.layer(Line::new(curve(ramp)).colour(Colour::VERMILION).dash(Dash::Dashed).width(0.9).name("ramp"));
+        panel = panel.layer(
+            Line::new(curve(ramp)).colour(Colour::VERMILION).dash(Dash::Dashed).width(0.9).name("ramp"),
+        );
     }
     panel.layer(Scatter::new(mean).size(2.6).name("mean")).legend(Legend::at(Corner::BottomRight))
 }
@@ -86,8 +86,17 @@ fn intervals(data: &ExtraFitData, area: Rect) -> Panel {
                 .stroke(Stroke::new(Colour::GREY, 0.6).dashed(Dash::Dashed)),
         )
         .layers(bars)
-        .layer(Scatter::new(found.iter().map(|(at, interval)| (*at, interval.value))).size(4.0).name("fitted"))
-        .layer(Scatter::new(refused).marker(Marker::Cross).colour(Colour::VERMILION).size(5.0).width(1.0).name("refused"))
+        .layer(
+            Scatter::new(found.iter().map(|(at, interval)| (*at, interval.value))).size(4.0).name("fitted"),
+        )
+        .layer(
+            Scatter::new(refused)
+                .marker(Marker::Cross)
+                .colour(Colour::VERMILION)
+                .size(5.0)
+                .width(1.0)
+                .name("refused"),
+        )
         .legend(Legend::at(Corner::TopLeft))
 }
 
