@@ -27,13 +27,13 @@ pub(super) fn compute(
 ) -> Result<ExtraEfficiencyData, ExperimentError> {
     let motor = Motor::paper_70_khz();
     let settings = OperatingSettings {
-        relative_error: quality.choose(0.03, 0.01),
+        relative_error: quality.choose(0.03, 0.015),
         members: quality.choose(8, 16),
         most_impacts: quality.choose(2_000_000, 40_000_000),
         ..OperatingSettings::default()
     };
     progress.start(4, "ensembles");
-    let (columns, rows) = quality.choose((25, 12), (97, 48));
+    let (columns, rows) = quality.choose((25, 12), (73, 41));
     let phase_lags_rad: Vec<f64> =
         (0..columns).map(|k| FARTHEST_LAG * (2.0 * k as f64 / (columns - 1) as f64 - 1.0)).collect();
     let load_shares: Vec<f64> = (0..rows).map(|k| LAST_SHARE * k as f64 / (rows - 1) as f64).collect();
