@@ -20,6 +20,22 @@ impl SplitMix64 {
         Self(seed)
     }
 
+    /// The seed of one of many streams that belong together, which are numbered from 0.
+    ///
+    /// Streams whose seeds are counted up from another seed would be shared with the next one but for the first: means over
+    /// streams of `seed` and of `seed + 1` would be nearly the same, and no check of each other.
+    ///
+    /// ```
+    /// use bouncing_disk_core::numerics::random::SplitMix64;
+    ///
+    /// assert_ne!(SplitMix64::seed_of_stream(1, 1), SplitMix64::seed_of_stream(2, 0));
+    /// ```
+    #[must_use]
+    pub const fn seed_of_stream(seed: u64, stream: u64) -> u64 {
+        let first = Self::new(seed).next_number();
+        Self::new(first.wrapping_add(stream)).next_number()
+    }
+
     /// The next number of the stream.
     #[inline]
     pub const fn next_number(&mut self) -> u64 {
@@ -40,6 +56,17 @@ impl SplitMix64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Neighbouring seeds, as users choose them, have no stream in common.
+    #[test]
+    fn seeds_share_no_stream() {
+        let mut all = std::collections::BTreeSet::new();
+        for seed in (0..100).chain([u64::MAX - 1, u64::MAX]) {
+            for stream in 0..200 {
+                assert!(all.insert(SplitMix64::seed_of_stream(seed, stream)), "{seed} {stream}");
+            }
+        }
+    }
 
     #[test]
     fn the_generator_is_splitmix64() {

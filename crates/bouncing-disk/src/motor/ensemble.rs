@@ -105,7 +105,8 @@ impl TransientEnsemble {
 }
 
 /// The members of an [`ensemble`](ensemble()): `members` >= 1 transients with starting phases spread evenly
-/// over the cycle and seeds counted up from `settings.seed`.
+/// over the cycle and seeds counted up from `settings.seed`: ensembles that are to be independent of each other need
+/// seeds that lie at least `members` apart.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
@@ -133,7 +134,7 @@ pub fn ensemble_members(
 }
 
 /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
-/// from `settings.seed`. The result is the same for any number of threads.
+/// from `settings.seed` ([`ensemble_members`]). The result is the same for any number of threads.
 ///
 /// # Errors
 /// Those of [`ensemble_members`] and [`transient`](crate::transient()).

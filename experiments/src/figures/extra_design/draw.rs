@@ -65,7 +65,7 @@ pub(super) fn draw(data: &ExtraDesignData) -> Figure {
         .layer(circle(hand.amplitude_angle / PI));
     let lags = Panel::new(lower)
         .x(frequencies().label(r"$\omega$ (rad/s)"))
-        .y(Axis::linear(-0.5, 0.5).label(r"$\theta/\pi$").ticks(Ticks::every(0.5).minor(5)))
+        .y(Axis::linear(-0.1, 0.1).label(r"$\theta/\pi$").ticks(Ticks::every(0.1).minor(5)))
         .letter_in("c", Corner::BottomRight)
         .layers(plain(|point| point.design.hand.phase_lag / PI))
         .layer(circle(hand.phase_lag / PI));

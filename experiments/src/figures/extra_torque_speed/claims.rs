@@ -12,6 +12,9 @@ const ERRORS: f64 = 3.0;
 /// Half the length of a 95 % interval in standard errors.
 const HALF_INTERVAL: f64 = 1.96;
 
+/// How far the steady speed of an exponential may lie from that of the motor, as a share of it.
+const EXPONENTIAL: f64 = 0.02;
+
 fn tolerance(one: f64, other: f64) -> f64 {
     ERRORS * (one * one + other * other).sqrt()
 }
@@ -25,16 +28,21 @@ pub(super) fn claims(data: &ExtraTorqueSpeedData) -> Vec<Claim> {
 fn numbers(data: &ExtraTorqueSpeedData) -> Vec<Claim> {
     let mut claims = Vec::new();
     if let Some(unloaded) = data.curve.points.first() {
-        let steady = data.transient.steady_speed_rad_per_s;
-        let half = 0.5 * (steady.high - steady.low) / HALF_INTERVAL;
-        let allowed = tolerance(unloaded.speed.standard_error, half);
+        let settled = data.transient.settled_speed_rad_per_s;
+        let allowed = tolerance(unloaded.speed.standard_error, settled.standard_error);
         claims.push(
-            Claim::expected(ID, PLACE, "speed without load", "rad/s", (steady.value, allowed), unloaded.speed.value)
-                .note(format!(
-                    "expected: the steady speed of the fit to the mean of {} transients over {:.2} s; three standard errors of \
-                     the difference",
-                    data.transient.members, data.transient.duration_s
-                )),
+            Claim::expected(
+                ID,
+                PLACE,
+                "speed without load",
+                "rad/s",
+                (settled.value, allowed),
+                unloaded.speed.value,
+            )
+            .note(format!(
+                "expected: the mean of {} transients over the last quarter of {:.2} s; three standard errors of the difference",
+                data.transient.members, data.transient.duration_s
+            )),
         );
     }
     let impulses = &data.by_impulses;
@@ -96,7 +104,25 @@ fn statements(data: &ExtraTorqueSpeedData) -> Vec<Claim> {
     let estimate = data.transient.stall_estimate_n_m;
     let ratio = estimate.value / stall.torque_n_m.value;
     let slope = data.curve.points.windows(2);
+    let (fitted, settled) = (data.transient.steady_speed_rad_per_s, data.transient.settled_speed_rad_per_s);
+    let off = fitted.value / settled.value - 1.0;
     vec![
+        Claim::statement(
+            ID,
+            PLACE,
+            "the steady speed of the exponential fit lies within 2 % of the speed of the settled motor",
+            off.abs() < EXPONENTIAL,
+            format!(
+                "{:.2} in [{:.2}, {:.2}] against {:.2} ± {:.2} rad/s, {:+.1} %: the interval holds the scatter of the transients, \
+                 not that they do not rise exponentially",
+                fitted.value,
+                fitted.low,
+                fitted.high,
+                settled.value,
+                settled.standard_error,
+                1e2 * off,
+            ),
+        ),
         Claim::statement(
             ID,
             PLACE,

@@ -8,7 +8,7 @@ use bouncing_disk::{
 use super::data::{DrawnPeak, ExtraTorqueSpeedData, Overload, Transient, TrueStall};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
-use crate::figures::operating_curve::{Curve, Peak};
+use crate::figures::operating_curve::{Curve, Peak, mean_of};
 use crate::figures::stall::Stall;
 use crate::paper;
 use crate::progress::Progress;
@@ -25,6 +25,10 @@ const TOP: f64 = 0.85;
 
 /// Duration of the transients in rise times ωΦ a_g²/(μ a_e g).
 const RISES: f64 = 8.0;
+
+/// The last part of the transients, of which the speed is that of a motor that has settled: what an exponential with their
+/// time constant lacks there is a thousandth.
+const SETTLED: f64 = 0.25;
 
 pub(super) fn compute(
     quality: Quality,
@@ -127,12 +131,15 @@ fn transient(motor: &Motor, members: usize) -> Result<Transient, ExperimentError
     let settings = TransientSettings { duration: duration_s, intervals: 240, ..TransientSettings::default() };
     let runs = ensemble(system, &settings, members)?;
     let fit = TransientFit::new(&runs.curves, &FitSettings::default())?;
+    let settled =
+        runs.curves.iter().map(|curve| curve.mean_over_last(SETTLED)).collect::<Result<Vec<_>, _>>()?;
     let IntervalEstimate { value, low, high } = fit.stall_acceleration();
     let inertia = motor.inertia();
     Ok(Transient {
         members,
         duration_s,
         steady_speed_rad_per_s: fit.steady_speed(),
+        settled_speed_rad_per_s: mean_of(settled.into_iter()).ok_or_else(|| no_data("settled speed"))?,
         stall_estimate_n_m: IntervalEstimate {
             value: inertia * value,
             low: inertia * low,

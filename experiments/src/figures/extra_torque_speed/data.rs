@@ -58,7 +58,10 @@ pub(super) struct DrawnPeak {
 pub(super) struct Transient {
     pub(super) members: usize,
     pub(super) duration_s: f64,
+    /// That of the exponential.
     pub(super) steady_speed_rad_per_s: IntervalEstimate,
+    /// The mean over the last part of all members, without any form of the rise.
+    pub(super) settled_speed_rad_per_s: Estimate,
     /// α̇_ss/t_c times the moment of inertia.
     pub(super) stall_estimate_n_m: IntervalEstimate,
 }

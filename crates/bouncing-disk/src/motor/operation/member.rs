@@ -109,7 +109,7 @@ impl Member {
     ) -> Result<Self, Error> {
         // As `ensemble_members`: half a step off zero, so that no member starts on a phase that is special.
         let phase = Phase::new(TAU * (index as f64 + 0.5) / settings.members as f64)?;
-        let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
+        let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
         let policy = ChatterPolicy::Complete;
         let mut engines = Vec::with_capacity(systems.len());
         for system in systems {

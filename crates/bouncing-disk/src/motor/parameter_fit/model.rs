@@ -90,7 +90,7 @@ impl Model<'_> {
                 duration: windows.duration,
                 intervals: INTERVALS,
                 relaunch_perturbation: self.settings.relaunch_perturbation,
-                seed: SplitMix64::new(self.settings.seed.wrapping_add(task as u64)).next_number(),
+                seed: SplitMix64::seed_of_stream(self.settings.seed, task as u64),
                 policy: ChatterPolicy::Complete,
             };
             let phase = Phase::new(TAU * (member as f64 + 0.5) / members as f64)?;
