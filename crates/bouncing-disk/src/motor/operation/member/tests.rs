@@ -29,7 +29,7 @@ fn a_member_is_the_engine_of_each_rotor() {
                 let phase = Phase::new(TAU * (index as f64 + 0.5) / 5.0).expect("finite");
                 let start = InitialCondition::Contact { phase, angular_speed: 0.0 };
                 let mut engine = Engine::new(*system, start, ChatterPolicy::Complete).expect("legal");
-                let seed = SplitMix64::new(settings.seed + index as u64).next_number();
+                let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
                 let mut generator = SplitMix64::new(seed);
                 let mut perturb = |engine: &mut Engine| {
                     engine.perturb_launch(settings.relaunch_perturbation * generator.unit()).expect("legal");
