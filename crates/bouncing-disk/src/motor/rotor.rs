@@ -10,9 +10,10 @@ use crate::error::Error;
 use crate::motion::chatter::Chatter;
 use crate::motion::contact_motion::{Contact, Placed};
 use crate::motion::friction::Friction;
-use crate::motion::impact::{axial_impulse, friction_impact};
+use crate::motion::impact::{FrictionImpact, axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{change_in_contact, change_in_flight};
+use crate::motion::sliding::RotaryChange;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// What ended the last step of a [`Rotor`].
@@ -43,14 +44,24 @@ pub(crate) struct Bounce {
 }
 
 impl Bounce {
+    /// The rotary motion of the flight, of a disk with angular `speed` at launch.
+    #[inline(always)]
+    pub(crate) fn flight(self, speed: f64) -> RotaryChange {
+        change_in_flight(self.load, speed, self.duration)
+    }
+
+    /// What friction does in the impact, at a `slip` (disk minus platform).
+    #[inline(always)]
+    pub(crate) fn friction_impact(self, slip: f64) -> FrictionImpact {
+        friction_impact(self.friction, axial_impulse(self.restitution, self.velocity), slip)
+    }
+
     /// Angular speed after the impact, and the angle turned in the flight, of a disk with angular `speed` at launch.
     #[inline(always)]
     pub(crate) fn after(self, speed: f64) -> (f64, f64) {
-        let Self { duration, platform_speed, velocity, restitution, friction, load } = self;
-        let flight = change_in_flight(load, speed, duration);
-        let rotary =
-            friction_impact(friction, axial_impulse(restitution, velocity), flight.speed - platform_speed);
-        (rotary.speed_after(flight.speed, platform_speed), flight.angle)
+        let flight = self.flight(speed);
+        let rotary = self.friction_impact(flight.speed - self.platform_speed);
+        (rotary.speed_after(flight.speed, self.platform_speed), flight.angle)
     }
 }
 

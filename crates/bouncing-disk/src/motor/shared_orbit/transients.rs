@@ -4,13 +4,14 @@ use bouncing_disk_core::{
     Impact, InstructionSet, LaneRunner, Observer, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
 };
 
-use super::rotor_set::{CarryAll, Rotors, SharedImpact, WIDTH};
+use super::rotor_set::{CarryAll, Turned};
 use super::shared_by;
 use super::vertical::VerticalMotion;
 use crate::error::{Error, room_for, within_limit};
 use crate::motion::phase_time::PhaseTime;
 use crate::motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::rotor::{Rotor, RotorStep};
+use crate::motor::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::transient::{
     Bins, FLIGHTS_OF_EVENT, Interval, SpeedCurve, TransientSettings, curve, seconds,
 };
@@ -105,7 +106,7 @@ struct Carried {
 struct SharedRun {
     vertical: VerticalMotion,
     carried: Vec<Carried>,
-    rows: Vec<Rotors>,
+    rows: Vec<RotorRows<Turned>>,
     runner: LaneRunner,
     /// The present interval of all curves; what is turned in it is in the rows.
     interval: Interval,
@@ -140,7 +141,7 @@ impl SharedRun {
         }
         Ok(Self {
             vertical,
-            rows: Rotors::of(systems.iter().map(|system| *system.dimensionless())),
+            rows: RotorRows::of(systems.iter().map(|system| *system.dimensionless())),
             runner: LaneRunner::new(set),
             interval,
             width,
@@ -192,15 +193,8 @@ impl SharedRun {
         self.impacts += 1;
         let to = self.seconds(self.vertical.now());
         let is_within = to <= self.interval.end;
-        let impact = SharedImpact {
-            duration: impact.duration(),
-            sin: impact.phase.sin(),
-            cos: impact.phase.cos(),
-            velocity: impact.velocity,
-            restitution: self.vertical.restitution(),
-            is_within,
-        };
-        self.runner.run(CarryAll { impact, rows: &mut self.rows });
+        let impact = SharedImpact::new(impact, self.vertical.restitution());
+        self.runner.run(CarryAll { impact, is_within, rows: &mut self.rows });
         if is_within {
             self.interval.reached = to;
             return;
@@ -208,9 +202,9 @@ impl SharedRun {
         let mut reached = self.interval;
         for (index, one) in self.carried.iter_mut().enumerate() {
             let (row, own) = (&mut self.rows[index / WIDTH], index % WIDTH);
-            let mut interval = Interval { turned: row.sum[own], ..self.interval };
-            interval.pass(&mut one.turned, self.width, to, row.turned[own]);
-            row.sum[own] = interval.turned;
+            let mut interval = Interval { turned: row.tally.sum[own], ..self.interval };
+            interval.pass(&mut one.turned, self.width, to, row.tally.last[own]);
+            row.tally.sum[own] = interval.turned;
             reached = interval;
         }
         self.interval = reached;
@@ -225,7 +219,7 @@ impl SharedRun {
             let mut bins = Bins {
                 turned: std::mem::take(&mut one.turned),
                 width: self.width,
-                present: Interval { turned: row.sum[own], ..self.interval },
+                present: Interval { turned: row.tally.sum[own], ..self.interval },
             };
             let mut add = |rotor: &Rotor| {
                 let now = rotor.time();
@@ -250,7 +244,7 @@ impl SharedRun {
                 }
             }
             row.speed[own] = one.rotor.speed();
-            row.sum[own] = bins.present.turned;
+            row.tally.sum[own] = bins.present.turned;
             one.turned = bins.turned;
             reached = bins.present;
         }
@@ -264,7 +258,7 @@ impl SharedRun {
     fn finished(self) -> Result<Vec<SpeedCurve>, Error> {
         let mut curves = room_for("rotors on one vertical motion", self.carried.len(), MAX_MEMBERS)?;
         for (index, one) in self.carried.into_iter().enumerate() {
-            let turned = self.rows[index / WIDTH].sum[index % WIDTH];
+            let turned = self.rows[index / WIDTH].tally.sum[index % WIDTH];
             let present = Interval { turned, ..self.interval };
             let bins = Bins { turned: one.turned, width: self.width, present };
             curves.push(curve(bins, &one.unit, (self.impacts, one.separations))?);
