@@ -50,11 +50,19 @@
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 
+// The workspace's experiments read such files, too. No part of the documented surface, and no promise.
+#[cfg(feature = "csv")]
+#[doc(hidden)]
+pub mod csv_records;
 mod display;
 mod error;
 mod motion;
 mod motor;
 mod parameters;
+// As `csv_records`: for the experiments as well, and no promise.
+#[cfg(feature = "csv")]
+#[doc(hidden)]
+pub mod regular_file;
 #[cfg(feature = "storage")]
 mod storage;
 #[cfg(test)]
