@@ -135,8 +135,8 @@ impl Member {
         })
     }
 
-    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to the
-    /// end of an event. Rotors that never bounce have periods instead of impacts.
+    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the
+    /// duration; up to the end of an event. Rotors that never bounce have periods instead of impacts.
     pub(super) fn next_window(
         &mut self,
         duration: f64,
@@ -252,7 +252,8 @@ impl Bouncing {
         self.runner.run(CarryAll { impact, rows: &mut self.rows });
     }
 
-    /// Carries each rotor through a rest of the disk up to its separation; without an attachment, through the first one.
+    /// Carries each rotor through a rest of the disk up to its separation; without an attachment, through the
+    /// first one.
     fn rest(&mut self, rest: Option<&Attachment>) -> Result<(), Error> {
         let (began, mut separation) = (self.vertical.now(), None);
         let vibration = *self.engines[0].system().vibration();

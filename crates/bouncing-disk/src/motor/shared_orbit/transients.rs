@@ -21,9 +21,10 @@ use crate::parameters::system::System;
 /// The speed transients of motors that share one vertical motion: bit for bit those of
 /// [`transient`](crate::transient()) for each, in their order, for a fraction of the time.
 ///
-/// They may differ in load, friction, phase lag, twist amplitude and radii. They start together at `phase`, with the
-/// same perturbations of their relaunches (`settings.seed`), so that a difference between two of them is much better
-/// known than either: for errors that are independent of each other, compute each with a seed of its own.
+/// They may differ in load, friction, phase lag, twist amplitude and radii. They start together at `phase`,
+/// with the same perturbations of their relaunches (`settings.seed`), so that a difference between two of
+/// them is much better known than either: for errors that are independent of each other, compute each with a
+/// seed of its own.
 ///
 /// ```
 /// use bouncing_disk::core::Phase;
@@ -41,8 +42,8 @@ use crate::parameters::system::System;
 ///
 /// # Errors
 /// [`Error::NotShared`] for motors with different peak accelerations, restitutions, frequencies or preloads;
-/// [`Error::OutOfRange`] for none; an error of the core for more than [`MAX_MEMBERS`] or for curves of more than
-/// [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::transient()).
+/// [`Error::OutOfRange`] for none; an error of the core for more than [`MAX_MEMBERS`] or for curves of more
+/// than [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::transient()).
 pub fn shared_transients(
     systems: &[System],
     phase: Phase,
@@ -54,8 +55,8 @@ pub fn shared_transients(
 /// [`shared_transients`] with an observer; the items are the intervals of the curves.
 ///
 /// # Errors
-/// Those of [`shared_transients`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
+/// Those of [`shared_transients`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+/// the observer breaks.
 pub fn shared_transients_observed(
     systems: &[System],
     phase: Phase,
@@ -210,8 +211,8 @@ impl SharedRun {
         self.interval = reached;
     }
 
-    /// Carries each rotor through a rest of the disk up to its separation, or up to the end of the transient. `begin` puts a
-    /// rotor with the speed of the last impact on the platform.
+    /// Carries each rotor through a rest of the disk up to its separation, or up to the end of the transient.
+    /// `begin` puts a rotor with the speed of the last impact on the platform.
     fn rest(&mut self, mut begin: impl FnMut(&mut Rotor, f64)) -> Result<(), Error> {
         let (began, mut separation, mut reached) = (self.vertical.now(), None, self.interval);
         for (index, one) in self.carried.iter_mut().enumerate() {
