@@ -31,7 +31,6 @@ pub mod printed;
 pub mod progress;
 pub mod provenance;
 pub mod registry;
-pub mod regular_file;
 pub mod results;
 pub mod summary;
 pub mod sweep_picture;

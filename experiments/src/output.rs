@@ -13,11 +13,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use std::{fs, io};
 
+use bouncing_disk::regular_file;
 use lock::Lock;
 use partial::Partial;
 
+use crate::Quality;
 use crate::cache_key::{CacheKey, Stale};
-use crate::{Quality, regular_file};
 pub use error::OutputError;
 
 /// How long a run waits for others to finish writing: they take seconds, unless they are suspended.

@@ -1,6 +1,7 @@
 //! Laws of restitution from a user's side: steps, derivatives, orbits and cuts of the impact map under any
 //! law.
 
+mod dual_numbers;
 mod paper;
 
 use std::cell::Cell;
@@ -10,7 +11,8 @@ use bouncing_disk_core::{
     ChatterCut, ChatterPolicy, Constant, Error, ImpactMap, ImpactState, KuwabaraKono, Launch, OrbitEvent,
     Phase, RestitutionLaw, Vibration,
 };
-use glam::{DMat2, DVec2};
+use dual_numbers::dual_derivative;
+use glam::DMat2;
 use num_dual::{Dual64, DualNum};
 use paper::PAPER_POLICY;
 use proptest::prelude::*;
@@ -72,33 +74,6 @@ fn state(angle: f64, velocity: f64) -> ImpactState {
 fn bits(state: ImpactState) -> [u64; 4] {
     let phase = state.phase();
     [phase.angle(), phase.sin(), phase.cos(), state.velocity()].map(f64::to_bits)
-}
-
-/// The derivative of the map in dual numbers, for a law given in dual numbers: the impact time is pulled
-/// along by Newton steps on the gap.
-fn dual_derivative(
-    vibration: &Vibration,
-    from: ImpactState,
-    duration: f64,
-    restitution: impl Fn(Dual64) -> Dual64,
-) -> DMat2 {
-    let column = |by_phase: f64, by_velocity: f64| {
-        let p = vibration.peak_acceleration();
-        let tau = Dual64::new(from.phase().angle(), by_phase);
-        let v = Dual64::new(from.velocity(), by_velocity);
-        let w = -v * restitution(-v);
-        let mut h = Dual64::from_re(duration);
-        for _ in 0..3 {
-            let later = tau + h;
-            let gap = w * h + tau.cos() * p * h - h * h * 0.5 - (later.sin() - tau.sin()) * p;
-            let slope = w + tau.cos() * p - h - later.cos() * p;
-            h -= gap / slope;
-        }
-        let phase = tau + h;
-        let velocity = w + tau.cos() * p - h - phase.cos() * p;
-        DVec2::new(phase.eps, velocity.eps)
-    };
-    DMat2::from_cols(column(1.0, 0.0), column(0.0, 1.0))
 }
 
 /// r + x r^(3/5) = 1 by bisection, pulled along by Newton steps.

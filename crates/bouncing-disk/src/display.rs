@@ -22,7 +22,7 @@ use crate::toss::single::TossPerformance;
 const DIGITS: usize = 6;
 
 /// A number as a person writes it.
-struct Number {
+pub(crate) struct Number {
     value: f64,
     digits: usize,
 }
@@ -49,7 +49,7 @@ pub(crate) fn rough(value: f64) -> impl Display {
 }
 
 /// Numbers with the precision that a formatter asks for.
-fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
+pub(crate) fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
     let digits = f.precision().unwrap_or(DIGITS);
     move |value| Number { value, digits }
 }

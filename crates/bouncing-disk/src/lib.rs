@@ -50,11 +50,19 @@
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
 
+// The workspace's experiments read such files, too. No part of the documented surface, and no promise.
+#[cfg(feature = "csv")]
+#[doc(hidden)]
+pub mod csv_records;
 mod display;
 mod error;
 mod motion;
 mod motor;
 mod parameters;
+// As `csv_records`: for the experiments as well, and no promise.
+#[cfg(feature = "csv")]
+#[doc(hidden)]
+pub mod regular_file;
 #[cfg(feature = "storage")]
 mod storage;
 #[cfg(test)]
@@ -105,13 +113,15 @@ pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::stall_load::StallLoad;
 #[cfg(feature = "fit")]
+pub use motor::parameter_fit::ParameterFit;
+#[cfg(feature = "fit")]
+pub use motor::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+#[cfg(feature = "fit")]
 pub use motor::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
 #[cfg(feature = "fit")]
 pub use motor::parameter_fit::parameter::{FitParameter, FitRange};
 #[cfg(feature = "fit")]
 pub use motor::parameter_fit::settings::ParameterFitSettings;
-#[cfg(feature = "fit")]
-pub use motor::parameter_fit::{ParameterEstimate, ParameterFit, UndeterminedDirection};
 pub use motor::sensitivity::global::ParameterRange;
 pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
 pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};

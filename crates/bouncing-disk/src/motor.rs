@@ -15,6 +15,7 @@ pub(crate) mod operation;
 #[cfg(feature = "fit")]
 pub(crate) mod parameter_fit;
 pub(crate) mod rotor;
+pub(crate) mod rotor_rows;
 pub(crate) mod rotors;
 pub(crate) mod sensitivity;
 pub(crate) mod shared_orbit;

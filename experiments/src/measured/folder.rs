@@ -6,10 +6,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::{fs, io};
 
+use bouncing_disk::regular_file;
+
 use super::error::MeasuredError;
 use super::layout::{LARGEST_FILE, Layout};
 use super::series::Series;
-use crate::regular_file;
 
 /// The most unknown files that are named one by one.
 const NAMED: usize = 10;

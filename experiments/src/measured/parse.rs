@@ -4,13 +4,13 @@
 //! blanks and one pair of double quotes around a field.
 
 use std::collections::BTreeMap;
-use std::io::{self, Read};
 use std::sync::Arc;
 
-use csv::{ReaderBuilder, StringRecord, Terminator};
+use bouncing_disk::csv_records::{self, NumberFault, RecordFault, Records, plain};
+use csv::StringRecord;
 
 use super::error::MeasuredError;
-use super::layout::{Column, Layout, MOST_ROWS, Range, Role, whole};
+use super::layout::{Column, Layout, MOST_ROWS, Role, whole};
 use crate::provenance;
 use crate::visible::Excerpt;
 
@@ -27,24 +27,25 @@ pub(super) struct Rows {
 
 /// Reads all rows of a file.
 pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError> {
-    let text = text(layout, bytes)?;
+    let told = |fault| in_file(layout.file, fault);
+    let text = csv_records::text(bytes).map_err(told)?;
     // A table that an experiment wrote is read like others, unless its form may be another one.
     let origin = provenance::from_csv(text);
     provenance::refuse_newer(provenance::FIGURE, origin.as_ref(), layout.file)
         .map_err(|error| MeasuredError::Newer(Box::new(error)))?;
-    let mut records = Records::new(layout.file, text);
+    let mut records = Records::new(text);
     let empty = || MeasuredError::Empty { file: layout.file, legal: layout.header() };
-    let mut line = records.advance()?.ok_or_else(empty)?;
-    let header = Header::read(layout, line, &records.record)?;
+    let mut line = records.advance().map_err(told)?.ok_or_else(empty)?;
+    let header = Header::read(layout, line, records.record())?;
     let mut order = Order::new(layout);
     let mut rows = Rows {
         values: Vec::new(),
         lines: Vec::new(),
         columns: header.places.iter().map(|place| place + 1).collect(),
     };
-    while let Some(number) = records.advance()? {
+    while let Some(number) = records.advance().map_err(told)? {
         line = number;
-        let row = header.row(line, &records.record)?;
+        let row = header.row(line, records.record())?;
         order.check(&header, line, &row)?;
         if rows.values.len() == MOST_ROWS {
             return Err(MeasuredError::TooLong { file: layout.file, line, most: MOST_ROWS });
@@ -59,78 +60,15 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
     Ok(rows)
 }
 
-/// The lines of a file that are neither blank nor a remark.
-struct Records<'a> {
-    file: &'static str,
-    text: &'a str,
-    reader: csv::Reader<io::Chain<&'a [u8], &'static [u8]>>,
-    record: StringRecord,
-}
-
-impl<'a> Records<'a> {
-    fn new(file: &'static str, text: &'a str) -> Self {
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .terminator(Terminator::Any(b'\n'))
-            // The last line may lack its end; of two ends in a row the second makes a blank line.
-            .from_reader(text.as_bytes().chain(b"\n".as_slice()));
-        Self { file, text, reader, record: StringRecord::new() }
-    }
-
-    /// Goes to the next record and says on which line it is; `None` at the end.
-    fn advance(&mut self) -> Result<Option<usize>, MeasuredError> {
-        let Self { file, text, reader, record } = self;
-        let unreadable = |error: csv::Error| {
-            let source = Arc::new(io::Error::from(error));
-            MeasuredError::Unreadable { file: (*file).to_owned(), source }
-        };
-        while reader.read_record(record).map_err(unreadable)? {
-            if let Some(place) = record.iter().position(|field| field.contains('\n')) {
-                return Err(MeasuredError::OpenQuote {
-                    file,
-                    line: first_line(record, text),
-                    column: place + 1,
-                });
-            }
-            let first = record.get(0).unwrap_or_default().trim();
-            if !first.starts_with('#') && (record.len() > 1 || !first.is_empty()) {
-                // The record, which is one line, has just been read with its end.
-                return Ok(Some((reader.position().line() as usize).saturating_sub(1)));
-            }
+/// A fault of the form, told with the file.
+fn in_file(file: &'static str, fault: RecordFault) -> MeasuredError {
+    match fault {
+        RecordFault::NotText { line, byte } => MeasuredError::NotText { file, line, byte },
+        RecordFault::OpenQuote { line, field } => MeasuredError::OpenQuote { file, line, column: field },
+        RecordFault::Unreadable(source) => {
+            MeasuredError::Unreadable { file: file.to_owned(), source: Arc::new(source) }
         }
-        Ok(None)
     }
-}
-
-/// The line on which a record begins. Its own position is that of the empty lines and remarks before it.
-fn first_line(record: &StringRecord, text: &str) -> usize {
-    let line = record.position().map_or(1, |position| position.line() as usize);
-    let before = text.split('\n').skip(line.saturating_sub(1));
-    line + before.take_while(|line| line.is_empty() || line.starts_with('#')).count()
-}
-
-fn text<'a>(layout: &Layout, bytes: &'a [u8]) -> Result<&'a str, MeasuredError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let before = &bytes[..error.valid_up_to()];
-        let line_start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |place| place + 1);
-        MeasuredError::NotText {
-            file: layout.file,
-            line: before.iter().filter(|byte| **byte == b'\n').count() + 1,
-            byte: before.len() - line_start + 1,
-        }
-    })?;
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
-}
-
-/// The fields without the blanks around them. The reader sees a quotation mark only where a field begins with it.
-fn fields(record: &StringRecord) -> impl Iterator<Item = &str> {
-    record.iter().map(|field| {
-        let field = field.trim();
-        let unquoted = field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
-        unquoted.unwrap_or(field).trim()
-    })
 }
 
 /// Where the layout's columns are in the file.
@@ -150,7 +88,7 @@ impl<'a> Header<'a> {
             }
         }
         let mut places: Vec<Option<usize>> = vec![None; layout.columns.len()];
-        for (place, name) in fields(names).enumerate() {
+        for (place, name) in names.iter().map(plain).enumerate() {
             let column = place + 1;
             let Some(index) = layout.columns.iter().position(|column| column.name == name) else {
                 let (value, legal) = (Excerpt::of(name), layout.header());
@@ -183,36 +121,22 @@ impl<'a> Header<'a> {
             let column = count.min(columns) + 1;
             return Err(MeasuredError::Fields { file, line, column, fields: count, columns });
         }
-        let values: Vec<&str> = fields(record).collect();
+        let values: Vec<&str> = record.iter().map(plain).collect();
         let number = |(place, column): (&usize, &Column)| {
             let (text, name, legal) = (values[*place], column.name, column.range);
             let (column, value) = (place + 1, || Excerpt::of(text));
-            match number(text, legal) {
-                Some(Ok(number)) => Ok(number),
-                Some(Err(OutsideRange)) => {
+            match csv_records::number(text) {
+                Ok(number) if legal.holds(number) => Ok(number),
+                Ok(_) | Err(NumberFault::NoSuchDouble) => {
                     Err(MeasuredError::OutOfRange { file, line, column, name, value: value(), legal })
                 }
-                None => Err(MeasuredError::NotANumber { file, line, column, name, value: value(), legal }),
+                Err(NumberFault::NotANumber) => {
+                    Err(MeasuredError::NotANumber { file, line, column, name, value: value(), legal })
+                }
             }
         };
         self.places.iter().zip(self.layout.columns).map(number).collect()
     }
-}
-
-/// A number that is not legal.
-struct OutsideRange;
-
-/// The number that a field states; `None` if it states none, as "inf" does.
-fn number(text: &str, legal: Range) -> Option<Result<f64, OutsideRange>> {
-    let number: f64 = text.parse().ok()?;
-    let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
-    if !number.is_finite() && !mantissa.contains(|c: char| c.is_ascii_digit()) {
-        return None;
-    }
-    // 1e-400 is not 0, though the nearest double is.
-    let vanished = number == 0.0 && mantissa.contains(|c: char| c.is_ascii_digit() && c != '0');
-    // The sign of a zero means nothing here.
-    Some(if legal.holds(number) && !vanished { Ok(number + 0.0) } else { Err(OutsideRange) })
 }
 
 /// Checks what rises or stays the same within a trial.

@@ -4,8 +4,6 @@
 pub(crate) mod csv_file;
 #[cfg(feature = "csv")]
 pub(crate) mod error;
-#[cfg(feature = "csv")]
-mod regular_file;
 
 use bouncing_disk_core::read_checked;
 
@@ -17,7 +15,8 @@ use crate::motor::transient_fit::{FitSettings, TransientFit};
 
 /// One run: angular speed against time.
 ///
-/// One that is read is a curve: at least three points, as many speeds as times, times that are not negative and rise.
+/// One that is read is a curve: at least three points, as many speeds as times, times that are not negative
+/// and rise.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedRun"))]
@@ -83,9 +82,9 @@ impl MeasuredSpeeds {
     /// Of at least one run, their numbers rising.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no run, numbers that do not rise, fewer than three points in a run, lists of different
-    /// lengths, times that do not rise and numbers that are not finite; an error of the core for more than [`MAX_SPEEDS`]
-    /// speeds.
+    /// [`Error::OutOfRange`] for no run, numbers that do not rise, fewer than three points in a run, lists of
+    /// different lengths, times that do not rise and numbers that are not finite; an error of the core for
+    /// more than [`MAX_SPEEDS`] speeds.
     pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {
         let measured = Self { runs };
         measured.check()?;
@@ -98,8 +97,9 @@ impl MeasuredSpeeds {
         &self.runs
     }
 
-    /// Steady speed and time constant with intervals: of the mean over all runs, which must have been measured at the same
-    /// times, or of the only one ([`TransientFit::of_runs`], [`TransientFit::of_measured`]).
+    /// Steady speed and time constant with intervals: of the mean over all runs, which must have been
+    /// measured at the same times, or of the only one ([`TransientFit::of_runs`],
+    /// [`TransientFit::of_measured`]).
     ///
     /// # Errors
     /// Those of [`TransientFit::new`]; [`Error::OutOfRange`] names a time that is not that of the first run.

@@ -1,10 +1,14 @@
-//! Parameters of a motor from its transients at one preload or several, with intervals, and what they cannot tell.
+//! Parameters of a motor from its transients at one preload or several, with intervals, and what they cannot
+//! tell.
 //!
-//! A transient of a chaotic motor is compared by its means over windows of time, weighted by what such means scatter by;
-//! docs/numerics/motors.md, "Parameters from transients", derives how, and what can be known at all.
+//! A transient of a chaotic motor is compared by its means over windows of time, weighted by what such means
+//! scatter by; docs/numerics/motors.md, "Parameters from transients", derives how, and what can be known at
+//! all.
 
 mod bootstrap;
 mod determined;
+mod display;
+pub(crate) mod estimate;
 pub(crate) mod measured_transient;
 mod model;
 pub(crate) mod parameter;
@@ -13,11 +17,12 @@ pub(crate) mod settings;
 mod weights;
 mod windows;
 
-use bouncing_disk_core::{Observer, Unobserved, Watch};
+use bouncing_disk_core::{Observer, Unobserved, Watch, read_checked};
 use nalgebra::DVector;
 
 use self::bootstrap::{percentile, resampled_places};
 use self::determined::Directions;
+use self::estimate::{ParameterEstimate, UndeterminedDirection};
 use self::measured_transient::{MeasuredTransient, refused};
 use self::model::{Local, Model};
 use self::parameter::{FitParameter, FitRange};
@@ -25,7 +30,7 @@ use self::search::{Evaluations, least_squares};
 use self::settings::ParameterFitSettings;
 use self::weights::Weights;
 use self::windows::Windows;
-use crate::error::{Error, check, within_limit};
+use crate::error::{Error, check, not_negative, within_limit};
 use crate::motor::data_sheet::Motor;
 use crate::motor::fit_refusal::FitRefusal;
 use crate::motor::interval_estimate::{IntervalEstimate, NORMAL_QUANTILE, small_sample_widening};
@@ -33,8 +38,8 @@ use crate::motor::interval_estimate::{IntervalEstimate, NORMAL_QUANTILE, small_s
 /// Most preloads: enough for any experiment, and no input makes a computation endless by their number.
 const MOST_TRANSIENTS: usize = 1_000;
 
-/// A search that has moved by less than this many standard errors has weights and directions that are those of its end. The luck
-/// of other vertical motions is about an eighth of one, with 64 members.
+/// A search that has moved by less than this many standard errors has weights and directions that are those
+/// of its end. The luck of other vertical motions is about an eighth of one, with 64 members.
 const NEAR: f64 = 0.3;
 
 /// The normal quantile that one of 10,000 exceeds.
@@ -42,29 +47,6 @@ const RARE: f64 = 3.719_016_485_455_709;
 
 /// How near the end of a range a parameter is taken to lie at it, as a share of half the range.
 const AT_END: f64 = 1.0e-6;
-
-/// A parameter and what the transients say of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ParameterEstimate {
-    /// The parameter.
-    pub parameter: FitParameter,
-    /// Its value in the data sheet, from which the search began (SI).
-    pub nominal: f64,
-    /// Its value and 95 % interval (SI), within its range; `None` where it has a part in a direction that the transients do not
-    /// determine.
-    pub estimate: Option<IntervalEstimate>,
-}
-
-/// A direction in the space of the fitted parameters along which the transients hardly change: they do not say where on it the
-/// motor is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UndeterminedDirection {
-    /// The direction as a change of each fitted parameter's coordinate ([`FitParameter`]): of the logarithm of a size, of the
-    /// restitution, of the phase lag (rad). The largest change is 1.
-    pub direction: Vec<(FitParameter, f64)>,
-    /// The standard error along it, in multiples of the direction as it stands; infinite where the transients do not change at all.
-    pub standard_error: f64,
-}
 
 /// Parameters of a motor that were fitted to its transients.
 ///
@@ -75,7 +57,7 @@ pub struct UndeterminedDirection {
 ///     FitRange, RunPreload, TransientSettings, transient,
 /// };
 ///
-/// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.3.
+/// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.1.
 /// let sheet = Motor::paper_70_khz();
 /// let built = sheet.with(|sheet| sheet.friction = 0.2)?;
 /// let settings = TransientSettings { duration: 2.0, intervals: 200, ..TransientSettings::default() };
@@ -91,24 +73,37 @@ pub struct UndeterminedDirection {
 /// let fit = ParameterFit::new(&sheet, &[measured], &[friction], &ParameterFitSettings::default())?;
 /// let found = fit.estimate(FitParameter::Friction).expect("determined");
 /// assert!((found.value - 0.2).abs() < 0.04);
+/// // Printed, it is a table.
+/// assert!(fit.to_string().contains("friction   0.1"));
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedFit"))]
 pub struct ParameterFit {
-    /// The fitted parameters, in the order of their ranges.
+    /// The fitted parameters, in the order of their ranges: at least one, and none twice.
     pub parameters: Vec<ParameterEstimate>,
-    /// Directions that the transients do not determine, the least uncertain first. Along them the motor stays where the
-    /// search began.
+    /// Directions that the transients do not determine, the least uncertain first; each names all fitted
+    /// parameters, in their order. Along them the motor stays where the search began.
     pub undetermined: Vec<UndeterminedDirection>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,
-    /// Sum of the weighted squares that is left.
+    /// Sum of the weighted squares that is left, not negative.
     pub misfit: f64,
     /// Its expectation: the number of means less that of the directions that are determined.
     pub degrees_of_freedom: usize,
-    /// How often all motors have been computed.
+    /// How often all motors have been computed, at least once.
     pub evaluations: usize,
 }
+
+read_checked!(ParameterFit as UncheckedFit {
+    parameters: Vec<ParameterEstimate>,
+    undetermined: Vec<UndeterminedDirection>,
+    motor: Motor,
+    misfit: f64,
+    degrees_of_freedom: usize,
+    evaluations: usize,
+});
 
 /// A place in the ranges and all that is known there.
 struct Linearised {
@@ -140,14 +135,15 @@ impl Linearised {
 }
 
 impl ParameterFit {
-    /// Fits the parameters that have a range to the transients, which may be at different preloads. All else is that of the
-    /// data sheet, also the load; its preload is not used.
+    /// Fits the parameters that have a range to the transients, which may be at different preloads. All else
+    /// is that of the data sheet, also the load; its preload is not used.
     ///
     /// # Errors
-    /// [`Error::FitRefused`] says why the fit would mean nothing: too few points, a motor that stays at rest, a parameter at the end of
-    /// its range, a search that found no end, a model that does not describe the transients. [`Error::NeverLeaves`] for a motor
-    /// whose rotor never leaves the stator at the preload of a transient; [`Error::OutOfRange`] for illegal settings, no
-    /// transient, no range, two of one parameter, and a range that is illegal or does not hold the data sheet's value.
+    /// [`Error::FitRefused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
+    /// a parameter at the end of its range, a search that found no end, a model that does not describe the
+    /// transients. [`Error::NeverLeaves`] for a motor whose rotor never leaves the stator at the preload of a
+    /// transient; [`Error::OutOfRange`] for illegal settings, no transient, no range, two of one parameter,
+    /// and a range that is illegal or does not hold the data sheet's value.
     pub fn new(
         nominal: &Motor,
         transients: &[MeasuredTransient],
@@ -160,8 +156,8 @@ impl ParameterFit {
     /// [`Self::new`] with an observer; the items are the evaluations that the search may spend.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-    /// breaks.
+    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
     pub fn new_observed(
         nominal: &Motor,
         transients: &[MeasuredTransient],
@@ -185,6 +181,27 @@ impl ParameterFit {
         let fit = Self::of(&model, &state, evaluations.spent, &watch)?;
         watch.end();
         Ok(fit)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let count = self.parameters.len();
+        check(count > 0, "parameters", 0.0, "at least one")?;
+        for (k, fitted) in self.parameters.iter().enumerate() {
+            let again =
+                self.parameters[..k].iter().filter(|before| before.parameter == fitted.parameter).count();
+            check(again == 0, fitted.parameter.name(), (again + 1) as f64, "fitted once")?;
+        }
+        let open = self.undetermined.len();
+        check(open <= count, "undetermined", open as f64, "as many directions as parameters at most")?;
+        for direction in &self.undetermined {
+            let names = direction.direction.iter().map(|(parameter, _)| *parameter);
+            let is_of_all = names.eq(self.parameters.iter().map(|fitted| fitted.parameter));
+            let named = direction.direction.len() as f64;
+            check(is_of_all, "direction", named, "one change for each fitted parameter, in their order")?;
+        }
+        not_negative("misfit", self.misfit)?;
+        check(self.evaluations > 0, "evaluations", 0.0, "at least one")?;
+        Ok(())
     }
 
     fn of(
@@ -252,7 +269,7 @@ fn checked<'a>(
     within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
     check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 5]")?;
     for (k, range) in ranges.iter().enumerate() {
-        range.check(nominal)?;
+        range.check_for(nominal)?;
         let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
         check(again == 0, range.parameter.name(), (again + 1) as f64, "fitted once")?;
     }
@@ -285,8 +302,8 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, E
     Ok(if misfit > rare { (misfit / expected).sqrt() } else { 1.0 })
 }
 
-/// What the intervals are multiplied by because so few members were computed: their scatter is known no better, and the weights
-/// have an error.
+/// What the intervals are multiplied by because so few members were computed: their scatter is known no
+/// better, and the weights have an error.
 fn sample_widening(model: &Model<'_>) -> f64 {
     let (members, most) =
         (model.settings.members, model.windows.iter().map(Windows::count).max().unwrap_or(1));
@@ -305,5 +322,7 @@ fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> Undetermi
     UndeterminedDirection { direction, standard_error: error * largest.abs() }
 }
 
+#[cfg(all(test, feature = "serde"))]
+mod storage_tests;
 #[cfg(test)]
 mod tests;

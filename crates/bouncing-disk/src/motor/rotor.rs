@@ -10,9 +10,10 @@ use crate::error::Error;
 use crate::motion::chatter::Chatter;
 use crate::motion::contact_motion::{Contact, Placed};
 use crate::motion::friction::Friction;
-use crate::motion::impact::{axial_impulse, friction_impact};
+use crate::motion::impact::{FrictionImpact, axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{change_in_contact, change_in_flight};
+use crate::motion::sliding::RotaryChange;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// What ended the last step of a [`Rotor`].
@@ -43,14 +44,25 @@ pub(crate) struct Bounce {
 }
 
 impl Bounce {
-    /// Angular speed after the impact, and the angle turned in the flight, of a disk with angular `speed` at launch.
+    /// The rotary motion of the flight, of a disk with angular `speed` at launch.
+    #[inline(always)]
+    pub(crate) fn flight(self, speed: f64) -> RotaryChange {
+        change_in_flight(self.load, speed, self.duration)
+    }
+
+    /// What friction does in the impact, at a `slip` (disk minus platform).
+    #[inline(always)]
+    pub(crate) fn friction_impact(self, slip: f64) -> FrictionImpact {
+        friction_impact(self.friction, axial_impulse(self.restitution, self.velocity), slip)
+    }
+
+    /// Angular speed after the impact, and the angle turned in the flight, of a disk with angular `speed` at
+    /// launch.
     #[inline(always)]
     pub(crate) fn after(self, speed: f64) -> (f64, f64) {
-        let Self { duration, platform_speed, velocity, restitution, friction, load } = self;
-        let flight = change_in_flight(load, speed, duration);
-        let rotary =
-            friction_impact(friction, axial_impulse(restitution, velocity), flight.speed - platform_speed);
-        (rotary.speed_after(flight.speed, platform_speed), flight.angle)
+        let flight = self.flight(speed);
+        let rotary = self.friction_impact(flight.speed - self.platform_speed);
+        (rotary.speed_after(flight.speed, self.platform_speed), flight.angle)
     }
 }
 
@@ -69,7 +81,8 @@ pub(crate) struct Rotor {
 }
 
 impl Rotor {
-    /// A disk that lies on the platform at `phase` with angular `speed`; where the platform falls away it flies.
+    /// A disk that lies on the platform at `phase` with angular `speed`; where the platform falls away it
+    /// flies.
     pub(crate) fn at_rest(
         system: &DimensionlessSystem,
         phase: Phase,
@@ -108,7 +121,8 @@ impl Rotor {
         self.orbit.as_ref().and_then(Orbit::launch)
     }
 
-    /// Goes on with an orbit that follows an impact at `phase`, computed elsewhere, after which the angular speed is `speed`.
+    /// Goes on with an orbit that follows an impact at `phase`, computed elsewhere, after which the angular
+    /// speed is `speed`.
     pub(crate) fn go_on_after(&mut self, phase: Phase, orbit: Orbit, periods: u64, speed: f64) {
         self.orbit = Some(orbit);
         self.now = PhaseTime { periods, phase };
@@ -130,8 +144,8 @@ impl Rotor {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` that left it with angular `speed`: what its share of a vertical motion
-    /// that is computed elsewhere asks of it. Its contact ends with a [`RotorStep::Separation`].
+    /// Comes to rest after an impact at `now` that left it with angular `speed`: what its share of a vertical
+    /// motion that is computed elsewhere asks of it. Its contact ends with a [`RotorStep::Separation`].
     pub(crate) fn rest_after(&mut self, now: PhaseTime, speed: f64, rest: &Attachment) {
         self.now = now;
         self.speed = speed;
@@ -192,10 +206,11 @@ impl Rotor {
         self.contact = Some(contact);
     }
 
-    /// The speed after a chattering sequence all of whose impacts slide the same way; `None` if that is not certain.
+    /// The speed after a chattering sequence all of whose impacts slide the same way; `None` if that is not
+    /// certain.
     ///
-    /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less the
-    /// launch speed: in relative velocity, 0 = w - integral of N + sum.
+    /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less
+    /// the launch speed: in relative velocity, 0 = w - integral of N + sum.
     fn slide_throughout(&self, rest: &Attachment) -> Option<f64> {
         let duration = rest.accumulation.duration;
         let vibration = self.system.vibration();
@@ -229,7 +244,8 @@ impl Rotor {
         }
     }
 
-    /// Angle turned within `span` after the last step by a rotor that stays on the stator in its mode; zero in flight.
+    /// Angle turned within `span` after the last step by a rotor that stays on the stator in its mode; zero
+    /// in flight.
     pub(crate) fn turned_since_event(&self, span: PhaseSpan) -> f64 {
         let Some(contact) = self.contact else { return 0.0 };
         let phases = (self.now.phase, self.now.after(span).phase);

@@ -15,29 +15,25 @@ const CLOSURE: f64 = 1.0e-13;
 const FORCING: ForcingParameters =
     ForcingParameters { axial_forcing: 0.45, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 };
 
-/// A law that is constant, which the library does not know.
-#[derive(Debug, Clone, Copy)]
-struct Same(f64);
-
-impl RestitutionLaw for Same {
-    fn restitution(&self, _: f64) -> f64 {
-        self.0
-    }
-    fn derivative(&self, _: f64) -> f64 {
-        0.0
-    }
-}
-
-/// Legal up to a speed.
+/// A law of a user's, which the library knows nothing of: one restitution up to a speed, another from there
+/// on.
 #[derive(Debug, Clone, Copy)]
 struct Brittle {
+    restitution: f64,
     breaks_at: f64,
     then: f64,
 }
 
+impl Brittle {
+    /// Constant at all speeds.
+    const fn never(restitution: f64) -> Self {
+        Self { restitution, breaks_at: f64::INFINITY, then: f64::NAN }
+    }
+}
+
 impl RestitutionLaw for Brittle {
     fn restitution(&self, impact_speed: f64) -> f64 {
-        if impact_speed < self.breaks_at { 0.5 } else { self.then }
+        if impact_speed < self.breaks_at { self.restitution } else { self.then }
     }
     fn derivative(&self, _: f64) -> f64 {
         0.0
@@ -117,7 +113,8 @@ proptest! {
     fn a_constant_law_gives_the_bits_of_the_systems_restitution((system, start, _) in testing::motion()) {
         let policy = ChatterPolicy::Cut(PAPER_CUT);
         let own = Engine::new(system, start, policy).unwrap().take(100);
-        let by_law = Engine::with_law(system, Same(system.restitution()), start, PAPER_CUT).unwrap().take(100);
+        let law = Brittle::never(system.restitution());
+        let by_law = Engine::with_law(system, law, start, PAPER_CUT).unwrap().take(100);
         prop_assert_eq!(own.collect::<Vec<_>>(), by_law.collect::<Vec<_>>());
     }
 }
@@ -159,7 +156,7 @@ fn the_error_of_a_cut_covers_a_finer_one() {
 #[test]
 fn an_illegal_restitution_is_the_last_thing_that_an_engine_tells() {
     for then in [f64::NAN, -0.5, 1.5, f64::INFINITY] {
-        let law = Brittle { breaks_at: 1.0, then };
+        let law = Brittle { restitution: 0.5, breaks_at: 1.0, then };
         let start = InitialCondition::Flight {
             phase: Phase::new(0.0).unwrap(),
             gap: 50.0,
@@ -181,7 +178,7 @@ fn an_illegal_restitution_is_the_last_thing_that_an_engine_tells() {
 #[test]
 fn a_disk_that_rests_for_ever_needs_no_law() {
     let system = ForcingParameters { axial_forcing: 0.2, ..FORCING }.build().unwrap();
-    let law = Brittle { breaks_at: 0.0, then: f64::NAN };
+    let law = Brittle { restitution: 0.5, breaks_at: 0.0, then: f64::NAN };
     let engine = Engine::with_law(system, law, lying(), PAPER_CUT).unwrap();
     assert!(engine.take(20).all(|record| record.is_ok()));
 }

@@ -1,17 +1,18 @@
 //! Reads measured speeds from comma-separated values, and says exactly where they are malformed.
 //!
-//! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that begin with `#`,
-//! blanks and one pair of double quotes around a field, columns in any order.
+//! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that
+//! begin with `#`, blanks and one pair of double quotes around a field, columns in any order.
 
 use std::collections::BTreeMap;
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::Path;
 
-use csv::{ReaderBuilder, StringRecord, Terminator};
+use csv::StringRecord;
 
 use super::error::MeasuredSpeedsError as Fault;
-use super::regular_file;
 use super::{MeasuredRun, MeasuredSpeeds};
+use crate::csv_records::{RecordFault, Records, number, plain, text};
+use crate::regular_file;
 
 /// The columns, the last of which may be missing.
 pub(super) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, member";
@@ -42,17 +43,17 @@ const LEAST_POINTS: usize = 3;
 const SHOWN: usize = 40;
 
 impl MeasuredSpeeds {
-    /// Reads a file of comma-separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for repeated runs, `member`
-    /// (a whole number). Feature `csv`.
+    /// Reads a file of comma-separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for
+    /// repeated runs, `member` (a whole number). Feature `csv`.
     ///
-    /// The first line names the columns, in any order. Another column is refused and not passed over: it may be a
-    /// misspelt one, or one in another unit. Within a run the times rise; runs may follow each other or
-    /// alternate. Blank lines and lines that begin with `#` are passed over. At most 64 MiB, 4,000,000 lines of
-    /// numbers and 65,536 bytes of one line are read.
+    /// The first line names the columns, in any order. Another column is refused and not passed over: it may
+    /// be a misspelt one, or one in another unit. Within a run the times rise; runs may follow each other or
+    /// alternate. Blank lines and lines that begin with `#` are passed over. At most 64 MiB, 4,000,000 lines
+    /// of numbers and 65,536 bytes of one line are read.
     ///
     /// # Errors
-    /// [`MeasuredSpeedsError`](crate::MeasuredSpeedsError) names file, line and field, and what to do. A folder, a named pipe, a
-    /// socket and a device are refused before they are opened.
+    /// [`MeasuredSpeedsError`](crate::MeasuredSpeedsError) names file, line and field, and what to do. A
+    /// folder, a named pipe, a socket and a device are refused before they are opened.
     pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, Fault> {
         let path = path.as_ref();
         let file = path.to_string_lossy();
@@ -79,17 +80,24 @@ fn shortened(text: &str) -> String {
 }
 
 fn parse(file: &str, bytes: &[u8]) -> Result<MeasuredSpeeds, Fault> {
-    let mut records = Records::new(file, text(file, bytes)?);
-    let line = records.advance()?.ok_or_else(|| Fault::Empty { file: file.to_owned() })?;
-    let header = Header::read(file, line, &records.record)?;
+    let told = |fault| in_file(file, fault);
+    let text = text(bytes).map_err(told)?;
+    let long = bytes.split(|byte| *byte == b'\n').position(|line| line.len() > LONGEST_LINE);
+    if let Some(index) = long {
+        return Err(Fault::LongLine { file: file.to_owned(), line: index + 1, most: LONGEST_LINE });
+    }
+    let mut records = Records::new(text);
+    let empty = || Fault::Empty { file: file.to_owned() };
+    let line = records.advance().map_err(told)?.ok_or_else(empty)?;
+    let header = Header::read(file, line, records.record())?;
     let mut runs: BTreeMap<u32, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
     let mut rows = 0;
-    while let Some(line) = records.advance()? {
+    while let Some(line) = records.advance().map_err(told)? {
         rows += 1;
         if rows > MOST_ROWS {
             return Err(Fault::TooLong { file: file.to_owned(), line, most: MOST_ROWS });
         }
-        let (time, speed, member) = header.row(line, &records.record)?;
+        let (time, speed, member) = header.row(line, records.record())?;
         let (times, speeds) = runs.entry(member).or_default();
         if let Some(&previous) = times.last()
             && time <= previous
@@ -113,75 +121,14 @@ fn parse(file: &str, bytes: &[u8]) -> Result<MeasuredSpeeds, Fault> {
     Ok(MeasuredSpeeds::new(runs.into_iter().map(run).collect())?)
 }
 
-fn text<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let before = &bytes[..error.valid_up_to()];
-        let line_start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |place| place + 1);
-        Fault::NotText {
-            file: file.to_owned(),
-            line: before.iter().filter(|byte| **byte == b'\n').count() + 1,
-            byte: before.len() - line_start + 1,
-        }
-    })?;
-    let long = text.split('\n').position(|line| line.len() > LONGEST_LINE);
-    if let Some(index) = long {
-        return Err(Fault::LongLine { file: file.to_owned(), line: index + 1, most: LONGEST_LINE });
+/// A fault of the form, told with the file.
+fn in_file(file: &str, fault: RecordFault) -> Fault {
+    let file = file.to_owned();
+    match fault {
+        RecordFault::NotText { line, byte } => Fault::NotText { file, line, byte },
+        RecordFault::OpenQuote { line, field } => Fault::OpenQuote { file, line, field },
+        RecordFault::Unreadable(source) => Fault::Unreadable { file, source },
     }
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
-}
-
-/// The lines of a file that are neither blank nor a remark.
-struct Records<'a> {
-    file: &'a str,
-    text: &'a str,
-    reader: csv::Reader<io::Chain<&'a [u8], &'static [u8]>>,
-    record: StringRecord,
-}
-
-impl<'a> Records<'a> {
-    fn new(file: &'a str, text: &'a str) -> Self {
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .terminator(Terminator::Any(b'\n'))
-            // The last line may lack its end; of two ends in a row the second makes a blank line.
-            .from_reader(text.as_bytes().chain(b"\n".as_slice()));
-        Self { file, text, reader, record: StringRecord::new() }
-    }
-
-    /// Goes to the next record and says on which line it is; `None` at the end.
-    fn advance(&mut self) -> Result<Option<usize>, Fault> {
-        let Self { file, text, reader, record } = self;
-        let unreadable =
-            |error: csv::Error| Fault::Unreadable { file: (*file).to_owned(), source: error.into() };
-        while reader.read_record(record).map_err(unreadable)? {
-            if let Some(place) = record.iter().position(|field| field.contains('\n')) {
-                let line = first_line(record, text);
-                return Err(Fault::OpenQuote { file: (*file).to_owned(), line, field: place + 1 });
-            }
-            let first = record.get(0).unwrap_or_default().trim();
-            if !first.starts_with('#') && (record.len() > 1 || !first.is_empty()) {
-                // The record, which is one line, has just been read with its end.
-                return Ok(Some((reader.position().line() as usize).saturating_sub(1)));
-            }
-        }
-        Ok(None)
-    }
-}
-
-/// The line on which a record begins. Its own position is that of the empty lines and remarks before it.
-fn first_line(record: &StringRecord, text: &str) -> usize {
-    let line = record.position().map_or(1, |position| position.line() as usize);
-    let before = text.split('\n').skip(line.saturating_sub(1));
-    line + before.take_while(|line| line.is_empty() || line.starts_with('#')).count()
-}
-
-/// A field without the blanks around it. The reader sees a quotation mark only where a field begins with it.
-fn plain(field: &str) -> &str {
-    let field = field.trim();
-    let unquoted = field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
-    unquoted.unwrap_or(field).trim()
 }
 
 /// What separates the columns of a line that has no comma, or none between columns.
@@ -234,31 +181,22 @@ impl<'a> Header<'a> {
         let refuse = |column: usize, place: usize| {
             let (field, name, text) = (place + 1, COLUMNS[column], plain(&record[place]));
             let value = shortened(text);
-            if number(&text.replacen(',', ".", 1)).is_some() && text.contains(',') {
+            if number(&text.replacen(',', ".", 1)).is_ok() && text.contains(',') {
                 Fault::DecimalComma { file: file(), line, field, name, value }
             } else {
                 Fault::NotLegal { file: file(), line, field, name, value, legal: LEGAL[column] }
             }
         };
         let [time_place, speed_place] = self.places;
-        let time = number(plain(&record[time_place])).filter(|time| *time >= 0.0);
+        let time = number(plain(&record[time_place])).ok().filter(|time| *time >= 0.0);
         let time = time.ok_or_else(|| refuse(0, time_place))?;
-        let speed = number(plain(&record[speed_place])).ok_or_else(|| refuse(1, speed_place))?;
+        let speed = number(plain(&record[speed_place])).map_err(|_| refuse(1, speed_place))?;
         let member = match self.member {
             None => 0,
             Some(place) => plain(&record[place]).parse().map_err(|_| refuse(2, place))?,
         };
         Ok((time, speed, member))
     }
-}
-
-/// The finite number that a field states.
-fn number(text: &str) -> Option<f64> {
-    let number: f64 = text.parse().ok()?;
-    // 1e-400 is not 0, though the nearest double is; the sign of a zero means nothing here.
-    let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
-    let vanished = number == 0.0 && mantissa.contains(|digit: char| ('1'..='9').contains(&digit));
-    (number.is_finite() && !vanished).then_some(number + 0.0)
 }
 
 #[cfg(test)]

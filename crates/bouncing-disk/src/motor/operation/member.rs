@@ -8,7 +8,7 @@ use bouncing_disk_core::{
     Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, Phase, WorkCount,
 };
 
-use super::energy_rows::{CarryAll, EnergyRows, WIDTH};
+use super::energy_rows::{CarryAll, Energies};
 use super::no_lift_off::Lying;
 use super::settings::OperatingSettings;
 use crate::error::Error;
@@ -19,6 +19,7 @@ use crate::motion::impact::{axial_impulse, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
+use crate::motor::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::shared_orbit::vertical::VerticalMotion;
 use crate::motor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -124,7 +125,7 @@ impl Member {
             Some(vertical) => Self::Bouncing(Box::new(Bouncing {
                 vertical,
                 engines,
-                rows: EnergyRows::of(systems),
+                rows: RotorRows::of(systems.iter().copied()),
                 runner: LaneRunner::new(InstructionSet::best()),
                 window: Window::default(),
                 begun: false,
@@ -134,8 +135,8 @@ impl Member {
         })
     }
 
-    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to the
-    /// end of an event. Rotors that never bounce have periods instead of impacts.
+    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the
+    /// duration; up to the end of an event. Rotors that never bounce have periods instead of impacts.
     pub(super) fn next_window(
         &mut self,
         duration: f64,
@@ -155,7 +156,7 @@ pub(super) struct Bouncing {
     vertical: VerticalMotion,
     /// The rotors while the disk lies on the platform.
     engines: Vec<Engine>,
-    rows: Vec<EnergyRows>,
+    rows: Vec<RotorRows<Energies>>,
     runner: LaneRunner,
     window: Window,
     /// Whether the disk has left the platform for the first time.
@@ -216,11 +217,11 @@ impl Bouncing {
         for (index, before) in speeds.into_iter().enumerate() {
             let (row, own) = (&mut self.rows[index / WIDTH], index % WIDTH);
             let rotor = &mut self.window.rotors[index];
-            let angle = std::mem::take(&mut row.angle[own]);
+            let angle = std::mem::take(&mut row.tally.angle[own]);
             rotor.angle += angle;
             rotor.load_work += self.engines[index].system().load() * angle;
-            rotor.friction_work += std::mem::take(&mut row.work[own]);
-            rotor.friction_loss += std::mem::take(&mut row.loss[own]);
+            rotor.friction_work += std::mem::take(&mut row.tally.work[own]);
+            rotor.friction_loss += std::mem::take(&mut row.tally.loss[own]);
             let after = row.speed[own];
             rotor.kinetic_change = 0.5 * (after - before) * (after + before);
         }
@@ -247,17 +248,12 @@ impl Bouncing {
         axial.restitution_loss +=
             0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (impact.velocity * impact.velocity);
         self.energy = self.energy_at(self.vertical.now(), rebound_velocity(restitution, impact.velocity));
-        self.runner.run(CarryAll {
-            duration: impact.duration(),
-            sin: impact.phase.sin(),
-            cos: impact.phase.cos(),
-            velocity: impact.velocity,
-            restitution,
-            rows: &mut self.rows,
-        });
+        let impact = SharedImpact::new(impact, restitution);
+        self.runner.run(CarryAll { impact, rows: &mut self.rows });
     }
 
-    /// Carries each rotor through a rest of the disk up to its separation; without an attachment, through the first one.
+    /// Carries each rotor through a rest of the disk up to its separation; without an attachment, through the
+    /// first one.
     fn rest(&mut self, rest: Option<&Attachment>) -> Result<(), Error> {
         let (began, mut separation) = (self.vertical.now(), None);
         let vibration = *self.engines[0].system().vibration();

@@ -3,14 +3,16 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::read_checked;
 
-use crate::error::{Error, check, finite, positive, restitution};
+use crate::error::{Error, check, finite, positive};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
 /// A parameter of a motor that its transients may tell.
 ///
-/// Its coordinate is its natural logarithm where it is a size, and itself where it is an angle or a ratio in [0, 1).
+/// Its coordinate is its natural logarithm where it is a size, and itself where it is an angle or a ratio in
+/// [0, 1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -23,8 +25,8 @@ pub enum FitParameter {
     PhaseLag,
     /// Axial amplitude A of the stator (m). Coordinate: its logarithm.
     Amplitude,
-    /// Twist amplitude Phi of the stator (rad), also where the data sheet has the peak angular speed omega Phi.
-    /// Coordinate: its logarithm.
+    /// Twist amplitude Phi of the stator (rad), also where the data sheet has the peak angular speed omega
+    /// Phi. Coordinate: its logarithm.
     TwistAmplitude,
 }
 
@@ -71,6 +73,26 @@ impl FitParameter {
         if self.is_size() { exp(coordinate) } else { coordinate }
     }
 
+    /// Its unit; nothing for a number without one.
+    pub(super) const fn unit(self) -> &'static str {
+        match self {
+            Self::Friction | Self::Restitution => "",
+            Self::PhaseLag | Self::TwistAmplitude => "rad",
+            Self::Amplitude => "m",
+        }
+    }
+
+    /// Checks that a motor may have this value.
+    pub(super) fn check(self, field: &'static str, value: f64) -> Result<f64, Error> {
+        if self.is_size() {
+            positive(field, value)
+        } else if self == Self::Restitution {
+            check((0.0..1.0).contains(&value), field, value, "[0, 1)")
+        } else {
+            finite(field, value)
+        }
+    }
+
     /// Writes a value into a data sheet.
     pub(super) fn set(self, sheet: &mut MotorParameters, value: f64) {
         match self {
@@ -94,34 +116,40 @@ impl std::fmt::Display for FitParameter {
 
 /// A parameter that is fitted, and what it can be at all.
 ///
-/// The range is also what "determined" is measured by: a direction in which the data leave more than half of the ranges open
-/// is none that they determine.
+/// The range is also what "determined" is measured by: a direction in which the data leave more than half of
+/// the ranges open is none that they determine.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRange"))]
 pub struct FitRange {
     /// The parameter.
     pub parameter: FitParameter,
     /// Lower end (SI): positive, or in [0, 1) for the restitution, or finite for the phase lag.
     pub low: f64,
-    /// Upper end (SI), above the lower one, below 1 for the restitution, at most a turn above for the phase lag.
+    /// Upper end (SI), above the lower one, below 1 for the restitution, at most a turn above for the phase
+    /// lag.
     pub high: f64,
 }
 
+read_checked!(FitRange as UncheckedRange { parameter: FitParameter, low: f64, high: f64 });
+
 impl FitRange {
-    pub(super) fn check(&self, motor: &Motor) -> Result<(), Error> {
+    fn check(&self) -> Result<(), Error> {
         let Self { parameter, low, high } = *self;
         for end in [low, high] {
-            if parameter.is_size() {
-                positive(parameter.name(), end)?;
-            } else if parameter == FitParameter::Restitution {
-                restitution(end)?;
-            } else {
-                finite(parameter.name(), end)?;
-            }
+            parameter.check(parameter.name(), end)?;
         }
         check(self.half_width() > 0.0, "upper end of a range", high, "above its lower end")?;
         if parameter == FitParameter::PhaseLag {
             check(high - low <= TAU, "width of the range of the phase lag", high - low, "(0, 2 pi] (rad)")?;
         }
+        Ok(())
+    }
+
+    /// Checks the range, and that it holds the data sheet's value.
+    pub(super) fn check_for(&self, motor: &Motor) -> Result<(), Error> {
+        self.check()?;
+        let Self { parameter, low, high } = *self;
         let nominal = parameter.of(motor);
         check(
             nominal >= low && nominal <= high,

@@ -1,28 +1,44 @@
 //! How parameters are fitted to transients.
 
+use bouncing_disk_core::read_checked;
+
 use crate::error::{Error, check};
 
 /// How parameters are fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct ParameterFitSettings {
-    /// Computed members at each preload, in [24, 4096]: what a run scatters by is known from them. Default 64.
+    /// Computed members at each preload, in [24, 4096]: what a run scatters by is known from them. Default
+    /// 64.
     pub members: usize,
-    /// Most windows of time over whose means a transient is compared, in [1, 12]. Each is twice as long as the one before.
-    /// Default 6: the first one begins with the motor and ends at a 32nd of the duration.
+    /// Most windows of time over whose means a transient is compared, in [1, 12]. Each is twice as long as
+    /// the one before. Default 6: the first one begins with the motor and ends at a 32nd of the duration.
     pub windows: usize,
     /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the resampling. Default 1.
     pub seed: u64,
-    /// Most evaluations of all motors that the search may take, in [1, 10000]. Default 100. A derivative counts as one.
+    /// Most evaluations of all motors that the search may take, in [1, 10000]. Default 100. A derivative
+    /// counts as one.
     pub most_evaluations: usize,
     /// Resampled fits, in [200, 100000]. Default 1000.
     pub resamples: usize,
-    /// The largest sum of weighted squares that is accepted, as a multiple of what one of 10,000 sound fits exceeds, at least 1.
-    /// Default 1. Above 1 the intervals of a fit that exceeds the latter are wider by the root of the sum over its
-    /// expectation.
+    /// The largest sum of weighted squares that is accepted, as a multiple of what one of 10,000 sound fits
+    /// exceeds, at least 1. Default 1. Above 1 the intervals of a fit that exceeds the latter are wider by
+    /// the root of the sum over its expectation.
     pub largest_misfit: f64,
 }
+
+read_checked!(ParameterFitSettings as UncheckedSettings {
+    members: usize,
+    windows: usize,
+    relaunch_perturbation: f64,
+    seed: u64,
+    most_evaluations: usize,
+    resamples: usize,
+    largest_misfit: f64,
+});
 
 impl Default for ParameterFitSettings {
     fn default() -> Self {

@@ -4,13 +4,14 @@ use bouncing_disk_core::{
     Impact, InstructionSet, LaneRunner, Observer, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
 };
 
-use super::rotor_set::{CarryAll, Rotors, SharedImpact, WIDTH};
+use super::rotor_set::{CarryAll, Turned};
 use super::shared_by;
 use super::vertical::VerticalMotion;
 use crate::error::{Error, room_for, within_limit};
 use crate::motion::phase_time::PhaseTime;
 use crate::motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::rotor::{Rotor, RotorStep};
+use crate::motor::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::transient::{
     Bins, FLIGHTS_OF_EVENT, Interval, SpeedCurve, TransientSettings, curve, seconds,
 };
@@ -20,9 +21,10 @@ use crate::parameters::system::System;
 /// The speed transients of motors that share one vertical motion: bit for bit those of
 /// [`transient`](crate::transient()) for each, in their order, for a fraction of the time.
 ///
-/// They may differ in load, friction, phase lag, twist amplitude and radii. They start together at `phase`, with the
-/// same perturbations of their relaunches (`settings.seed`), so that a difference between two of them is much better
-/// known than either: for errors that are independent of each other, compute each with a seed of its own.
+/// They may differ in load, friction, phase lag, twist amplitude and radii. They start together at `phase`,
+/// with the same perturbations of their relaunches (`settings.seed`), so that a difference between two of
+/// them is much better known than either: for errors that are independent of each other, compute each with a
+/// seed of its own.
 ///
 /// ```
 /// use bouncing_disk::core::Phase;
@@ -40,8 +42,8 @@ use crate::parameters::system::System;
 ///
 /// # Errors
 /// [`Error::NotShared`] for motors with different peak accelerations, restitutions, frequencies or preloads;
-/// [`Error::OutOfRange`] for none; an error of the core for more than [`MAX_MEMBERS`] or for curves of more than
-/// [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::transient()).
+/// [`Error::OutOfRange`] for none; an error of the core for more than [`MAX_MEMBERS`] or for curves of more
+/// than [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::transient()).
 pub fn shared_transients(
     systems: &[System],
     phase: Phase,
@@ -53,8 +55,8 @@ pub fn shared_transients(
 /// [`shared_transients`] with an observer; the items are the intervals of the curves.
 ///
 /// # Errors
-/// Those of [`shared_transients`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
+/// Those of [`shared_transients`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+/// the observer breaks.
 pub fn shared_transients_observed(
     systems: &[System],
     phase: Phase,
@@ -105,7 +107,7 @@ struct Carried {
 struct SharedRun {
     vertical: VerticalMotion,
     carried: Vec<Carried>,
-    rows: Vec<Rotors>,
+    rows: Vec<RotorRows<Turned>>,
     runner: LaneRunner,
     /// The present interval of all curves; what is turned in it is in the rows.
     interval: Interval,
@@ -140,7 +142,7 @@ impl SharedRun {
         }
         Ok(Self {
             vertical,
-            rows: Rotors::of(systems.iter().map(|system| *system.dimensionless())),
+            rows: RotorRows::of(systems.iter().map(|system| *system.dimensionless())),
             runner: LaneRunner::new(set),
             interval,
             width,
@@ -192,15 +194,8 @@ impl SharedRun {
         self.impacts += 1;
         let to = self.seconds(self.vertical.now());
         let is_within = to <= self.interval.end;
-        let impact = SharedImpact {
-            duration: impact.duration(),
-            sin: impact.phase.sin(),
-            cos: impact.phase.cos(),
-            velocity: impact.velocity,
-            restitution: self.vertical.restitution(),
-            is_within,
-        };
-        self.runner.run(CarryAll { impact, rows: &mut self.rows });
+        let impact = SharedImpact::new(impact, self.vertical.restitution());
+        self.runner.run(CarryAll { impact, is_within, rows: &mut self.rows });
         if is_within {
             self.interval.reached = to;
             return;
@@ -208,16 +203,16 @@ impl SharedRun {
         let mut reached = self.interval;
         for (index, one) in self.carried.iter_mut().enumerate() {
             let (row, own) = (&mut self.rows[index / WIDTH], index % WIDTH);
-            let mut interval = Interval { turned: row.sum[own], ..self.interval };
-            interval.pass(&mut one.turned, self.width, to, row.turned[own]);
-            row.sum[own] = interval.turned;
+            let mut interval = Interval { turned: row.tally.sum[own], ..self.interval };
+            interval.pass(&mut one.turned, self.width, to, row.tally.last[own]);
+            row.tally.sum[own] = interval.turned;
             reached = interval;
         }
         self.interval = reached;
     }
 
-    /// Carries each rotor through a rest of the disk up to its separation, or up to the end of the transient. `begin` puts a
-    /// rotor with the speed of the last impact on the platform.
+    /// Carries each rotor through a rest of the disk up to its separation, or up to the end of the transient.
+    /// `begin` puts a rotor with the speed of the last impact on the platform.
     fn rest(&mut self, mut begin: impl FnMut(&mut Rotor, f64)) -> Result<(), Error> {
         let (began, mut separation, mut reached) = (self.vertical.now(), None, self.interval);
         for (index, one) in self.carried.iter_mut().enumerate() {
@@ -225,7 +220,7 @@ impl SharedRun {
             let mut bins = Bins {
                 turned: std::mem::take(&mut one.turned),
                 width: self.width,
-                present: Interval { turned: row.sum[own], ..self.interval },
+                present: Interval { turned: row.tally.sum[own], ..self.interval },
             };
             let mut add = |rotor: &Rotor| {
                 let now = rotor.time();
@@ -250,7 +245,7 @@ impl SharedRun {
                 }
             }
             row.speed[own] = one.rotor.speed();
-            row.sum[own] = bins.present.turned;
+            row.tally.sum[own] = bins.present.turned;
             one.turned = bins.turned;
             reached = bins.present;
         }
@@ -264,7 +259,7 @@ impl SharedRun {
     fn finished(self) -> Result<Vec<SpeedCurve>, Error> {
         let mut curves = room_for("rotors on one vertical motion", self.carried.len(), MAX_MEMBERS)?;
         for (index, one) in self.carried.into_iter().enumerate() {
-            let turned = self.rows[index / WIDTH].sum[index % WIDTH];
+            let turned = self.rows[index / WIDTH].tally.sum[index % WIDTH];
             let present = Interval { turned, ..self.interval };
             let bins = Bins { turned: one.turned, width: self.width, present };
             curves.push(curve(bins, &one.unit, (self.impacts, one.separations))?);

@@ -15,8 +15,8 @@ fn loaded(system: &System, share: f64) -> LoadedMotor {
     unloaded.with_load(share * unloaded.largest_torque()).expect("legal")
 }
 
-/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees; radii,
-/// friction and restitution of Table III.
+/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees;
+/// radii, friction and restitution of Table III.
 fn tried() -> System {
     let angular_frequency = TAU * 40e3;
     System::motor()
@@ -34,8 +34,9 @@ fn operated(motors: &[LoadedMotor], settings: &OperatingSettings) -> Vec<Operati
     operate(motors, settings, &Unobserved).expect("no failure").operations
 }
 
-/// The energy that comes in is the work done, the losses and what is stored: over whole runs, with loads that brake,
-/// drive and nearly run away, on platforms of every strength, with and without twist, friction and rebound.
+/// The energy that comes in is the work done, the losses and what is stored: over whole runs, with loads that
+/// brake, drive and nearly run away, on platforms of every strength, with and without twist, friction and
+/// rebound.
 #[test]
 fn energy_is_balanced() {
     let settings = OperatingSettings {
@@ -132,8 +133,8 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     assert!(matches!(operated(&[pushed], &settings)[0], Operation::Runaway { .. }));
 }
 
-/// The engine followed without perturbation locks on a cycle that the rounding has chosen, with a perfect energy
-/// balance: what a new user took for the motor's speed.
+/// The engine followed without perturbation locks on a cycle that the rounding has chosen, with a perfect
+/// energy balance: what a new user took for the motor's speed.
 #[test]
 fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     let settings = OperatingSettings::default();
@@ -161,25 +162,17 @@ fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     let zero = OperatingSettings { relaunch_perturbation: 0.0, ..settings };
     let error = operate(&[motor], &zero, &Unobserved).expect_err("not mixed");
     assert!(matches!(error, Error::OutOfRange { field: "relaunch_perturbation", .. }), "{error}");
-    // Ten times more or less of it, or other seeds: the same within the errors, and these are those of the mean.
+    // Ten times more or less of it, or other seeds: the same within the errors, and these are those of the
+    // mean.
     let mut deviations = Vec::new();
     for (relaunch_perturbation, seed) in [(1e-2, 1), (1e-4, 1), (1e-3, 2), (1e-3, 300), (1e-3, 4000)] {
         let other = OperatingSettings { relaunch_perturbation, seed, ..settings };
         let other = *operated(&[motor], &other)[0].steady().expect("steady");
-        let error = (other.speed.standard_error.powi_two() + point.speed.standard_error.powi_two()).sqrt();
+        let (one, another) = (other.speed.standard_error, point.speed.standard_error);
+        let error = (one * one + another * another).sqrt();
         deviations.push((other.speed.value - point.speed.value) / error);
     }
     assert!(deviations.iter().all(|deviation| deviation.abs() < 4.0), "{deviations:?}");
-}
-
-trait Square {
-    fn powi_two(self) -> f64;
-}
-
-impl Square for f64 {
-    fn powi_two(self) -> f64 {
-        self * self
-    }
 }
 
 /// The end of the curve without load is what the transients rise to.
@@ -192,7 +185,8 @@ fn the_speed_without_load_is_that_of_the_transients() {
     let runs = ensemble(&system, &long, 16).expect("no failure");
     let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(0.7).expect("legal")).collect();
     let transient = Spread::of(&means).expect("finite");
-    let error = (point.speed.standard_error.powi_two() + transient.standard_error.powi_two()).sqrt();
+    let (one, another) = (point.speed.standard_error, transient.standard_error);
+    let error = (one * one + another * another).sqrt();
     let difference = point.speed.value - transient.mean;
     assert!(difference.abs() < 4.0 * error, "{point:?} {transient:?}");
     assert!(error < 0.01 * point.speed.value, "{error}");
@@ -269,7 +263,8 @@ fn illegal_settings_are_named() {
     assert!(matches!(error, Error::NotShared { .. }), "{error}");
 }
 
-/// Where the platform hardly falls away, or the disk never comes to rest: a number with its error, or what it lacks.
+/// Where the platform hardly falls away, or the disk never comes to rest: a number with its error, or what it
+/// lacks.
 #[test]
 fn platforms_of_every_strength_are_judged() {
     let settings = OperatingSettings {
@@ -301,8 +296,8 @@ mod searches {
     use crate::motor::operation::best_phase_lag::best_phase_lag;
     use crate::motor::operation::stall_load::stall_load;
 
-    /// Under the stall load the motor stands still; a little less and it turns, a little more and it is driven back. The
-    /// paper's estimate from the transient is another number.
+    /// Under the stall load the motor stands still; a little less and it turns, a little more and it is
+    /// driven back. The paper's estimate from the transient is another number.
     #[test]
     fn the_stall_load_is_bracketed_by_what_turns_and_what_does_not() {
         let settings = OperatingSettings::default();

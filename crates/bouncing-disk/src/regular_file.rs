@@ -1,7 +1,7 @@
 //! Reads files that somebody else may have put in their place.
 
 use std::fs::{self, File, FileType};
-use std::io::{self, ErrorKind, Read as _};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 /// What is there is no regular file. To open a named pipe waits for a writer, and a device may never end.
@@ -30,22 +30,34 @@ pub struct TooLarge {
 /// # Errors
 ///
 /// What the system reports; with [`NotRegular`] or [`TooLarge`] inside where the file is one of these.
-pub(crate) fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
+pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     must_be_regular(fs::metadata(path)?.file_type())?;
     let file = File::open(path)?;
     let metadata = file.metadata()?;
     must_be_regular(metadata.file_type())?;
-    let too_large = |bytes| io::Error::new(ErrorKind::FileTooLarge, TooLarge { bytes, largest });
     if metadata.len() > largest {
-        return Err(too_large(metadata.len()));
+        return Err(too_large(metadata.len(), largest));
     }
+    limited(file, largest)
+}
+
+/// All that a reader gives, if it is at most `largest` bytes.
+///
+/// # Errors
+///
+/// What the reader reports; with [`TooLarge`] inside where it gives more.
+pub fn limited(reader: impl Read, largest: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    // It may grow while it is read, and some file systems state no length.
-    file.take(largest.saturating_add(1)).read_to_end(&mut bytes)?;
+    // A file may grow while it is read, and some file systems state no length.
+    reader.take(largest.saturating_add(1)).read_to_end(&mut bytes)?;
     match bytes.len() as u64 {
-        length if length > largest => Err(too_large(length)),
+        length if length > largest => Err(too_large(length, largest)),
         _ => Ok(bytes),
     }
+}
+
+fn too_large(bytes: u64, largest: u64) -> io::Error {
+    io::Error::new(ErrorKind::FileTooLarge, TooLarge { bytes, largest })
 }
 
 fn must_be_regular(kind: FileType) -> io::Result<()> {
@@ -94,6 +106,16 @@ mod tests {
         assert_eq!(error.to_string(), "it is a folder; legal is a regular file");
         assert_eq!(read(&path.join("none"), 4).expect_err("absent").kind(), ErrorKind::NotFound);
         fs::remove_dir_all(path).expect("removable");
+    }
+
+    #[test]
+    fn a_reader_is_read_up_to_the_limit() {
+        assert_eq!(limited(b"1234".as_slice(), 4).expect("not too large"), b"1234");
+        assert_eq!(limited(io::empty(), 0).expect("not too large"), b"");
+        let error = limited(io::repeat(0), 4).expect_err("never ends");
+        let found = error.get_ref().and_then(|inner| inner.downcast_ref());
+        assert_eq!(found, Some(&TooLarge { bytes: 5, largest: 4 }));
+        assert_eq!(error.kind(), ErrorKind::FileTooLarge);
     }
 
     #[cfg(unix)]

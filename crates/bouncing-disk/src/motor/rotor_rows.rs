@@ -1,0 +1,75 @@
+//! The rotors on one vertical motion, as rows of numbers that a loop takes through an impact together.
+
+use bouncing_disk_core::Impact;
+
+use crate::motor::rotor::Bounce;
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// Rotors of one row: what the widest vectors of today hold.
+pub(crate) const WIDTH: usize = 8;
+
+/// A number of each rotor.
+pub(crate) type Row = [f64; WIDTH];
+
+/// Eight rotors, and what is added up of them. Unused ones are without friction, load and speed.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+pub(crate) struct RotorRows<T> {
+    friction: Row,
+    load: Row,
+    twist_cosine: Row,
+    twist_sine: Row,
+    /// Angular speed after the last impact.
+    pub(crate) speed: Row,
+    /// What is added up.
+    pub(crate) tally: T,
+}
+
+impl<T: Copy + Default> RotorRows<T> {
+    /// Rows of all these systems.
+    pub(crate) fn of(systems: impl ExactSizeIterator<Item = DimensionlessSystem>) -> Vec<Self> {
+        let mut rows = vec![Self::default(); systems.len().div_ceil(WIDTH)];
+        for (index, system) in systems.enumerate() {
+            let (rotors, own) = (&mut rows[index / WIDTH], index % WIDTH);
+            rotors.friction[own] = system.friction();
+            rotors.load[own] = system.load();
+            (rotors.twist_cosine[own], rotors.twist_sine[own]) = system.twist_components();
+        }
+        rows
+    }
+
+    /// What a flight and the impact that ends it are for one of the rotors.
+    #[inline(always)]
+    pub(crate) fn bounce(&self, own: usize, impact: &SharedImpact) -> Bounce {
+        let SharedImpact { duration, sin, cos, velocity, restitution } = *impact;
+        Bounce {
+            duration,
+            // As `DimensionlessSystem::platform_angular_speed`.
+            platform_speed: self.twist_cosine[own] * cos - self.twist_sine[own] * sin,
+            velocity,
+            restitution,
+            friction: self.friction[own],
+            load: self.load[own],
+        }
+    }
+}
+
+/// A flight and its impact, the same for all rotors.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SharedImpact {
+    /// Duration of the flight (rad).
+    duration: f64,
+    sin: f64,
+    cos: f64,
+    /// Relative axial velocity before the impact.
+    velocity: f64,
+    restitution: f64,
+}
+
+impl SharedImpact {
+    /// Of a vertical motion with this restitution.
+    pub(crate) fn new(impact: &Impact, restitution: f64) -> Self {
+        let (sin, cos) = (impact.phase.sin(), impact.phase.cos());
+        Self { duration: impact.duration(), sin, cos, velocity: impact.velocity, restitution }
+    }
+}
