@@ -84,7 +84,8 @@ pub struct ParameterFit {
     /// The fitted parameters, in the order of their ranges: at least one, and none twice.
     pub parameters: Vec<ParameterEstimate>,
     /// Directions that the transients do not determine, the least uncertain first; each names all fitted
-    /// parameters, in their order. Along them the motor stays where the search began.
+    /// parameters, in their order. Along them the motor stays where the search found them so: where it began, unless
+    /// they were determined there and are not where it ended.
     pub undetermined: Vec<UndeterminedDirection>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,

@@ -211,9 +211,8 @@ fn a_restitution_is_found_with_the_error_of_its_rough_response() {
     assert!(found.high - found.low > 0.05, "{found:?}");
 }
 
-/// At these preloads P is 130 to 390, where the speeds of neighbouring amplitudes scatter more than they
-/// change. That is said: there is no interval, and the motor stays at its data sheet's amplitude, which is
-/// not the truth.
+/// At these preloads P is 130 to 390, where the speeds of neighbouring amplitudes scatter more than they change. That
+/// is said: there is no interval, and the amplitude is named as undetermined.
 #[test]
 fn an_amplitude_that_its_rough_response_hides_is_named() {
     assert!(!is_trapped(&built()));
@@ -227,7 +226,6 @@ fn an_amplitude_that_its_rough_response_hides_is_named() {
     assert_eq!(open.direction, [(amplitude, 1.0)]);
     // Half of the range is 1.15 in the logarithm; an error of half as much determines nothing.
     assert!(open.standard_error > 0.57, "{open:?}");
-    assert!((amplitude.of(&fit.motor) / amplitude.of(&sheet) - 1.0).abs() < 1e-12, "{}", fit.motor.system());
 }
 
 #[test]
