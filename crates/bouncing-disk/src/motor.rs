@@ -1,5 +1,5 @@
-//! The motor: its data sheet, its steady operation under a load and sweeps of it, speed transients and ensembles of them, fits with and
-//! without intervals, the balance of the impulse, stall, and braking.
+//! The motor: its data sheet, its steady operation under a load and sweeps of it, speed transients and ensembles of
+//! them, fits with and without intervals, the balance of the impulse, stall, and braking.
 
 pub(crate) mod brake;
 pub(crate) mod braking_fit;
