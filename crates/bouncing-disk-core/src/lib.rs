@@ -65,6 +65,8 @@ pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, pe
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
 pub use analysis::orbit_batch::OrbitBatch;
+pub use analysis::periodic::pair::{PeriodOneOrbit, PeriodOnePair};
+pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, orbit_diagram, orbit_diagram_observed,
