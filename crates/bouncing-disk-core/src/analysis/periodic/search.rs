@@ -293,10 +293,10 @@ struct Limits {
 impl Limits {
     fn new(map: &ImpactMap, search: &OrbitSearch) -> Self {
         let p = map.vibration().peak_acceleration();
-        // A flight lasts u + sqrt(u^2 - 4 P) at least: one of at most K periods begins with u <= pi K + P/(pi K), or u <= 2 sqrt P.
+        // A disk with u^2 > P^2 + 4 P lands falling, after u + sqrt(u^2 - 4 P) at least: in K periods if u <= pi K + P/(pi K).
         let longest = TAU * search.max_platform_periods as f64;
-        let slowest = 2.0 * p.sqrt();
-        let within_periods = if longest > slowest { 0.5 * longest + 2.0 * p / longest } else { slowest };
+        let falling = if longest * longest > 4.0 * p { 0.5 * longest + 2.0 * p / longest } else { 0.0 };
+        let within_periods = falling.max((p * (p + 4.0)).sqrt());
         let together = search.max_impacts as f64 * map.flight_duration_bound() / TAU;
         let launch_speed = map.launch_speed_bound().min(within_periods);
         Self {
