@@ -8,6 +8,7 @@ use crate::observer::{Observer, Unobserved, Watch};
 use crate::platform::vibration::Vibration;
 use crate::read_checked;
 
+mod birth;
 mod closing;
 mod walker;
 

@@ -31,7 +31,7 @@ const GROWTH: f64 = 1.5;
 const SMALLEST_STEP: f64 = 1.0e-10;
 
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
-const HALVINGS: u32 = 56;
+pub(super) const HALVINGS: u32 = 56;
 
 /// A branch is not taken to be closed before so many points.
 const FEWEST_OF_CLOSED: usize = 8;
@@ -39,11 +39,11 @@ const FEWEST_OF_CLOSED: usize = 8;
 /// A point of the branch with its direction.
 #[derive(Debug, Clone)]
 pub(super) struct Located {
-    at: Closed,
+    pub(super) at: Closed,
     /// Of scaled length 1 in first impact and parameter.
-    direction: Closed,
-    arclength: f64,
-    corrections: u32,
+    pub(super) direction: Closed,
+    pub(super) arclength: f64,
+    pub(super) corrections: u32,
 }
 
 /// What ends a branch where it is no orbit of the map any more.
@@ -56,8 +56,8 @@ enum Obstacle {
 /// Continues one orbit.
 #[derive(Debug)]
 pub(super) struct Walker<'s> {
-    closing: Closing,
-    settings: &'s Continuation,
+    pub(super) closing: Closing,
+    pub(super) settings: &'s Continuation,
 }
 
 impl<'s> Walker<'s> {
@@ -177,30 +177,32 @@ impl<'s> Walker<'s> {
                 });
                 next = base.clone();
             }
-            if end.is_some() {
-                // It ends before this step.
-            } else if self.obstacle(&next.at)?.is_some() {
-                // Rarely an orbit is lost and regained within a step: what comes first counts.
-                let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
-                let (last, beyond) = self.bracket(&base, taken, &next, free)?;
-                if let (Some(obstacle), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&last)?) {
-                    let kind = match obstacle {
-                        Obstacle::Graze { flight } => BifurcationKind::Graze { flight },
-                        Obstacle::VanishingImpact { impact } => BifurcationKind::VanishingImpact { impact },
-                    };
-                    self.on_the_way(&base, &last, &mut bifurcations)?;
-                    bifurcations.push(Bifurcation { kind, point });
-                }
-                (next, end) = (last, Some(BranchEnd::Bifurcation));
-            } else {
+            if end.is_none() {
                 let (low, high) = settings.range();
-                let limit = if next.at.parameter > high { high } else { low };
-                if next.at.parameter > high || next.at.parameter < low {
-                    let inside = |located: &Located| Ok((low..=high).contains(&located.at.parameter));
-                    next = self.bracket(&base, taken, &next, inside)?.0;
-                    end = Some(BranchEnd::RangeLimit(limit));
+                let inside = |located: &Located| (low..=high).contains(&located.at.parameter);
+                if !inside(&next) {
+                    end = Some(BranchEnd::RangeLimit(if next.at.parameter > high { high } else { low }));
+                    next = self.bracket(&base, taken, &next, |located| Ok(inside(located)))?.0;
                 }
-                self.on_the_way(&base, &next, &mut bifurcations)?;
+                let obstacle = if next.arclength > base.arclength { self.obstacle(&next.at)? } else { None };
+                if obstacle.is_some() {
+                    // Rarely an orbit is lost and regained within a step: what comes first counts.
+                    let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
+                    let (last, beyond) = self.bracket(&base, next.arclength - base.arclength, &next, free)?;
+                    self.on_the_way(&base, &last, &mut bifurcations)?;
+                    if let (Some(obstacle), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&last)?) {
+                        let kind = match obstacle {
+                            Obstacle::Graze { flight } => BifurcationKind::Graze { flight },
+                            Obstacle::VanishingImpact { impact } => {
+                                BifurcationKind::VanishingImpact { impact }
+                            }
+                        };
+                        bifurcations.push(Bifurcation { kind, point });
+                    }
+                    (next, end) = (last, Some(BranchEnd::Bifurcation));
+                } else {
+                    self.on_the_way(&base, &next, &mut bifurcations)?;
+                }
             }
             if end.is_none() && points.len() >= FEWEST_OF_CLOSED && self.passes(&base, &next, &start) {
                 end = Some(BranchEnd::Closed);
@@ -311,7 +313,7 @@ impl<'s> Walker<'s> {
     }
 
     /// The point in the form of the results; `None` where it is no orbit.
-    fn point(&self, located: &Located) -> Result<Option<BranchPoint>, Error> {
+    pub(super) fn point(&self, located: &Located) -> Result<Option<BranchPoint>, Error> {
         let at = &located.at;
         let (n, map) = (at.impacts.len(), self.closing.map_at(at.parameter)?);
         let states = at.impacts.iter().zip(self.velocities(at)).map(|(impact, (arrival, _))| {
@@ -334,66 +336,6 @@ impl<'s> Walker<'s> {
         let point =
             BranchPoint { parameter: at.parameter, orbit, trace, determinant, arclength: located.arclength };
         Ok(Some(point))
-    }
-
-    /// Whether the halves of the orbit change places between two points: it is born by a doubling there.
-    fn is_born(&self, base: &Located, next: &Located) -> bool {
-        let n = base.at.impacts.len();
-        if !n.is_multiple_of(2) || self.closing.half().twice().turns_differ(&self.closing) {
-            return false;
-        }
-        let apart = |at: &Closed| {
-            let difference = at.impacts[0] - at.impacts[n / 2];
-            DVec2::new(difference.x, difference.y / self.closing.scale.speed)
-        };
-        let (before, after) = (apart(&base.at), apart(&next.at));
-        let step = next.arclength - base.arclength;
-        before.dot(after) < 0.0 && before.length() + after.length() <= 4.0 * step
-    }
-
-    /// The doubling that the orbit is born in, on the branch of half its impacts.
-    fn birth(&self, base: &Located, next: &Located, step: f64) -> Result<Option<Bifurcation>, Error> {
-        let half = Walker { closing: self.closing.half(), settings: self.settings };
-        let (n, at) = (half.closing.flights(), &base.at);
-        let mean = (0..n).map(|i| 0.5 * (at.impacts[i] + at.impacts[i + n])).collect();
-        let mut guess = Closed { impacts: mean, parameter: at.parameter };
-        let normal = [0.0, 0.0, 1.0];
-        let across = |guess: Closed, parameter: f64| {
-            let mut base = half.closing.scaled(&guess);
-            base[2] = parameter / half.closing.scale.parameter;
-            half.closing.corrected(guess, &Plane { normal, base, distance: 0.0 })
-        };
-        let flip = |parameter: f64, guess: &Closed| -> Result<Option<(f64, BranchPoint)>, Error> {
-            let Some((at, corrections)) = across(guess.clone(), parameter) else { return Ok(None) };
-            let arclength = base.arclength + 0.5 * step;
-            let located = Located { direction: at.clone(), at, arclength, corrections };
-            Ok(half.point(&located)?.map(|point| (1.0 + point.trace + point.determinant, point)))
-        };
-        if let Some((settled, _)) = across(guess.clone(), guess.parameter) {
-            guess = settled;
-        }
-        // The doubled orbit differs by the square of the step at most.
-        let mut reach = (base.at.parameter - next.at.parameter).abs() + 1.0e-6 * half.closing.scale.parameter;
-        for _ in 0..20 {
-            let ends = (guess.parameter - reach, guess.parameter + reach);
-            let (Some((low, _)), Some((high, _))) = (flip(ends.0, &guess)?, flip(ends.1, &guess)?) else {
-                return Ok(None);
-            };
-            if (low > 0.0) == (high > 0.0) {
-                reach *= 2.0;
-                continue;
-            }
-            let mut nearest: Option<(f64, BranchPoint)> = None;
-            bisected_bracket(ends.0, ends.1, HALVINGS, |parameter| {
-                let Some((value, point)) = flip(parameter, &guess)? else { return Ok::<_, Error>(false) };
-                if nearest.as_ref().is_none_or(|(least, _)| value.abs() <= least.abs()) {
-                    nearest = Some((value, point));
-                }
-                Ok((value > 0.0) == (low > 0.0))
-            })?;
-            return Ok(nearest.map(|(_, point)| Bifurcation { kind: BifurcationKind::Birth, point }));
-        }
-        Ok(None)
     }
 
     /// Whether the step from `base` to `next` passes the start of the branch.
