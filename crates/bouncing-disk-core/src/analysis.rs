@@ -2,9 +2,11 @@
 
 pub(crate) mod attraction;
 pub(crate) mod basin;
+pub(crate) mod continuation;
 pub(crate) mod doublings;
 pub(crate) mod follow_attractor;
 pub(crate) mod lyapunov;
 pub(crate) mod orbit_batch;
 pub(crate) mod periodic;
 pub(crate) mod sweep;
+pub(crate) mod trapping_region;

@@ -61,10 +61,15 @@ pub use analysis::basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,
 };
+pub use analysis::continuation::{
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
+};
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
 pub use analysis::orbit_batch::OrbitBatch;
+pub use analysis::periodic::pair::{PeriodOneOrbit, PeriodOnePair};
+pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, orbit_diagram, orbit_diagram_observed,

@@ -2,6 +2,7 @@
 //! digests.
 
 pub(crate) mod block_cyclic;
+pub(crate) mod bordered_cyclic;
 pub mod circular;
 pub mod digest;
 pub mod elementary;

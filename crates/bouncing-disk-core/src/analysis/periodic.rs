@@ -13,6 +13,11 @@ use crate::observer::{Observer, Tick, Unobserved, Watch};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 
+mod catalogue;
+mod newton;
+pub(crate) mod pair;
+pub(crate) mod search;
+
 /// Newton steps of the multiple shooting before it gives up.
 const MAX_NEWTON_STEPS: u32 = 50;
 
@@ -67,8 +72,14 @@ impl Multipliers {
     /// The eigenvalues of a real 2x2 matrix, in closed form without cancellation.
     #[must_use]
     pub fn of(matrix: DMat2) -> Self {
-        let half_trace = 0.5 * (matrix.x_axis.x + matrix.y_axis.y);
-        let determinant = matrix.determinant();
+        Self::of_invariants(matrix.x_axis.x + matrix.y_axis.y, matrix.determinant())
+    }
+
+    /// The eigenvalues of a real 2x2 matrix with this trace and determinant: [`Self::of`], where the determinant is known
+    /// better than the entries (that of an orbit of n impacts is r^(2n)).
+    #[must_use]
+    pub fn of_invariants(trace: f64, determinant: f64) -> Self {
+        let half_trace = 0.5 * trace;
         let radicand = half_trace * half_trace - determinant;
         if radicand < 0.0 {
             return Self::Complex { real: half_trace, imaginary: (-radicand).sqrt() };

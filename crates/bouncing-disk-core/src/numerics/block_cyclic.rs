@@ -85,7 +85,12 @@ fn put_right(rows: &mut [Row; 2], right: DVec2) {
 }
 
 /// Rotates two rows so that the lower one has a zero in `column`.
-fn rotate(rows: &mut [Row], upper: usize, lower: usize, column: usize) {
+pub(super) fn rotate<const COLUMNS: usize>(
+    rows: &mut [[f64; COLUMNS]],
+    upper: usize,
+    lower: usize,
+    column: usize,
+) {
     let (a, b) = (rows[upper][column], rows[lower][column]);
     if b == 0.0 {
         return;

@@ -1,0 +1,368 @@
+//! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations on the way
+//! (docs/numerics/dynamics.md, "Branches").
+
+use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
+use crate::error::{Error, finite, within};
+use crate::map::impact_map::ImpactMap;
+use crate::observer::{Observer, Unobserved, Watch};
+use crate::platform::vibration::Vibration;
+use crate::read_checked;
+
+mod birth;
+mod closing;
+mod walker;
+
+use closing::Closing;
+use walker::Walker;
+
+/// The parameter in which an orbit is continued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum ContinuationParameter {
+    /// The axial forcing Gamma, above 0.
+    Forcing,
+    /// The coefficient of restitution, in (0, 1).
+    Restitution,
+}
+
+impl ContinuationParameter {
+    /// Its value for a map.
+    #[must_use]
+    pub fn of(self, map: &ImpactMap) -> f64 {
+        match self {
+            Self::Forcing => map.vibration().axial_forcing(),
+            Self::Restitution => map.restitution(),
+        }
+    }
+
+    /// The range in which a map exists, and in which an impact is followed by a flight.
+    const fn legal(self) -> (f64, f64) {
+        match self {
+            Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
+            Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
+        }
+    }
+}
+
+/// In what, how far and how finely an orbit is continued.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedContinuation"))]
+pub struct Continuation {
+    parameter: ContinuationParameter,
+    low: f64,
+    high: f64,
+    rising: bool,
+    first_step: f64,
+    largest_step: f64,
+    max_points: usize,
+}
+
+read_checked!(Continuation as UncheckedContinuation {
+    parameter: ContinuationParameter,
+    low: f64,
+    high: f64,
+    rising: bool,
+    first_step: f64,
+    largest_step: f64,
+    max_points: usize,
+});
+
+impl Continuation {
+    /// The most points of a branch.
+    pub const MAX_POINTS: usize = 1_000_000;
+
+    /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or lower ones.
+    ///
+    /// The arclength is that of first impact and parameter: radians, units of 1 + P, and the forcing at the start (for the
+    /// restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there are at most 10,000 points: see
+    /// [`Self::with_steps`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the range is empty or leaves that of the parameter.
+    pub fn new(
+        parameter: ContinuationParameter,
+        (low, high): (f64, f64),
+        rising: bool,
+    ) -> Result<Self, Error> {
+        let settings =
+            Self { parameter, low, high, rising, first_step: 0.01, largest_step: 0.05, max_points: 10_000 };
+        settings.check().map(|()| settings)
+    }
+
+    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most so many points in [2, 1e6].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for any of them, and for a first step above the largest.
+    pub fn with_steps(self, first_step: f64, largest_step: f64, max_points: usize) -> Result<Self, Error> {
+        let settings = Self { first_step, largest_step, max_points, ..self };
+        settings.check().map(|()| settings)
+    }
+
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let (least, most) = self.parameter.legal();
+        within("low end of a continuation", self.low, least, most, "the range of its parameter")?;
+        within(
+            "high end of a continuation",
+            self.high,
+            self.low.next_up(),
+            most,
+            "(low end, that of its parameter]",
+        )?;
+        within("largest step", self.largest_step, 1.0e-9, 1.0, "[1e-9, 1]")?;
+        within("first step", self.first_step, 1.0e-9, self.largest_step, "[1e-9, largest step]")?;
+        within("points of a branch", self.max_points as f64, 2.0, Self::MAX_POINTS as f64, "[2, 1e6]")?;
+        Ok(())
+    }
+
+    /// The parameter.
+    #[must_use]
+    pub const fn parameter(&self) -> ContinuationParameter {
+        self.parameter
+    }
+
+    /// The range of the parameter.
+    #[must_use]
+    pub const fn range(&self) -> (f64, f64) {
+        (self.low, self.high)
+    }
+
+    /// The most points.
+    #[must_use]
+    pub const fn max_points(&self) -> usize {
+        self.max_points
+    }
+}
+
+/// A periodic orbit on a branch.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPoint"))]
+pub struct BranchPoint {
+    /// The forcing Gamma or the restitution, whichever is varied.
+    pub parameter: f64,
+    /// The orbit, an orbit of the map: no earlier impact forestalls a flight.
+    pub orbit: PeriodicOrbit,
+    /// The trace of the derivative around the orbit.
+    pub trace: f64,
+    /// Its determinant, r^(2 n) for n impacts, in [0, 1].
+    pub determinant: f64,
+    /// The arclength from the start of the branch (see [`Continuation::new`]).
+    pub arclength: f64,
+}
+
+read_checked!(BranchPoint as UncheckedPoint {
+    parameter: f64,
+    orbit: PeriodicOrbit,
+    trace: f64,
+    determinant: f64,
+    arclength: f64,
+});
+
+impl BranchPoint {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        finite("parameter of a branch", self.parameter)?;
+        finite("trace", self.trace)?;
+        within("determinant", self.determinant, 0.0, 1.0, "[0, 1]")?;
+        within("arclength", self.arclength, 0.0, f64::MAX, "[0, inf)")?;
+        Ok(())
+    }
+
+    /// The Floquet multipliers.
+    #[must_use]
+    pub fn multipliers(&self) -> Multipliers {
+        Multipliers::of_invariants(self.trace, self.determinant)
+    }
+
+    /// Whether the orbit attracts: both multipliers are inside of the unit circle.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.trace.abs() < 1.0 + self.determinant && self.determinant < 1.0
+    }
+}
+
+/// What happens at a special point of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum BifurcationKind {
+    /// A multiplier is -1: a branch of twice the period begins here ([`Branch::switched`]).
+    Doubling,
+    /// A multiplier is 1, and the branch turns back in the parameter.
+    Fold,
+    /// A flight touches the platform before its impact: beyond, an earlier impact forestalls it.
+    Graze {
+        /// Which flight, the one after this impact.
+        flight: usize,
+    },
+    /// The speed of an impact falls to zero: beyond, the disk passes without it.
+    VanishingImpact {
+        /// Which impact.
+        impact: usize,
+    },
+    /// The second half of the orbit becomes the repetition of the first: it is born here, by the doubling of that one.
+    Birth,
+}
+
+/// A special point of a branch.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Bifurcation {
+    /// What happens.
+    pub kind: BifurcationKind,
+    /// The orbit there; at a graze and at a vanishing impact the last one that is an orbit of the map. At a birth it is the
+    /// orbit that doubles its period, with half the impacts.
+    pub point: BranchPoint,
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum BranchEnd {
+    /// The parameter reaches this end of its range.
+    RangeLimit(f64),
+    /// The orbit ceases to exist or to be prime in the last bifurcation of the branch.
+    Bifurcation,
+    /// The branch is back at its start.
+    Closed,
+    /// There are as many points as were allowed.
+    PointLimit(usize),
+    /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do not
+    /// tell.
+    StepTooSmall(f64),
+}
+
+/// A branch of periodic orbits.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Branch {
+    /// The parameter that is varied.
+    pub parameter: ContinuationParameter,
+    /// The map at the start of the branch: the other parameters.
+    pub map: ImpactMap,
+    /// The orbits in the order of the arclength; the last one lies at the end.
+    pub points: Vec<BranchPoint>,
+    /// The bifurcations on the way, in the order of the arclength.
+    pub bifurcations: Vec<Bifurcation>,
+    /// Why the branch ends.
+    pub end: BranchEnd,
+}
+
+impl Branch {
+    /// The bifurcations of one kind, in the order of the arclength.
+    pub fn of_kind(&self, kind: BifurcationKind) -> impl Iterator<Item = &Bifurcation> {
+        self.bifurcations.iter().filter(move |bifurcation| bifurcation.kind == kind)
+    }
+
+    /// The map at a value of the parameter.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a value outside its range.
+    pub fn map_at(&self, parameter: f64) -> Result<ImpactMap, Error> {
+        match self.parameter {
+            ContinuationParameter::Forcing => {
+                ImpactMap::new(Vibration::from_axial_forcing(parameter)?, self.map.restitution())
+            }
+            ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
+        }
+    }
+
+    /// The branch of twice the period that begins at the doubling number `index` of this branch's bifurcations. Its first
+    /// point is the one after the doubling; `rising` of the settings has no meaning, as it goes to either side.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there is no such bifurcation or it is no doubling; [`Error::NotSettled`] if no doubled orbit
+    /// is found; those of [`ImpactMap::continued`].
+    pub fn switched(&self, index: usize, settings: &Continuation) -> Result<Self, Error> {
+        self.switched_observed(index, settings, &Unobserved)
+    }
+
+    /// [`Self::switched`] with an observer; the items are the points that are allowed.
+    ///
+    /// # Errors
+    /// Those of [`Self::switched`]; [`Error::Stopped`] if the observer breaks.
+    pub fn switched_observed(
+        &self,
+        index: usize,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
+        settings.check()?;
+        let doubling = self.bifurcations.get(index).filter(|found| found.kind == BifurcationKind::Doubling);
+        let Some(doubling) = doubling else {
+            let legal = "the index of a doubling of this branch";
+            return Err(Error::OutOfRange { field: "bifurcation", value: index as f64, legal });
+        };
+        let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
+        let map = self.map_at(doubling.point.parameter)?;
+        let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit)?;
+        let (walker, located) = Walker::after_doubling(closing, at, settings)?;
+        let branch = walker.walk(located, watch.work())?;
+        watch.end();
+        Ok(branch)
+    }
+}
+
+impl ImpactMap {
+    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the pseudo-arclength: through
+    /// folds, and along unstable parts, until it ends ([`BranchEnd`]).
+    ///
+    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind within one step
+    /// are not seen: [`Continuation::with_steps`].
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{BifurcationKind, Continuation, ContinuationParameter, ImpactMap, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
+    /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
+    /// let branch = map.continued(&orbit, &rising)?;
+    /// let doubling = branch.of_kind(BifurcationKind::Doubling).next().expect("the first doubling");
+    /// assert!((doubling.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
+    /// [`Error::NotSettled`] if `orbit` is none of this map, or not an isolated one.
+    pub fn continued(&self, orbit: &PeriodicOrbit, settings: &Continuation) -> Result<Branch, Error> {
+        self.continued_observed(orbit, settings, &Unobserved)
+    }
+
+    /// [`Self::continued`] with an observer; the items are the points that are allowed.
+    ///
+    /// # Errors
+    /// Those of [`Self::continued`]; [`Error::Stopped`] if the observer breaks.
+    pub fn continued_observed(
+        &self,
+        orbit: &PeriodicOrbit,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Branch, Error> {
+        settings.check()?;
+        orbit.check()?;
+        within("restitution of a continuation", self.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
+        let parameter = settings.parameter.of(self);
+        within(
+            "parameter of a continuation",
+            parameter,
+            settings.low,
+            settings.high,
+            "that of its settings",
+        )?;
+        let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
+        let (closing, at) = Closing::of(self, settings.parameter, orbit)?;
+        let (walker, located) = Walker::new(closing, at, settings)?;
+        let branch = walker.walk(located, watch.work())?;
+        watch.end();
+        Ok(branch)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,252 @@
+//! The equations of a closed sequence of flights and of their derivatives by one parameter. They do not ask whether an
+//! earlier impact forestalls a flight, and so are smooth through a graze (docs/numerics/dynamics.md, "Branches").
+
+use core::f64::consts::{PI, TAU};
+
+use glam::{DMat2, DVec2};
+
+use super::ContinuationParameter;
+use crate::analysis::periodic::PeriodicOrbit;
+use crate::error::Error;
+use crate::map::impact_map::ImpactMap;
+use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
+use crate::numerics::elementary::{nearest_whole, sin, sin_cos};
+use crate::platform::vibration::Vibration;
+
+/// Newton steps until a correction is given up.
+const MAX_CORRECTIONS: u32 = 12;
+
+/// A Newton step (scaled) after which one more reaches the rounding.
+const NEARLY: f64 = 1.0e-8;
+
+/// A Newton step that is rounding.
+const ROUNDING: f64 = 1.0e-15;
+
+/// Impacts (phase in rad, the disk's own speed after the impact in units of g/omega) and the parameter.
+#[derive(Debug, Clone)]
+pub(super) struct Closed {
+    pub(super) impacts: Vec<DVec2>,
+    pub(super) parameter: f64,
+}
+
+impl Closed {
+    /// This much of a direction further.
+    pub(super) fn moved(&self, direction: &Self, by: f64) -> Self {
+        let impacts = self.impacts.iter().zip(&direction.impacts).map(|(x, d)| *x + *d * by).collect();
+        Self { impacts, parameter: self.parameter + by * direction.parameter }
+    }
+}
+
+/// What the lengths of first impact and parameter are counted in.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    pub(super) speed: f64,
+    pub(super) parameter: f64,
+}
+
+/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase, speed, parameter).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plane {
+    pub(super) normal: [f64; 3],
+    pub(super) base: [f64; 3],
+    pub(super) distance: f64,
+}
+
+/// A sequence of flights that closes: what is the same along a branch.
+#[derive(Debug, Clone)]
+pub(super) struct Closing {
+    /// The map at the start of the branch: where the other parameters come from.
+    pub(super) map: ImpactMap,
+    pub(super) by: ContinuationParameter,
+    pub(super) scale: Scale,
+    /// The turns of the phase that belong to each flight.
+    turns: Vec<f64>,
+}
+
+impl Closing {
+    /// The equations of an orbit of `map`, and the orbit in their unknowns.
+    pub(super) fn of(
+        map: &ImpactMap,
+        by: ContinuationParameter,
+        orbit: &PeriodicOrbit,
+    ) -> Result<(Self, Closed), Error> {
+        let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
+        let n = orbit.states.len();
+        let mut impacts: Vec<DVec2> = Vec::with_capacity(n);
+        for (i, &state) in orbit.states.iter().enumerate() {
+            let mut phase = state.phase().angle();
+            // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2 pi.
+            if n.is_multiple_of(2) && i >= n / 2 {
+                phase += TAU * nearest_whole((impacts[i - n / 2].x - phase) / TAU);
+            }
+            impacts.push(DVec2::new(phase, p * state.phase().cos() - r * state.velocity()));
+        }
+        let mut turns = Vec::with_capacity(n);
+        for (i, &state) in orbit.states.iter().enumerate() {
+            let between = impacts[(i + 1) % n].x - impacts[i].x;
+            turns.push(nearest_whole((map.step(state)?.duration() - between) / TAU));
+        }
+        let parameter = by.of(map);
+        let of_parameter = if by == ContinuationParameter::Forcing { parameter } else { 1.0 };
+        let scale = Scale { speed: 1.0 + p, parameter: of_parameter };
+        Ok((Self { map: *map, by, scale, turns }, Closed { impacts, parameter }))
+    }
+
+    /// The equations of the orbit gone through twice.
+    pub(super) fn twice(&self) -> Self {
+        Self { turns: [self.turns.as_slice(), &self.turns].concat(), ..self.clone() }
+    }
+
+    /// The equations of the first half of the orbit, as if it closed.
+    pub(super) fn half(&self) -> Self {
+        Self { turns: self.turns[..self.turns.len() / 2].to_vec(), ..self.clone() }
+    }
+
+    /// Whether the flights of another sequence take other turns.
+    pub(super) fn turns_differ(&self, other: &Self) -> bool {
+        self.turns.iter().zip(&other.turns).any(|(a, b)| (a - b).abs() > 0.5)
+    }
+
+    /// The number of flights.
+    pub(super) fn flights(&self) -> usize {
+        self.turns.len()
+    }
+
+    /// Peak acceleration P and restitution.
+    pub(super) fn strengths(&self, parameter: f64) -> (f64, f64) {
+        match self.by {
+            ContinuationParameter::Forcing => (PI * parameter, self.map.restitution()),
+            ContinuationParameter::Restitution => (self.map.vibration().peak_acceleration(), parameter),
+        }
+    }
+
+    /// The map at this parameter.
+    pub(super) fn map_at(&self, parameter: f64) -> Result<ImpactMap, Error> {
+        match self.by {
+            ContinuationParameter::Forcing => {
+                ImpactMap::new(Vibration::from_axial_forcing(parameter)?, self.map.restitution())
+            }
+            ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
+        }
+    }
+
+    /// The duration of a flight.
+    pub(super) fn duration(&self, impacts: &[DVec2], i: usize) -> f64 {
+        (impacts[(i + 1) % impacts.len()].x - impacts[i].x) + TAU * self.turns[i]
+    }
+
+    /// First impact and parameter in units of the scale.
+    pub(super) fn scaled(&self, at: &Closed) -> [f64; 3] {
+        let first = at.impacts[0];
+        [first.x, first.y / self.scale.speed, at.parameter / self.scale.parameter]
+    }
+
+    /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight has no duration.
+    fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
+        let n = at.impacts.len();
+        let (p, r) = self.strengths(at.parameter);
+        let mut equations = CyclicEquations::default();
+        for i in 0..n {
+            let (from, to) = (at.impacts[i], at.impacts[(i + 1) % n]);
+            let h = self.duration(&at.impacts, i);
+            if !(h > 0.0 && h.is_finite()) {
+                return None;
+            }
+            let (_, c) = sin_cos(from.x);
+            let (s1, c1) = sin_cos(to.x);
+            // The mean slope of the platform's height over the flight, per P.
+            let slope = sin_cos(from.x + 0.5 * h).1 * (sin(0.5 * h) / (0.5 * h));
+            let landing = from.y - h;
+            let flight = from.y - 0.5 * h - p * slope;
+            let law = to.y + r * landing - (1.0 + r) * p * c1;
+            equations.right.push(DVec2::new(-flight, -law));
+            equations
+                .own
+                .push(DMat2::from_cols(DVec2::new(0.5 - p * (slope - c) / h, r), DVec2::new(1.0, r)));
+            equations.next.push(DMat2::from_cols(
+                DVec2::new(-0.5 - p * (c1 - slope) / h, (1.0 + r) * p * s1 - r),
+                DVec2::new(0.0, 1.0),
+            ));
+            equations.column.push(match self.by {
+                ContinuationParameter::Forcing => DVec2::new(-PI * slope, -(1.0 + r) * PI * c1),
+                ContinuationParameter::Restitution => DVec2::new(0.0, landing - p * c1),
+            });
+        }
+        Some(equations)
+    }
+
+    /// The border of a plane, for a step or a direction from `at`.
+    fn border(&self, normal: [f64; 3], right: f64) -> Border {
+        let [phase, speed, parameter] = normal;
+        let first = DVec2::new(phase, speed / self.scale.speed);
+        Border { first, parameter: parameter / self.scale.parameter, right }
+    }
+
+    /// The solution in a plane by Newton's method from a guess, and how many steps it took; `None` if it does not settle.
+    pub(super) fn corrected(&self, guess: Closed, plane: &Plane) -> Option<(Closed, u32)> {
+        let mut at = guess;
+        let mut last = f64::INFINITY;
+        for step in 1..=MAX_CORRECTIONS {
+            let equations = self.equations(&at)?;
+            let here = self.scaled(&at);
+            let along = (0..3).fold(0.0, |sum, k| sum + plane.normal[k] * (here[k] - plane.base[k]));
+            let (steps, change) = equations.solve(self.border(plane.normal, plane.distance - along));
+            let size = steps.iter().fold((change / self.scale.parameter).abs(), |most, step| {
+                most.max(step.x.abs()).max((step.y / self.scale.speed).abs())
+            });
+            if !(size < 1.0e3 && steps.iter().all(|step| step.is_finite())) {
+                return None;
+            }
+            at = at.moved(&Closed { impacts: steps, parameter: change }, 1.0);
+            if size <= ROUNDING || last <= NEARLY && size <= NEARLY {
+                return Some((at, step));
+            }
+            last = size;
+        }
+        None
+    }
+
+    /// The direction of the branch, of scaled length 1 in first impact and parameter, on the side of `normal`.
+    pub(super) fn tangent(&self, at: &Closed, normal: [f64; 3]) -> Option<Closed> {
+        let mut equations = self.equations(at)?;
+        equations.right.fill(DVec2::ZERO);
+        let (impacts, parameter) = equations.solve(self.border(normal, 1.0));
+        self.normalised(Closed { impacts, parameter })
+    }
+
+    /// A direction with the scaled length 1 in first impact and parameter.
+    pub(super) fn normalised(&self, direction: Closed) -> Option<Closed> {
+        let length = self.scaled(&direction).iter().fold(0.0, |sum, part| sum + part * part).sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let Closed { impacts, parameter } = direction;
+        let impacts: Vec<_> = impacts.into_iter().map(|part| part / length).collect();
+        impacts
+            .iter()
+            .all(|part| part.is_finite())
+            .then_some(Closed { impacts, parameter: parameter / length })
+    }
+
+    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign. The
+    /// parameter's place holds how far that is from true.
+    pub(super) fn flip_direction(&self, at: &Closed) -> Option<Vec<DVec2>> {
+        let mut equations = self.equations(at)?;
+        equations.right.fill(DVec2::ZERO);
+        let last = equations.next.len() - 1;
+        equations.next[last] = -equations.next[last];
+        let size = |direction: &[DVec2]| {
+            direction
+                .iter()
+                .fold(0.0_f64, |most, part| most.max(part.x.abs()).max((part.y / self.scale.speed).abs()))
+        };
+        // Of two conditions one at least is not blind for it.
+        let directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|normal| {
+            let (direction, _) = equations.solve(self.border(normal, 1.0));
+            let longest = size(&direction);
+            (longest.is_finite() && longest > 0.0).then_some((direction, longest))
+        });
+        let shorter = directions.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
+        shorter.map(|(direction, _)| direction)
+    }
+}

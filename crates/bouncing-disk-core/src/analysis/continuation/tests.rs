@@ -1,0 +1,349 @@
+use super::*;
+use crate::analysis::doublings::period_doublings;
+use crate::analysis::periodic::search::OrbitSearch;
+use crate::flight::launch::Launch;
+use crate::map::impact_map::ImpactState;
+use crate::numerics::random::SplitMix64;
+use crate::testing::{StopAfter, stored};
+
+fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
+}
+
+fn forcing(low: f64, high: f64, rising: bool) -> Continuation {
+    Continuation::new(ContinuationParameter::Forcing, (low, high), rising).expect("legal")
+}
+
+/// Where the closed form has the birth of one impact every k periods.
+fn birth(k: u64, restitution: f64) -> f64 {
+    k as f64 * (1.0 - restitution) / (1.0 + restitution)
+}
+
+/// The node of one impact every k periods, so much above its birth.
+fn node(k: u64, restitution: f64, above: f64) -> (ImpactMap, PeriodicOrbit) {
+    let map = map(birth(k, restitution) + above, restitution);
+    let pair = map.period_one_pair(k).expect("above its birth");
+    let orbit = pair.node.orbit(&map).expect("no failure").expect("admissible");
+    (map, orbit)
+}
+
+/// Every point is an orbit of the map, and its invariants are those of its derivative.
+fn check_points(branch: &Branch) {
+    let mut arclength = -1.0;
+    // Where a branch ends in a graze the rounding decides which impact is the first.
+    let certain = branch.points.len() - usize::from(branch.end == BranchEnd::Bifurcation);
+    for point in &branch.points[..certain] {
+        let (map, states) = (branch.map_at(point.parameter).expect("legal"), &point.orbit.states);
+        let n = states.len();
+        for i in 0..n {
+            let impact = map.step(states[i]).expect("flies");
+            let next = states[(i + 1) % n];
+            let turned = (impact.phase.angle() - next.phase().angle()).abs();
+            // Next to a graze the end of a flight is as uncertain as the root of the rounding.
+            assert!(turned.min(core::f64::consts::TAU - turned) < 1e-7, "{map}: {point:?}");
+            assert!((impact.velocity - next.velocity()).abs() < 1e-7 * (1.0 + next.velocity().abs()));
+        }
+        assert!(point.arclength > arclength, "{} after {arclength}", point.arclength);
+        arclength = point.arclength;
+        let size = point.orbit.monodromy.x_axis.length() * point.orbit.monodromy.y_axis.length();
+        assert!((point.orbit.monodromy.determinant() - point.determinant).abs() <= 1e-11 * (1.0 + size));
+        assert_eq!(point.is_stable(), point.multipliers().spectral_radius() < 1.0);
+    }
+}
+
+#[test]
+fn the_first_doubling_is_that_of_the_closed_form_to_1e_14() {
+    for tenths in 1..10 {
+        let r = f64::from(tenths) / 10.0;
+        let first = ImpactMap::first_doubling_forcing(r);
+        let (map, orbit) = node(1, r, 0.5 * (first - birth(1, r)));
+        let branch = map.continued(&orbit, &forcing(0.5 * first, 1.03 * first, true)).expect("continued");
+        check_points(&branch);
+        assert_eq!((branch.end, branch.bifurcations.len()), (BranchEnd::RangeLimit(1.03 * first), 1), "{r}");
+        let found = &branch.bifurcations[0];
+        assert_eq!(found.kind, BifurcationKind::Doubling);
+        assert!((found.point.parameter - first).abs() <= 1e-14, "{r}: {} {first}", found.point.parameter);
+        let last = branch.points.last().expect("points");
+        assert!((last.parameter - 1.03 * first).abs() < 1e-12 && !last.is_stable());
+        assert!(branch.points[0].is_stable());
+    }
+}
+
+#[test]
+fn folds_are_those_of_the_closed_form_to_1e_13() {
+    let mut saddles = 0;
+    for tenths in 1..10 {
+        let r = f64::from(tenths) / 10.0;
+        for k in 1..=3 {
+            let (map, orbit) = node(k, r, 0.05);
+            let (at, high) = (birth(k, r), birth(k, r) + 0.06);
+            let branch = map.continued(&orbit, &forcing(0.5 * at, high, false)).expect("continued");
+            check_points(&branch);
+            let folds: Vec<_> = branch.of_kind(BifurcationKind::Fold).collect();
+            assert_eq!(folds.len(), 1, "{r} {k}: {:?}", branch.end);
+            let parameter = folds[0].point.parameter;
+            assert!((parameter - at).abs() <= 1e-13 * (1.0 + at), "{r} {k}: {parameter} {at}");
+            if branch.end == BranchEnd::RangeLimit(high) {
+                saddles += 1;
+                let last = branch.points.last().expect("points");
+                let saddle = branch.map_at(high).expect("legal").period_one_pair(k).expect("exists").saddle;
+                assert!((last.orbit.states[0].phase().angle() - saddle.state.phase().angle()).abs() < 1e-9);
+                assert!((last.trace - saddle.trace).abs() < 1e-9 * (1.0 + saddle.trace.abs()));
+            }
+        }
+    }
+    assert!(saddles > 10, "{saddles}");
+}
+
+/// From branch to doubled branch: the cascade, as the search of its own finds it by another way.
+#[test]
+fn doubled_branches_double_where_the_cascade_does() {
+    let cascade = period_doublings(0.5, 3).expect("found");
+    let (map, orbit) = node(1, 0.5, 0.1);
+    let settings = forcing(0.3, 0.6, true).with_steps(0.003, 0.02, 10_000).expect("legal");
+    let mut branch = map.continued(&orbit, &settings).expect("continued");
+    for (n, known) in cascade.iter().enumerate() {
+        let index = branch.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling);
+        let index = index.expect("doubles");
+        let point = &branch.bifurcations[index].point;
+        assert_eq!(point.orbit.period(), known.period);
+        let off = (point.parameter - known.axial_forcing).abs();
+        assert!(off <= 1e-12, "{n}: {} {}", point.parameter, known.axial_forcing);
+        if n + 1 < cascade.len() {
+            branch = branch.switched(index, &settings).expect("switches");
+            check_points(&branch);
+            assert_eq!(branch.points[0].orbit.period(), 2 * known.period);
+            assert!(branch.points[0].is_stable() && branch.points[0].parameter > known.axial_forcing);
+            assert!(
+                branch.of_kind(BifurcationKind::Fold).next().is_none_or(|fold| fold.point.arclength > 0.1)
+            );
+        }
+    }
+}
+
+/// Back to where it was born: the orbit of two impacts ends in the one that doubled.
+#[test]
+fn a_doubled_orbit_is_born_in_the_doubling() {
+    let map = map(0.5, 0.5);
+    let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
+    let orbit = map.settled_orbit(start, 4_000, 4, 1e-9).expect("no failure").expect("settles");
+    assert_eq!(orbit.period(), 2);
+    let branch = map.continued(&orbit, &forcing(0.3, 0.6, false)).expect("continued");
+    check_points(&branch);
+    let [birth] = branch.bifurcations.as_slice() else { panic!("{:?}", branch.bifurcations) };
+    assert_eq!((birth.kind, branch.end), (BifurcationKind::Birth, BranchEnd::Bifurcation));
+    assert_eq!(birth.point.orbit.period(), 1);
+    assert!((birth.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
+    let last = branch.points.last().expect("points");
+    assert!((last.parameter - birth.point.parameter).abs() < 1e-2 && last.orbit.period() == 2);
+}
+
+/// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is the orbit's, after
+/// it is an earlier one.
+#[test]
+fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
+    for (k, r) in [(1, 0.3), (1, 0.5), (1, 0.8), (2, 0.5)] {
+        let (map, orbit) = node(k, r, 0.05);
+        // Down to the fold, and up again as the saddle.
+        let branch = map.continued(&orbit, &forcing(0.5 * birth(k, r), 6.0, false)).expect("continued");
+        assert_eq!(branch.end, BranchEnd::Bifurcation, "{k} {r}");
+        let graze = branch.bifurcations.last().expect("ends");
+        assert_eq!(graze.kind, BifurcationKind::Graze { flight: 0 }, "{k} {r}");
+        let at = graze.point.parameter;
+        let closed = |forcing: f64| {
+            let map = branch.map_at(forcing).expect("legal");
+            map.period_one_pair(k).expect("exists").saddle.is_admissible(&map).expect("no failure")
+        };
+        assert_eq!([at * (1.0 - 1e-11), at * (1.0 + 1e-11)].map(closed), [true, false], "{k} {r}: {at}");
+        // At the graze itself rounding decides which impact is the first.
+        let near = branch.map_at(at * (1.0 - 1e-10)).expect("legal");
+        let state = near.period_one_pair(k).expect("exists").saddle.state;
+        let launch = Launch::new(state.phase(), -r * state.velocity()).expect("legal");
+        let margin = near.vibration().graze_margin(launch, &near.step(state).expect("flies"));
+        assert!(margin > 0.0 && margin < 1e-8, "{k} {r}: {margin:e}");
+    }
+}
+
+/// Whatever the search finds is continued either way, through orbits of the map only, to an end that has a reason.
+#[test]
+fn all_orbits_of_random_maps_have_branches_that_end() {
+    let mut random = SplitMix64::new(7);
+    let mut ends = [0; 5];
+    for _ in 0..60 {
+        let map = map(0.2 + 1.3 * random.unit(), 0.2 + 0.6 * random.unit());
+        let search = OrbitSearch::new(4, 4).expect("legal").with_starts(24, 24).expect("legal");
+        for orbit in map.periodic_orbits(&search).expect("no failure").orbits.iter().take(12) {
+            for (parameter, range) in [
+                (ContinuationParameter::Forcing, (0.05, 1.6)),
+                (ContinuationParameter::Restitution, (0.1, 0.9)),
+            ] {
+                for rising in [true, false] {
+                    let settings = Continuation::new(parameter, range, rising).expect("legal");
+                    let settings = settings.with_steps(0.01, 0.1, 400).expect("legal");
+                    let branch = map.continued(orbit, &settings).expect("continued");
+                    check_points(&branch);
+                    let kinds = branch.bifurcations.iter().map(|found| found.kind);
+                    let last = |kind| {
+                        matches!(
+                            kind,
+                            BifurcationKind::Graze { .. }
+                                | BifurcationKind::VanishingImpact { .. }
+                                | BifurcationKind::Birth
+                        )
+                    };
+                    let lost = kinds.filter(|kind| last(*kind)).count();
+                    assert_eq!(lost, usize::from(branch.end == BranchEnd::Bifurcation), "{map} {branch:?}");
+                    if branch.end == BranchEnd::Closed {
+                        let folds = branch.of_kind(BifurcationKind::Fold).count();
+                        assert!(folds >= 2 && folds.is_multiple_of(2), "{map} {branch:?}");
+                    }
+                    ends[match branch.end {
+                        BranchEnd::RangeLimit(_) => 0,
+                        BranchEnd::Bifurcation => 1,
+                        BranchEnd::Closed => 2,
+                        BranchEnd::PointLimit(_) => 3,
+                        BranchEnd::StepTooSmall(_) => 4,
+                    }] += 1;
+                }
+            }
+        }
+    }
+    assert!(ends[0] > 500 && ends[1] > 200, "{ends:?}");
+    assert!(ends[2] > 0, "some branches close: {ends:?}");
+    assert_eq!(ends[4], 0, "{ends:?}");
+}
+
+/// Where the flight of the saddle grazes, an orbit of two impacts is born of which one has no speed yet: both branches end
+/// there.
+#[test]
+fn an_impact_vanishes_where_the_flight_without_it_grazes() {
+    let (own, _) = node(1, 0.21, 0.05);
+    let map = map(0.72, own.restitution());
+    let search = OrbitSearch::new(2, 1).expect("legal").with_starts(48, 48).expect("legal");
+    let found = map.periodic_orbits(&search).expect("no failure").orbits;
+    let ends = |impacts: usize, kind: fn(BifurcationKind) -> bool| {
+        let mut ends = Vec::new();
+        for orbit in found.iter().filter(|orbit| orbit.period() == impacts) {
+            for rising in [true, false] {
+                let branch = map.continued(orbit, &forcing(0.3, 1.2, rising)).expect("continued");
+                check_points(&branch);
+                ends.extend(
+                    branch
+                        .bifurcations
+                        .last()
+                        .filter(|last| kind(last.kind))
+                        .map(|last| last.point.parameter),
+                );
+            }
+        }
+        ends
+    };
+    let grazes = ends(1, |kind| matches!(kind, BifurcationKind::Graze { .. }));
+    let vanishing = ends(2, |kind| matches!(kind, BifurcationKind::VanishingImpact { .. }));
+    assert!(!grazes.is_empty() && !vanishing.is_empty(), "{grazes:?} {vanishing:?}");
+    for graze in &grazes {
+        assert!(vanishing.iter().any(|other| (other - graze).abs() < 1e-12), "{grazes:?} {vanishing:?}");
+    }
+}
+
+/// In the restitution: the closed form at every point, and the same doubling.
+#[test]
+fn a_branch_in_the_restitution_is_that_of_the_closed_form() {
+    let (map, orbit) = node(1, 0.5, 0.1);
+    let fold = (1.0 - map.vibration().axial_forcing()) / (1.0 + map.vibration().axial_forcing());
+    for rising in [true, false] {
+        let settings =
+            Continuation::new(ContinuationParameter::Restitution, (0.05, 0.95), rising).expect("legal");
+        let branch = map.continued(&orbit, &settings).expect("continued");
+        check_points(&branch);
+        for point in &branch.points {
+            let own = branch.map_at(point.parameter).expect("legal").period_one_pair(1).expect("exists");
+            let off = [own.node, own.saddle].map(|own| (point.trace - own.trace).abs());
+            assert!(off[0].min(off[1]) < 1e-10 * (1.0 + point.trace.abs()), "{point:?}");
+        }
+        for found in &branch.bifurcations {
+            match found.kind {
+                BifurcationKind::Fold => assert!((found.point.parameter - fold).abs() < 1e-13),
+                BifurcationKind::Doubling => {
+                    let first = ImpactMap::first_doubling_forcing(found.point.parameter);
+                    assert!((first - map.vibration().axial_forcing()).abs() < 1e-13);
+                }
+                BifurcationKind::Graze { .. } | BifurcationKind::VanishingImpact { .. } => {}
+                BifurcationKind::Birth => panic!("one impact has no halves"),
+            }
+        }
+        assert_eq!(branch, stored(&branch));
+        let seen = |kind| branch.of_kind(kind).count();
+        assert_eq!(
+            (seen(BifurcationKind::Fold), seen(BifurcationKind::Doubling)),
+            (usize::from(!rising), usize::from(rising))
+        );
+    }
+}
+
+/// Almost without restitution, almost without loss, and flights of 900 periods.
+#[test]
+fn branches_reach_the_limits_of_the_parameters() {
+    let all = (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0);
+    let map = map(1.2, 0.5);
+    let pair = map.period_one_pair(1).expect("exists");
+    let orbit = pair.node.orbit(&map).expect("no failure").expect("admissible");
+    for (rising, end) in [(false, all.0), (true, all.1)] {
+        let settings = Continuation::new(ContinuationParameter::Restitution, all, rising).expect("legal");
+        let branch = map.continued(&orbit, &settings).expect("continued");
+        check_points(&branch);
+        assert_eq!(branch.end, BranchEnd::RangeLimit(end), "{:?}", branch.bifurcations);
+    }
+    let (map, orbit) = node(900, 0.5, 1.0);
+    let settings = forcing(200.0, 301.5, false).with_steps(1e-4, 0.01, 10_000).expect("legal");
+    let branch = map.continued(&orbit, &settings).expect("continued");
+    check_points(&branch);
+    let fold = branch.of_kind(BifurcationKind::Fold).next().expect("born at 300");
+    assert!((fold.point.parameter - 300.0).abs() <= 1e-13 * 300.0, "{}", fold.point.parameter);
+    assert_eq!(fold.point.orbit.platform_periods, 900);
+}
+
+#[test]
+fn a_branch_ends_at_its_limits_and_can_be_stopped() {
+    let (map, orbit) = node(1, 0.5, 0.1);
+    let few = forcing(0.1, 0.6, true).with_steps(1e-3, 1e-3, 5).expect("legal");
+    let branch = map.continued(&orbit, &few).expect("continued");
+    assert_eq!((branch.points.len(), branch.end), (5, BranchEnd::PointLimit(5)));
+    assert!((branch.points[4].arclength - 4e-3).abs() < 1e-12);
+    let many = forcing(0.1, 0.6, true).with_steps(1e-9, 1e-9, 1_000_000).expect("legal");
+    let stopped = map.continued_observed(&orbit, &many, &StopAfter::calls(3));
+    assert!(matches!(stopped, Err(Error::Stopped { done: 1.., total: 1_000_000 })), "{stopped:?}");
+    // The start is the limit.
+    let at = map.vibration().axial_forcing();
+    let empty = map.continued(&orbit, &forcing(0.1, at, true)).expect("continued");
+    assert_eq!(empty.end, BranchEnd::RangeLimit(at));
+    assert!(empty.points.iter().all(|point| (point.parameter - at).abs() < 1e-12));
+}
+
+#[test]
+fn what_cannot_be_continued_is_refused() {
+    let (own, orbit) = node(1, 0.5, 0.1);
+    let outside = own.continued(&orbit, &forcing(0.5, 0.6, true));
+    assert!(matches!(outside, Err(Error::OutOfRange { field: "parameter of a continuation", .. })));
+    let plastic = map(1.05, 0.0);
+    let without = plastic.continued(&orbit, &forcing(0.5, 1.6, true));
+    assert!(matches!(without, Err(Error::OutOfRange { field: "restitution of a continuation", .. })));
+    let other = map(0.2, 0.5).continued(&orbit, &forcing(0.1, 0.3, true));
+    assert!(matches!(other, Err(Error::NotSettled { .. })), "{other:?}");
+    let branch = own.continued(&orbit, &forcing(0.1, 0.44, true)).expect("continued");
+    assert!(matches!(branch.switched(0, &forcing(0.1, 0.6, true)), Err(Error::OutOfRange { .. })));
+    let legal = forcing(0.1, 0.6, true);
+    for (first, largest, points) in
+        [(0.0, 0.1, 9), (0.2, 0.1, 9), (0.1, 2.0, 9), (0.1, 0.1, 1), (f64::NAN, 0.1, 9), (0.1, f64::NAN, 9)]
+    {
+        assert!(matches!(legal.with_steps(first, largest, points), Err(Error::OutOfRange { .. })));
+    }
+    for range in [(0.5, 0.5), (0.6, 0.5), (-1.0, 0.5), (0.1, f64::INFINITY), (f64::NAN, 1.0)] {
+        for parameter in [ContinuationParameter::Forcing, ContinuationParameter::Restitution] {
+            assert!(matches!(Continuation::new(parameter, range, true), Err(Error::OutOfRange { .. })));
+        }
+    }
+    assert!(Continuation::new(ContinuationParameter::Restitution, (0.0, 0.5), true).is_err());
+    assert!(Continuation::new(ContinuationParameter::Restitution, (0.5, 1.0), true).is_err());
+    assert_eq!(legal, stored(&legal));
+}

@@ -1,0 +1,115 @@
+//! Newton's method from a rough guess, as the search for periodic orbits uses it: it gives up early.
+
+use super::{PeriodicOrbit, phase_difference};
+use crate::error::Error;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::block_cyclic::solve_block_cyclic;
+use crate::platform::phase::Phase;
+
+/// Newton steps from a guess until [`ImpactMap::refine`] takes over or the guess is given up.
+pub(super) const MAX_STEPS: usize = 14;
+
+/// The residual from which the iteration converges quadratically: the refinement does the rest.
+const NEAR: f64 = 1.0e-5;
+
+/// The longest step of a phase (rad): a longer one is shortened, and all of that iteration with it.
+const LONGEST_STEP: f64 = 0.7;
+
+/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one.
+pub(super) const SAME: f64 = 1.0e-6;
+
+/// What became of a guess.
+pub(super) enum Attempt {
+    /// A periodic orbit within the limits that repeats no shorter one, its fastest impact first.
+    Converged(PeriodicOrbit),
+    /// A solution that is none.
+    Refused,
+    /// No solution.
+    NotSettled,
+}
+
+/// Whether two impacts count as one.
+fn near(a: ImpactState, b: ImpactState) -> bool {
+    phase_difference(a.phase().angle(), b.phase().angle()).abs() <= SAME
+        && (a.velocity() - b.velocity()).abs() <= SAME * (1.0 + a.velocity().abs())
+}
+
+/// Whether two orbits count as one, wherever they begin.
+pub(super) fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
+    let n = a.period();
+    if n != b.period() || a.platform_periods != b.platform_periods {
+        return false;
+    }
+    (0..n).any(|shift| (0..n).all(|i| near(a.states[i], b.states[(i + shift) % n])))
+}
+
+/// The number of impacts after which an orbit repeats itself: its period, if it is prime.
+pub(super) fn prime_period(states: &[ImpactState]) -> usize {
+    let n = states.len();
+    let repeats = |shift: usize| (0..n).all(|i| near(states[i], states[(i + shift) % n]));
+    (1..n).filter(|shift| n.is_multiple_of(*shift)).find(|shift| repeats(*shift)).unwrap_or(n)
+}
+
+impl ImpactMap {
+    /// Whether an impact is proven to be followed by rest.
+    pub(super) fn rests_after(&self, state: ImpactState) -> bool {
+        let speed = 0.0 - self.restitution() * state.velocity();
+        self.vibration().accumulation(state.phase(), speed, self.restitution()).is_some()
+    }
+
+    /// The periodic orbit near a guess.
+    pub(super) fn attempt(&self, guess: &[ImpactState], max_platform_periods: u64) -> Attempt {
+        let Some(states) = self.approached(guess) else { return Attempt::NotSettled };
+        let prime = prime_period(&states);
+        let mut orbit = match self.refine(&states[..prime]) {
+            Ok(orbit) => orbit,
+            Err(Error::ImpactWithoutSpeed { .. } | Error::NoPlatformPeriods { .. }) => {
+                return Attempt::Refused;
+            }
+            Err(_) => return Attempt::NotSettled,
+        };
+        // The refinement may move near orbits together; what is left is prime or not what was sought.
+        let too_long = orbit.platform_periods > max_platform_periods;
+        if too_long
+            || prime_period(&orbit.states) < prime
+            || orbit.states.iter().any(|&at| self.rests_after(at))
+        {
+            return Attempt::Refused;
+        }
+        let fastest = (1..prime).fold(0, |fastest, i| {
+            if orbit.states[i].velocity() < orbit.states[fastest].velocity() { i } else { fastest }
+        });
+        if fastest > 0 {
+            orbit.states.rotate_left(fastest);
+            // The derivative around the orbit, from its new first impact.
+            match self.shoot(&orbit.states, 1.0) {
+                Ok(shooting) => orbit.monodromy = shooting.monodromy,
+                Err(_) => return Attempt::NotSettled,
+            }
+        }
+        Attempt::Converged(orbit)
+    }
+
+    /// Impacts that nearly close to an orbit, by Newton steps from a guess; `None` if they do not.
+    fn approached(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
+        let mut states = guess.to_vec();
+        for _ in 0..MAX_STEPS {
+            let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
+            let shooting = self.shoot(&states, scale).ok()?;
+            if shooting.worst <= NEAR {
+                return Some(states);
+            }
+            let steps = solve_block_cyclic(&shooting.derivatives, &shooting.right);
+            let longest = steps.iter().fold(0.0_f64, |most, step| most.max(step.x.abs()));
+            let share = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
+            for (state, step) in states.iter_mut().zip(&steps) {
+                let phase = Phase::new(state.phase().angle() + share * step.x).ok()?;
+                let own = state.velocity();
+                // A step through speed zero goes half the way there.
+                let velocity = own + share * step.y;
+                *state = ImpactState::new(phase, if velocity < 0.0 { velocity } else { 0.5 * own }).ok()?;
+            }
+        }
+        None
+    }
+}
