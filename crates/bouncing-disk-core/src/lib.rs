@@ -61,8 +61,9 @@ pub use analysis::basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,
 };
+pub use analysis::closing::ContinuationParameter;
 pub use analysis::continuation::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation,
 };
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};

@@ -1,6 +1,7 @@
 //! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations on the way
 //! (docs/numerics/dynamics.md, "Branches").
 
+use crate::analysis::closing::{Closing, ContinuationParameter};
 use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
 use crate::error::{Error, finite, within};
 use crate::map::impact_map::ImpactMap;
@@ -9,41 +10,9 @@ use crate::platform::vibration::Vibration;
 use crate::read_checked;
 
 mod birth;
-mod closing;
 mod walker;
 
-use closing::Closing;
 use walker::Walker;
-
-/// The parameter in which an orbit is continued.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum ContinuationParameter {
-    /// The axial forcing Gamma, above 0.
-    Forcing,
-    /// The coefficient of restitution, in (0, 1).
-    Restitution,
-}
-
-impl ContinuationParameter {
-    /// Its value for a map.
-    #[must_use]
-    pub fn of(self, map: &ImpactMap) -> f64 {
-        match self {
-            Self::Forcing => map.vibration().axial_forcing(),
-            Self::Restitution => map.restitution(),
-        }
-    }
-
-    /// The range in which a map exists, and in which an impact is followed by a flight.
-    const fn legal(self) -> (f64, f64) {
-        match self {
-            Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
-            Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
-        }
-    }
-}
 
 /// In what, how far and how finely an orbit is continued.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -301,9 +270,9 @@ impl Branch {
         };
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
         let map = self.map_at(doubling.point.parameter)?;
-        let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit)?;
-        let (walker, located) = Walker::after_doubling(closing, at, settings)?;
-        let branch = walker.walk(located, watch.work())?;
+        let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit.states)?;
+        let (walker, located) = Walker::after_doubling(closing, at, settings, watch.work())?;
+        let branch = walker.walk(located)?;
         watch.end();
         Ok(branch)
     }
@@ -356,9 +325,9 @@ impl ImpactMap {
             "that of its settings",
         )?;
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
-        let (closing, at) = Closing::of(self, settings.parameter, orbit)?;
-        let (walker, located) = Walker::new(closing, at, settings)?;
-        let branch = walker.walk(located, watch.work())?;
+        let (closing, at) = Closing::of(self, settings.parameter, &orbit.states)?;
+        let (walker, located) = Walker::new(closing, at, settings, watch.work())?;
+        let branch = walker.walk(located)?;
         watch.end();
         Ok(branch)
     }

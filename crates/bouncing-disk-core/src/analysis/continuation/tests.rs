@@ -313,6 +313,23 @@ fn a_branch_ends_at_its_limits_and_can_be_stopped() {
     let many = forcing(0.1, 0.6, true).with_steps(1e-9, 1e-9, 1_000_000).expect("legal");
     let stopped = map.continued_observed(&orbit, &many, &StopAfter::calls(3));
     assert!(matches!(stopped, Err(Error::Stopped { done: 1.., total: 1_000_000 })), "{stopped:?}");
+    // Also while a doubling is located, and on the branch that begins there.
+    let settings = forcing(0.3, 0.52, true).with_steps(1e-4, 1e-4, 20_000).expect("legal");
+    let all = StopAfter::calls(u64::MAX);
+    let branch = map.continued_observed(&orbit, &settings, &all).expect("nobody stops it");
+    let switched = branch.switched_observed(0, &settings, &all).expect("nobody stops it");
+    assert_eq!(
+        (Ok(&branch), Ok(&switched)),
+        (map.continued(&orbit, &settings).as_ref(), branch.switched(0, &settings).as_ref())
+    );
+    for calls in 1..all.asked() {
+        let watched = StopAfter::calls(calls);
+        let stopped = map
+            .continued_observed(&orbit, &settings, &watched)
+            .and_then(|branch| branch.switched_observed(0, &settings, &watched));
+        assert!(matches!(stopped, Err(Error::Stopped { total: 20_000, .. })), "{calls}: {stopped:?}");
+    }
+    assert!(all.asked() > 5, "{}", all.asked());
     // The start is the limit.
     let at = map.vibration().axial_forcing();
     let empty = map.continued(&orbit, &forcing(0.1, at, true)).expect("continued");

@@ -5,12 +5,11 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
-use super::ContinuationParameter;
-use crate::analysis::periodic::PeriodicOrbit;
 use crate::error::Error;
-use crate::map::impact_map::ImpactMap;
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
-use crate::numerics::elementary::{nearest_whole, sin, sin_cos};
+use crate::numerics::elementary::{cos, nearest_whole, sin, sin_cos};
+use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
 /// Newton steps until a correction is given up.
@@ -21,6 +20,36 @@ const NEARLY: f64 = 1.0e-8;
 
 /// A Newton step that is rounding.
 const ROUNDING: f64 = 1.0e-15;
+
+/// The parameter in which an orbit is continued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum ContinuationParameter {
+    /// The axial forcing Gamma, above 0.
+    Forcing,
+    /// The coefficient of restitution, in (0, 1).
+    Restitution,
+}
+
+impl ContinuationParameter {
+    /// Its value for a map.
+    #[must_use]
+    pub fn of(self, map: &ImpactMap) -> f64 {
+        match self {
+            Self::Forcing => map.vibration().axial_forcing(),
+            Self::Restitution => map.restitution(),
+        }
+    }
+
+    /// The range in which a map exists, and in which an impact is followed by a flight.
+    pub(super) const fn legal(self) -> (f64, f64) {
+        match self {
+            Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
+            Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
+        }
+    }
+}
 
 /// Impacts (phase in rad, the disk's own speed after the impact in units of g/omega) and the parameter.
 #[derive(Debug, Clone)]
@@ -68,12 +97,12 @@ impl Closing {
     pub(super) fn of(
         map: &ImpactMap,
         by: ContinuationParameter,
-        orbit: &PeriodicOrbit,
+        states: &[ImpactState],
     ) -> Result<(Self, Closed), Error> {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
-        let n = orbit.states.len();
+        let n = states.len();
         let mut impacts: Vec<DVec2> = Vec::with_capacity(n);
-        for (i, &state) in orbit.states.iter().enumerate() {
+        for (i, &state) in states.iter().enumerate() {
             let mut phase = state.phase().angle();
             // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2 pi.
             if n.is_multiple_of(2) && i >= n / 2 {
@@ -82,7 +111,7 @@ impl Closing {
             impacts.push(DVec2::new(phase, p * state.phase().cos() - r * state.velocity()));
         }
         let mut turns = Vec::with_capacity(n);
-        for (i, &state) in orbit.states.iter().enumerate() {
+        for (i, &state) in states.iter().enumerate() {
             let between = impacts[(i + 1) % n].x - impacts[i].x;
             turns.push(nearest_whole((map.step(state)?.duration() - between) / TAU));
         }
@@ -133,6 +162,31 @@ impl Closing {
     /// The duration of a flight.
     pub(super) fn duration(&self, impacts: &[DVec2], i: usize) -> f64 {
         (impacts[(i + 1) % impacts.len()].x - impacts[i].x) + TAU * self.turns[i]
+    }
+
+    /// Relative velocities (disk minus platform) before and after each impact.
+    pub(super) fn velocities(&self, at: &Closed) -> Vec<(f64, f64)> {
+        let n = at.impacts.len();
+        let (p, r) = self.strengths(at.parameter);
+        let one = |i: usize| {
+            let before = (i + n - 1) % n;
+            let platform = p * cos(at.impacts[i].x);
+            let landing = at.impacts[before].y - self.duration(&at.impacts, before);
+            // By the law: u - P cos tau would be a difference of large numbers where the restitution is small.
+            (landing - platform, r * (platform - landing))
+        };
+        (0..n).map(one).collect()
+    }
+
+    /// The impacts of a solution; `None` where one has no speed.
+    pub(super) fn states(&self, at: &Closed) -> Option<Vec<ImpactState>> {
+        let one = |(impact, (arrival, _)): (&DVec2, (f64, f64))| {
+            if arrival >= 0.0 {
+                return None;
+            }
+            ImpactState::new(Phase::new(impact.x).ok()?, arrival).ok()
+        };
+        at.impacts.iter().zip(self.velocities(at)).map(one).collect()
     }
 
     /// First impact and parameter in units of the scale.
