@@ -1,5 +1,6 @@
-//! The equations of a closed sequence of flights and of their derivatives by one parameter. They do not ask whether an
-//! earlier impact forestalls a flight, and so are smooth through a graze (docs/numerics/dynamics.md, "Branches").
+//! The equations of a closed sequence of flights and of their derivatives by one parameter. They do not ask
+//! whether an earlier impact forestalls a flight, and so are smooth through a graze
+//! (docs/numerics/dynamics.md, "Branches").
 
 use core::f64::consts::{PI, TAU};
 
@@ -73,7 +74,8 @@ pub(super) struct Scale {
     pub(super) parameter: f64,
 }
 
-/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase, speed, parameter).
+/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase,
+/// speed, parameter).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub(super) normal: [f64; 3],
@@ -104,7 +106,8 @@ impl Closing {
         let mut impacts: Vec<DVec2> = Vec::with_capacity(n);
         for (i, &state) in states.iter().enumerate() {
             let mut phase = state.phase().angle();
-            // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2 pi.
+            // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2
+            // pi.
             if n.is_multiple_of(2) && i >= n / 2 {
                 phase += TAU * nearest_whole((impacts[i - n / 2].x - phase) / TAU);
             }
@@ -172,7 +175,8 @@ impl Closing {
             let before = (i + n - 1) % n;
             let platform = p * cos(at.impacts[i].x);
             let landing = at.impacts[before].y - self.duration(&at.impacts, before);
-            // By the law: u - P cos tau would be a difference of large numbers where the restitution is small.
+            // By the law: u - P cos tau would be a difference of large numbers where the restitution is
+            // small.
             (landing - platform, r * (platform - landing))
         };
         (0..n).map(one).collect()
@@ -195,7 +199,8 @@ impl Closing {
         [first.x, first.y / self.scale.speed, at.parameter / self.scale.parameter]
     }
 
-    /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight has no duration.
+    /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight
+    /// has no duration.
     fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
         let n = at.impacts.len();
         let (p, r) = self.strengths(at.parameter);
@@ -236,7 +241,8 @@ impl Closing {
         Border { first, parameter: parameter / self.scale.parameter, right }
     }
 
-    /// The solution in a plane by Newton's method from a guess, and how many steps it took; `None` if it does not settle.
+    /// The solution in a plane by Newton's method from a guess, and how many steps it took; `None` if it does
+    /// not settle.
     pub(super) fn corrected(&self, guess: Closed, plane: &Plane) -> Option<(Closed, u32)> {
         let mut at = guess;
         let mut last = f64::INFINITY;
@@ -260,7 +266,8 @@ impl Closing {
         None
     }
 
-    /// The direction of the branch, of scaled length 1 in first impact and parameter, on the side of `normal`.
+    /// The direction of the branch, of scaled length 1 in first impact and parameter, on the side of
+    /// `normal`.
     pub(super) fn tangent(&self, at: &Closed, normal: [f64; 3]) -> Option<Closed> {
         let mut equations = self.equations(at)?;
         equations.right.fill(DVec2::ZERO);
@@ -282,8 +289,7 @@ impl Closing {
             .then_some(Closed { impacts, parameter: parameter / length })
     }
 
-    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign. The
-    /// parameter's place holds how far that is from true.
+    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign.
     pub(super) fn flip_direction(&self, at: &Closed) -> Option<Vec<DVec2>> {
         let mut equations = self.equations(at)?;
         equations.right.fill(DVec2::ZERO);

@@ -1,5 +1,5 @@
-//! Where an orbit of 2m impacts is born by the doubling of one of m: both of its halves become that one. Its own equations
-//! have two branches there, so that the place is sought on the other branch.
+//! Where an orbit of 2m impacts is born by the doubling of one of m: both of its halves become that one. Its
+//! own equations have two branches there, so that the place is sought on the other branch.
 
 use glam::DVec2;
 

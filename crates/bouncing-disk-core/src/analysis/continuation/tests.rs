@@ -138,8 +138,8 @@ fn a_doubled_orbit_is_born_in_the_doubling() {
     assert!((last.parameter - birth.point.parameter).abs() < 1e-2 && last.orbit.period() == 2);
 }
 
-/// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is the orbit's, after
-/// it is an earlier one.
+/// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is
+/// the orbit's, after it is an earlier one.
 #[test]
 fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     for (k, r) in [(1, 0.3), (1, 0.5), (1, 0.8), (2, 0.5)] {
@@ -164,7 +164,8 @@ fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     }
 }
 
-/// Whatever the search finds is continued either way, through orbits of the map only, to an end that has a reason.
+/// Whatever the search finds is continued either way, through orbits of the map only, to an end that has a
+/// reason.
 #[test]
 fn all_orbits_of_random_maps_have_branches_that_end() {
     let mut random = SplitMix64::new(7);
@@ -213,8 +214,8 @@ fn all_orbits_of_random_maps_have_branches_that_end() {
     assert_eq!(ends[4], 0, "{ends:?}");
 }
 
-/// Where the flight of the saddle grazes, an orbit of two impacts is born of which one has no speed yet: both branches end
-/// there.
+/// Where the flight of the saddle grazes, an orbit of two impacts is born of which one has no speed yet: both
+/// branches end there.
 #[test]
 fn an_impact_vanishes_where_the_flight_without_it_grazes() {
     let (own, _) = node(1, 0.21, 0.05);

@@ -255,7 +255,8 @@ impl<'s> Walker<'s> {
         Ok(())
     }
 
-    /// The last point with a property that holds at `base`, and the first one without it, by halvings of a step.
+    /// The last point with a property that holds at `base`, and the first one without it, by halvings of a
+    /// step.
     fn bracket(
         &self,
         base: &Located,

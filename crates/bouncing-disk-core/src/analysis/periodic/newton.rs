@@ -116,8 +116,8 @@ impl ImpactMap {
         None
     }
 
-    /// The same by the equations that do not ask whether an earlier impact forestalls a flight: where the map jumps they are
-    /// smooth, and whether the solution is an orbit of the map is seen when it is refined.
+    /// The same by the equations that do not ask whether an earlier impact forestalls a flight: where the map
+    /// jumps they are smooth, and whether the solution is an orbit of the map is seen when it is refined.
     fn approached_smoothly(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
         let (closing, at) = Closing::of(self, ContinuationParameter::Forcing, guess).ok()?;
         let plane = Plane { normal: [0.0, 0.0, 1.0], base: closing.scaled(&at), distance: 0.0 };
