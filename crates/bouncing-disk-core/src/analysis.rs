@@ -2,6 +2,7 @@
 
 pub(crate) mod attraction;
 pub(crate) mod basin;
+pub(crate) mod closing;
 pub(crate) mod continuation;
 pub(crate) mod doublings;
 pub(crate) mod follow_attractor;

@@ -28,7 +28,9 @@
 //! | chattering | [`ImpactMap::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`ImpactMap::chatters_to_rest`] |
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
 //! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
-//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
+//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`period_doublings`], [`follow_attractor`] |
+//! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
+//! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::flight_duration_bound`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
@@ -61,8 +63,9 @@ pub use analysis::basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,
 };
+pub use analysis::closing::ContinuationParameter;
 pub use analysis::continuation::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation,
 };
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};

@@ -1,6 +1,7 @@
-//! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations on the way
-//! (docs/numerics/dynamics.md, "Branches").
+//! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
+//! on the way (docs/numerics/dynamics.md, "Branches").
 
+use crate::analysis::closing::{Closing, ContinuationParameter};
 use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
 use crate::error::{Error, finite, within};
 use crate::map::impact_map::ImpactMap;
@@ -9,41 +10,9 @@ use crate::platform::vibration::Vibration;
 use crate::read_checked;
 
 mod birth;
-mod closing;
 mod walker;
 
-use closing::Closing;
 use walker::Walker;
-
-/// The parameter in which an orbit is continued.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum ContinuationParameter {
-    /// The axial forcing Gamma, above 0.
-    Forcing,
-    /// The coefficient of restitution, in (0, 1).
-    Restitution,
-}
-
-impl ContinuationParameter {
-    /// Its value for a map.
-    #[must_use]
-    pub fn of(self, map: &ImpactMap) -> f64 {
-        match self {
-            Self::Forcing => map.vibration().axial_forcing(),
-            Self::Restitution => map.restitution(),
-        }
-    }
-
-    /// The range in which a map exists, and in which an impact is followed by a flight.
-    const fn legal(self) -> (f64, f64) {
-        match self {
-            Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
-            Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
-        }
-    }
-}
 
 /// In what, how far and how finely an orbit is continued.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,11 +42,12 @@ impl Continuation {
     /// The most points of a branch.
     pub const MAX_POINTS: usize = 1_000_000;
 
-    /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or lower ones.
+    /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or
+    /// lower ones.
     ///
-    /// The arclength is that of first impact and parameter: radians, units of 1 + P, and the forcing at the start (for the
-    /// restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there are at most 10,000 points: see
-    /// [`Self::with_steps`].
+    /// The arclength is that of first impact and parameter: radians, units of 1 + P, and the forcing at the
+    /// start (for the restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there are at
+    /// most 10,000 points: see [`Self::with_steps`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the range is empty or leaves that of the parameter.
@@ -91,7 +61,8 @@ impl Continuation {
         settings.check().map(|()| settings)
     }
 
-    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most so many points in [2, 1e6].
+    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most so many
+    /// points in [2, 1e6].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for any of them, and for a first step above the largest.
@@ -203,7 +174,8 @@ pub enum BifurcationKind {
         /// Which impact.
         impact: usize,
     },
-    /// The second half of the orbit becomes the repetition of the first: it is born here, by the doubling of that one.
+    /// The second half of the orbit becomes the repetition of the first: it is born here, by the doubling of
+    /// that one.
     Birth,
 }
 
@@ -214,8 +186,8 @@ pub enum BifurcationKind {
 pub struct Bifurcation {
     /// What happens.
     pub kind: BifurcationKind,
-    /// The orbit there; at a graze and at a vanishing impact the last one that is an orbit of the map. At a birth it is the
-    /// orbit that doubles its period, with half the impacts.
+    /// The orbit there; at a graze and at a vanishing impact the last one that is an orbit of the map. At a
+    /// birth it is the orbit that doubles its period, with half the impacts.
     pub point: BranchPoint,
 }
 
@@ -232,8 +204,8 @@ pub enum BranchEnd {
     Closed,
     /// There are as many points as were allowed.
     PointLimit(usize),
-    /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do not
-    /// tell.
+    /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do
+    /// not tell.
     StepTooSmall(f64),
 }
 
@@ -273,12 +245,13 @@ impl Branch {
         }
     }
 
-    /// The branch of twice the period that begins at the doubling number `index` of this branch's bifurcations. Its first
-    /// point is the one after the doubling; `rising` of the settings has no meaning, as it goes to either side.
+    /// The branch of twice the period that begins at the doubling number `index` of this branch's
+    /// bifurcations. Its first point is the one after the doubling; `rising` of the settings has no meaning,
+    /// as it goes to either side.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there is no such bifurcation or it is no doubling; [`Error::NotSettled`] if no doubled orbit
-    /// is found; those of [`ImpactMap::continued`].
+    /// [`Error::OutOfRange`] if there is no such bifurcation or it is no doubling; [`Error::NotSettled`] if
+    /// no doubled orbit is found; those of [`ImpactMap::continued`].
     pub fn switched(&self, index: usize, settings: &Continuation) -> Result<Self, Error> {
         self.switched_observed(index, settings, &Unobserved)
     }
@@ -301,20 +274,20 @@ impl Branch {
         };
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
         let map = self.map_at(doubling.point.parameter)?;
-        let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit)?;
-        let (walker, located) = Walker::after_doubling(closing, at, settings)?;
-        let branch = walker.walk(located, watch.work())?;
+        let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit.states)?;
+        let (walker, located) = Walker::after_doubling(closing, at, settings, watch.work())?;
+        let branch = walker.walk(located)?;
         watch.end();
         Ok(branch)
     }
 }
 
 impl ImpactMap {
-    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the pseudo-arclength: through
-    /// folds, and along unstable parts, until it ends ([`BranchEnd`]).
+    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the
+    /// pseudo-arclength: through folds, and along unstable parts, until it ends ([`BranchEnd`]).
     ///
-    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind within one step
-    /// are not seen: [`Continuation::with_steps`].
+    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
+    /// within one step are not seen: [`Continuation::with_steps`].
     ///
     /// ```
     /// # use bouncing_disk_core::{BifurcationKind, Continuation, ContinuationParameter, ImpactMap, Vibration};
@@ -356,9 +329,9 @@ impl ImpactMap {
             "that of its settings",
         )?;
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
-        let (closing, at) = Closing::of(self, settings.parameter, orbit)?;
-        let (walker, located) = Walker::new(closing, at, settings)?;
-        let branch = walker.walk(located, watch.work())?;
+        let (closing, at) = Closing::of(self, settings.parameter, &orbit.states)?;
+        let (walker, located) = Walker::new(closing, at, settings, watch.work())?;
+        let branch = walker.walk(located)?;
         watch.end();
         Ok(branch)
     }

@@ -1,5 +1,5 @@
-//! Bounds on the speeds that last: no periodic orbit and no attractor is faster. Proven in docs/numerics/dynamics.md,
-//! "Bounded speeds".
+//! Bounds on the speeds that last: no periodic orbit and no attractor is faster. Proven in
+//! docs/numerics/dynamics.md, "Bounded speeds".
 
 use crate::map::impact_map::ImpactMap;
 
@@ -7,20 +7,21 @@ use crate::map::impact_map::ImpactMap;
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl ImpactMap {
-    /// The bound M on the disk's own speed |u| after an impact (u = w + P cos tau, relative to the ground and not to the
-    /// platform; units of g/omega), of every periodic orbit and every attractor.
+    /// The bound M on the disk's own speed |u| after an impact (u = w + P cos tau, relative to the ground and
+    /// not to the platform; units of g/omega), of every periodic orbit and every attractor.
     ///
-    /// An impact leaves u' = -r V + (1 + r) P cos tau', where the disk lands with V^2 = u^2 + 2 P (sin tau - sin tau'),
-    /// at most u^2 + 4 P. Hence |u'| <= f(|u|) = r sqrt(u^2 + 4 P) + (1 + r) P. The slope of f is below r < 1, so that f has
-    /// one fixed point,
+    /// An impact leaves u' = -r V + (1 + r) P cos tau', where the disk lands with V^2 = u^2 + 2 P (sin tau -
+    /// sin tau'), at most u^2 + 4 P. Hence |u'| <= f(|u|) = r sqrt(u^2 + 4 P) + (1 + r) P. The slope of f is
+    /// below r < 1, so that f has one fixed point,
     ///
     /// M = q + r sqrt(q (q + 4/(1 + r))), q = P/(1 - r),
     ///
-    /// and whatever |u| exceeds it by is multiplied by r at most in every impact: a disk that is slower stays so, a
-    /// periodic orbit cannot be faster, and every other orbit becomes so up to an excess that dies out. A disk at rest
-    /// leaves the platform with at most P <= M.
+    /// and whatever |u| exceeds it by is multiplied by r at most in every impact: a disk that is slower stays
+    /// so, a periodic orbit cannot be faster, and every other orbit becomes so up to an excess that dies out.
+    /// A disk at rest leaves the platform with at most P <= M.
     ///
-    /// The number is rounded upwards. It is P where the restitution is 0, and grows like 2 P/(1 - r) towards 1.
+    /// The number is rounded upwards. It is P where the restitution is 0, and grows like 2 P/(1 - r) towards
+    /// 1.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Vibration};
@@ -39,9 +40,10 @@ impl ImpactMap {
         ROUNDINGS * (q + r * (q.sqrt() * (q + 4.0 / (1.0 + r)).sqrt()))
     }
 
-    /// The bound on the impact speed |w_A| (relative to the platform, units of g/omega) of every periodic orbit and every
-    /// attractor: sqrt(M^2 + 4 P) + P with the [`Self::launch_speed_bound`] M, as the disk lands with at most the first
-    /// part of it and the platform is no faster than the second. Rounded upwards.
+    /// The bound on the impact speed |w_A| (relative to the platform, units of g/omega) of every periodic
+    /// orbit and every attractor: sqrt(M^2 + 4 P) + P with the [`Self::launch_speed_bound`] M, as the disk
+    /// lands with at most the first part of it and the platform is no faster than the second. Rounded
+    /// upwards.
     ///
     /// Divided by pi it is in the units of the paper's figures (`ImpactState::normalised_speed`).
     #[must_use]
@@ -50,8 +52,8 @@ impl ImpactMap {
         ROUNDINGS * (landing_speed_bound(self.launch_speed_bound(), p) + p)
     }
 
-    /// The bound on the duration of a flight (rad) of every periodic orbit and every attractor: it is u - V, at most
-    /// M + sqrt(M^2 + 4 P). Rounded upwards.
+    /// The bound on the duration of a flight (rad) of every periodic orbit and every attractor: it is u - V,
+    /// at most M + sqrt(M^2 + 4 P). Rounded upwards.
     #[must_use]
     pub fn flight_duration_bound(&self) -> f64 {
         let launch = self.launch_speed_bound();

@@ -1,12 +1,12 @@
-//! The linear system of a closed sequence of equations with one parameter and one condition more, in time and memory
-//! proportional to its length: what Newton's method on a branch of periodic orbits solves.
+//! The linear system of a closed sequence of equations with one parameter and one condition more, in time and
+//! memory proportional to its length: what Newton's method on a branch of periodic orbits solves.
 
 use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::rotate;
 
-/// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following unknown, of the
-/// parameter, and the right side.
+/// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following
+/// unknown, of the parameter, and the right side.
 const OWN: usize = 0;
 const FIRST: usize = 2;
 const NEXT: usize = 4;
@@ -23,8 +23,8 @@ pub(crate) struct Border {
     pub(crate) right: f64,
 }
 
-/// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, the index taken modulo
-/// their number.
+/// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, the index
+/// taken modulo their number.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct CyclicEquations {
     pub(crate) own: Vec<DMat2>,
@@ -36,11 +36,11 @@ pub(crate) struct CyclicEquations {
 impl CyclicEquations {
     /// The unknowns x and mu.
     ///
-    /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic) the unknowns are eliminated by rotations from 1
-    /// on; the parameter is carried along like the first unknown. As the condition holds these two alone, it meets the rest
-    /// at the end, in three equations: so the whole is as well conditioned as the bordered matrix, also where the closed
-    /// sequence alone is singular, in a fold. Of a singular system the solution is not finite, or as large as the
-    /// rounding makes it.
+    /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic) the unknowns are eliminated by
+    /// rotations from 1 on; the parameter is carried along like the first unknown. As the condition holds
+    /// these two alone, it meets the rest at the end, in three equations: so the whole is as well conditioned
+    /// as the bordered matrix, also where the closed sequence alone is singular, in a fold. Of a singular
+    /// system the solution is not finite, or as large as the rounding makes it.
     pub(crate) fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
         let n = self.own.len();
         if n == 0 {
@@ -147,8 +147,8 @@ mod tests {
         (system, Border { first, parameter: rest.x, right: rest.y })
     }
 
-    /// The largest residual, relative to the largest sum of magnitudes that makes one up: rotations are stable in the
-    /// norm of the whole, as the first unknown and the parameter reach every equation.
+    /// The largest residual, relative to the largest sum of magnitudes that makes one up: rotations are
+    /// stable in the norm of the whole, as the first unknown and the parameter reach every equation.
     fn residual(system: &CyclicEquations, border: Border, (x, mu): (&[DVec2], f64)) -> f64 {
         let n = x.len();
         let size = |block: DMat2| block.x_axis.length() + block.y_axis.length();
@@ -183,7 +183,8 @@ mod tests {
         }
     }
 
-    /// In a fold the closed sequence alone is singular and the whole is not: x - mu (1, 0) = 0 in the second row only.
+    /// In a fold the closed sequence alone is singular and the whole is not: x - mu (1, 0) = 0 in the second
+    /// row only.
     #[test]
     fn a_fold_is_solved() {
         let system = CyclicEquations {

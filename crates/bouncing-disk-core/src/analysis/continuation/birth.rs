@@ -1,11 +1,11 @@
-//! Where an orbit of 2m impacts is born by the doubling of one of m: both of its halves become that one. Its own equations
-//! have two branches there, so that the place is sought on the other branch.
+//! Where an orbit of 2m impacts is born by the doubling of one of m: both of its halves become that one. Its
+//! own equations have two branches there, so that the place is sought on the other branch.
 
 use glam::DVec2;
 
-use super::closing::{Closed, Plane};
 use super::walker::{HALVINGS, Located, Walker};
 use super::{Bifurcation, BifurcationKind, BranchPoint};
+use crate::analysis::closing::{Closed, Plane};
 use crate::error::Error;
 use crate::numerics::roots::bisected_bracket;
 
@@ -32,7 +32,7 @@ impl Walker<'_> {
         next: &Located,
         step: f64,
     ) -> Result<Option<Bifurcation>, Error> {
-        let half = Walker { closing: self.closing.half(), settings: self.settings };
+        let half = Walker { closing: self.closing.half(), settings: self.settings, work: self.work.clone() };
         let (n, at) = (half.closing.flights(), &base.at);
         let mean = (0..n).map(|i| 0.5 * (at.impacts[i] + at.impacts[i + n])).collect();
         let mut guess = Closed { impacts: mean, parameter: at.parameter };
@@ -65,6 +65,7 @@ impl Walker<'_> {
             }
             let mut nearest: Option<(f64, BranchPoint)> = None;
             bisected_bracket(ends.0, ends.1, HALVINGS, |parameter| {
+                half.spend()?;
                 let Some((value, point)) = flip(parameter, &guess)? else { return Ok::<_, Error>(false) };
                 if nearest.as_ref().is_none_or(|(least, _)| value.abs() <= least.abs()) {
                     nearest = Some((value, point));

@@ -138,8 +138,8 @@ fn a_doubled_orbit_is_born_in_the_doubling() {
     assert!((last.parameter - birth.point.parameter).abs() < 1e-2 && last.orbit.period() == 2);
 }
 
-/// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is the orbit's, after
-/// it is an earlier one.
+/// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is
+/// the orbit's, after it is an earlier one.
 #[test]
 fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     for (k, r) in [(1, 0.3), (1, 0.5), (1, 0.8), (2, 0.5)] {
@@ -164,7 +164,8 @@ fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     }
 }
 
-/// Whatever the search finds is continued either way, through orbits of the map only, to an end that has a reason.
+/// Whatever the search finds is continued either way, through orbits of the map only, to an end that has a
+/// reason.
 #[test]
 fn all_orbits_of_random_maps_have_branches_that_end() {
     let mut random = SplitMix64::new(7);
@@ -213,8 +214,8 @@ fn all_orbits_of_random_maps_have_branches_that_end() {
     assert_eq!(ends[4], 0, "{ends:?}");
 }
 
-/// Where the flight of the saddle grazes, an orbit of two impacts is born of which one has no speed yet: both branches end
-/// there.
+/// Where the flight of the saddle grazes, an orbit of two impacts is born of which one has no speed yet: both
+/// branches end there.
 #[test]
 fn an_impact_vanishes_where_the_flight_without_it_grazes() {
     let (own, _) = node(1, 0.21, 0.05);
@@ -313,6 +314,23 @@ fn a_branch_ends_at_its_limits_and_can_be_stopped() {
     let many = forcing(0.1, 0.6, true).with_steps(1e-9, 1e-9, 1_000_000).expect("legal");
     let stopped = map.continued_observed(&orbit, &many, &StopAfter::calls(3));
     assert!(matches!(stopped, Err(Error::Stopped { done: 1.., total: 1_000_000 })), "{stopped:?}");
+    // Also while a doubling is located, and on the branch that begins there.
+    let settings = forcing(0.3, 0.52, true).with_steps(1e-4, 1e-4, 20_000).expect("legal");
+    let all = StopAfter::calls(u64::MAX);
+    let branch = map.continued_observed(&orbit, &settings, &all).expect("nobody stops it");
+    let switched = branch.switched_observed(0, &settings, &all).expect("nobody stops it");
+    assert_eq!(
+        (Ok(&branch), Ok(&switched)),
+        (map.continued(&orbit, &settings).as_ref(), branch.switched(0, &settings).as_ref())
+    );
+    for calls in 1..all.asked() {
+        let watched = StopAfter::calls(calls);
+        let stopped = map
+            .continued_observed(&orbit, &settings, &watched)
+            .and_then(|branch| branch.switched_observed(0, &settings, &watched));
+        assert!(matches!(stopped, Err(Error::Stopped { total: 20_000, .. })), "{calls}: {stopped:?}");
+    }
+    assert!(all.asked() > 5, "{}", all.asked());
     // The start is the limit.
     let at = map.vibration().axial_forcing();
     let empty = map.continued(&orbit, &forcing(0.1, at, true)).expect("continued");

@@ -1,17 +1,17 @@
 //! From point to point along a branch.
 
+use core::cell::RefCell;
 use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
-use super::closing::{Closed, Closing, Plane};
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
+use crate::analysis::closing::{Closed, Closing, Plane};
 use crate::analysis::periodic::PeriodicOrbit;
 use crate::error::Error;
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
-use crate::numerics::elementary::cos;
 use crate::numerics::roots::bisected_bracket;
 use crate::observer::WorkCount;
 use crate::platform::phase::Phase;
@@ -58,16 +58,23 @@ enum Obstacle {
 pub(super) struct Walker<'s> {
     pub(super) closing: Closing,
     pub(super) settings: &'s Continuation,
+    pub(super) work: RefCell<WorkCount<'s>>,
 }
 
 impl<'s> Walker<'s> {
+    /// Counts the flights of a point: some Newton steps of all impacts.
+    pub(super) fn spend(&self) -> Result<(), Error> {
+        self.work.borrow_mut().spend(8 * self.closing.flights() as u64)
+    }
+
     /// From an orbit, in the direction of the settings.
     pub(super) fn new(
         closing: Closing,
         guess: Closed,
         settings: &'s Continuation,
+        work: WorkCount<'s>,
     ) -> Result<(Self, Located), Error> {
-        let walker = Self { closing, settings };
+        let walker = Self { closing, settings, work: RefCell::new(work) };
         let base = walker.closing.scaled(&guess);
         let across = [0.0, 0.0, if settings.rising { 1.0 } else { -1.0 }];
         let plane = Plane { normal: across, base, distance: 0.0 };
@@ -83,12 +90,13 @@ impl<'s> Walker<'s> {
         closing: Closing,
         at: Closed,
         settings: &'s Continuation,
+        work: WorkCount<'s>,
     ) -> Result<(Self, Located), Error> {
         let n = at.impacts.len();
         let lost = Error::NotSettled { what: "doubled orbit", iterations: n as u32, residual: at.parameter };
         let flip = closing.flip_direction(&at).ok_or(lost)?;
         let there_and_back = flip.iter().copied().chain(flip.iter().map(|part| -*part)).collect();
-        let walker = Self { closing: closing.twice(), settings };
+        let walker = Self { closing: closing.twice(), settings, work: RefCell::new(work) };
         let direction = Closed { impacts: there_and_back, parameter: 0.0 };
         let direction = walker.closing.normalised(direction).ok_or(lost)?;
         let at = Closed { impacts: [at.impacts.as_slice(), &at.impacts].concat(), parameter: at.parameter };
@@ -137,9 +145,8 @@ impl<'s> Walker<'s> {
     }
 
     /// The whole branch from `start` on; the items are its points.
-    pub(super) fn walk(self, start: Located, mut work: WorkCount<'_>) -> Result<Branch, Error> {
+    pub(super) fn walk(self, start: Located) -> Result<Branch, Error> {
         let (closing, settings) = (&self.closing, self.settings);
-        let n = start.at.impacts.len() as u64;
         let Some(first) = self.point(&start)? else {
             let residual = start.at.parameter;
             return Err(Error::NotSettled { what: "start of a branch", iterations: 0, residual });
@@ -150,7 +157,7 @@ impl<'s> Walker<'s> {
             if points.len() >= settings.max_points {
                 break BranchEnd::PointLimit(points.len());
             }
-            work.finish(8 * n)?;
+            self.spend()?;
             let Some(mut next) = self.next(&base, step) else {
                 step *= 0.5;
                 if step < SMALLEST_STEP {
@@ -158,7 +165,7 @@ impl<'s> Walker<'s> {
                 }
                 continue;
             };
-            work.spend(8 * n)?;
+            self.work.borrow().watch().finish(1);
             let taken = step;
             step = match next.corrections {
                 ..=EASY => (GROWTH * step).min(settings.largest_step),
@@ -248,7 +255,8 @@ impl<'s> Walker<'s> {
         Ok(())
     }
 
-    /// The last point with a property that holds at `base`, and the first one without it, by halvings of a step.
+    /// The last point with a property that holds at `base`, and the first one without it, by halvings of a
+    /// step.
     fn bracket(
         &self,
         base: &Located,
@@ -258,6 +266,7 @@ impl<'s> Walker<'s> {
     ) -> Result<(Located, Located), Error> {
         let (mut last, mut beyond) = (base.clone(), next.clone());
         bisected_bracket(0.0, step, HALVINGS, |part| {
+            self.spend()?;
             // A point that is not found is taken to lie beyond.
             let Some(located) = self.at(base, part) else { return Ok::<_, Error>(false) };
             let held = holds(&located)?;
@@ -271,24 +280,10 @@ impl<'s> Walker<'s> {
         Ok((last, beyond))
     }
 
-    /// Relative velocities (disk minus platform) before and after each impact.
-    fn velocities(&self, at: &Closed) -> Vec<(f64, f64)> {
-        let n = at.impacts.len();
-        let (p, r) = self.closing.strengths(at.parameter);
-        let one = |i: usize| {
-            let before = (i + n - 1) % n;
-            let platform = p * cos(at.impacts[i].x);
-            let landing = at.impacts[before].y - self.closing.duration(&at.impacts, before);
-            // By the law: u - P cos tau would be a difference of large numbers where the restitution is small.
-            (landing - platform, r * (platform - landing))
-        };
-        (0..n).map(one).collect()
-    }
-
     /// What makes it no orbit of the map.
     fn obstacle(&self, at: &Closed) -> Result<Option<Obstacle>, Error> {
         let map = self.closing.map_at(at.parameter)?;
-        let velocities = self.velocities(at);
+        let velocities = self.closing.velocities(at);
         for (impact, &(arrival, launch)) in velocities.iter().enumerate() {
             if !(arrival < 0.0 && launch > 0.0) {
                 return Ok(Some(Obstacle::VanishingImpact { impact }));
@@ -316,7 +311,7 @@ impl<'s> Walker<'s> {
     pub(super) fn point(&self, located: &Located) -> Result<Option<BranchPoint>, Error> {
         let at = &located.at;
         let (n, map) = (at.impacts.len(), self.closing.map_at(at.parameter)?);
-        let states = at.impacts.iter().zip(self.velocities(at)).map(|(impact, (arrival, _))| {
+        let states = at.impacts.iter().zip(self.closing.velocities(at)).map(|(impact, (arrival, _))| {
             ImpactState::new(Phase::new(impact.x)?, arrival.min(-f64::MIN_POSITIVE))
         });
         let states = states.collect::<Result<Vec<_>, _>>()?;

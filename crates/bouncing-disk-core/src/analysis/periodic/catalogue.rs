@@ -19,8 +19,8 @@ pub(super) struct Catalogue {
     entries: Vec<Entry>,
 }
 
-/// How far the sums of two orbits that count as one may differ, relative to the number of their impacts and to their speed:
-/// twice what the comparison of the impacts allows.
+/// How far the sums of two orbits that count as one may differ, relative to the number of their impacts and
+/// to their speed: twice what the comparison of the impacts allows.
 const SAME_SUM: f64 = 2.0 * super::newton::SAME;
 
 impl Catalogue {

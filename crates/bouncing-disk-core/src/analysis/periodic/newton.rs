@@ -1,6 +1,7 @@
 //! Newton's method from a rough guess, as the search for periodic orbits uses it: it gives up early.
 
 use super::{PeriodicOrbit, phase_difference};
+use crate::analysis::closing::{Closing, ContinuationParameter, Plane};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::block_cyclic::solve_block_cyclic;
@@ -59,7 +60,9 @@ impl ImpactMap {
 
     /// The periodic orbit near a guess.
     pub(super) fn attempt(&self, guess: &[ImpactState], max_platform_periods: u64) -> Attempt {
-        let Some(states) = self.approached(guess) else { return Attempt::NotSettled };
+        let Some(states) = self.approached(guess).or_else(|| self.approached_smoothly(guess)) else {
+            return Attempt::NotSettled;
+        };
         let prime = prime_period(&states);
         let mut orbit = match self.refine(&states[..prime]) {
             Ok(orbit) => orbit,
@@ -111,5 +114,14 @@ impl ImpactMap {
             }
         }
         None
+    }
+
+    /// The same by the equations that do not ask whether an earlier impact forestalls a flight: where the map
+    /// jumps they are smooth, and whether the solution is an orbit of the map is seen when it is refined.
+    fn approached_smoothly(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
+        let (closing, at) = Closing::of(self, ContinuationParameter::Forcing, guess).ok()?;
+        let plane = Plane { normal: [0.0, 0.0, 1.0], base: closing.scaled(&at), distance: 0.0 };
+        let (at, _) = closing.corrected(at, &plane)?;
+        closing.states(&at)
     }
 }

@@ -9,8 +9,9 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 
-/// By how much, relative to the flight, the first impact may come early and still be the one that the closed form has.
-/// Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight under the largest P.
+/// By how much, relative to the flight, the first impact may come early and still be the one that the closed
+/// form has. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight
+/// under the largest P.
 const SAME_IMPACT: f64 = 1.0e-9;
 
 /// One of the two orbits with one impact every k periods of the platform, in closed form.
@@ -59,7 +60,8 @@ impl PeriodOneOrbit {
         Multipliers::of_invariants(self.trace, self.determinant)
     }
 
-    /// Whether the orbit is one of the map: no earlier impact forestalls its flight, and the disk takes off at all.
+    /// Whether the orbit is one of the map: no earlier impact forestalls its flight, and the disk takes off
+    /// at all.
     ///
     /// # Errors
     /// Those of [`ImpactMap::step`] but for [`Error::NoLiftOff`].
@@ -91,22 +93,26 @@ impl PeriodOneOrbit {
     }
 }
 
-/// Both orbits with one impact every k periods of the platform. They are born together, in the fold at Gamma = k (1 - r)/(1 + r).
+/// Both orbits with one impact every k periods of the platform. They are born together, in the fold at Gamma
+/// = k (1 - r)/(1 + r).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PeriodOnePair {
-    /// The one with its phase in [0, pi/2]: a node or focus that attracts from the fold to its period doubling.
+    /// The one with its phase in [0, pi/2]: a node or focus that attracts from the fold to its period
+    /// doubling.
     pub node: PeriodOneOrbit,
-    /// The one with the opposite phase, in [3 pi/2, 2 pi) (0 at the fold): a saddle, its multipliers positive.
+    /// The one with the opposite phase, in [3 pi/2, 2 pi) (0 at the fold): a saddle, its multipliers
+    /// positive.
     pub saddle: PeriodOneOrbit,
 }
 
 impl ImpactMap {
-    /// Both orbits with one impact every `platform_periods` >= 1 periods of the platform; `None` below their birth at
-    /// Gamma = k (1 - r)/(1 + r).
+    /// Both orbits with one impact every `platform_periods` >= 1 periods of the platform; `None` below their
+    /// birth at Gamma = k (1 - r)/(1 + r).
     ///
-    /// Whether an earlier impact forestalls one of them is another question: [`PeriodOneOrbit::is_admissible`].
+    /// Whether an earlier impact forestalls one of them is another question:
+    /// [`PeriodOneOrbit::is_admissible`].
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Vibration};

@@ -40,8 +40,8 @@ impl OrbitSearch {
     /// The most starts along each axis.
     pub const MAX_STARTS: u32 = 4_096;
 
-    /// A search for all orbits of at most `max_impacts` in [1, 64] impacts and `max_platform_periods` in [1, 10000]
-    /// periods of the platform, from 96 x 96 starts.
+    /// A search for all orbits of at most `max_impacts` in [1, 64] impacts and `max_platform_periods` in [1,
+    /// 10000] periods of the platform, from 96 x 96 starts.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -104,29 +104,32 @@ impl OrbitSearch {
 pub struct OrbitCoverage {
     /// What was searched for, and from how many starts.
     pub search: OrbitSearch,
-    /// The largest speed of a start: no impact of a periodic orbit is faster ([`ImpactMap::impact_speed_bound`], less where
-    /// the periods of the platform are limited; units of g/omega).
+    /// The largest speed of a start: no impact of a periodic orbit is faster
+    /// ([`ImpactMap::impact_speed_bound`], less where the periods of the platform are limited; units of
+    /// g/omega).
     pub impact_speed_bound: f64,
-    /// An orbit with the most impacts that were searched for cannot take more periods of the platform than this: where the
-    /// search's own limit is not below it, none is left out for its length.
+    /// An orbit with the most impacts that were searched for cannot take more periods of the platform than
+    /// this: where the search's own limit is not below it, none is left out for its length.
     pub longest_platform_periods: u64,
     /// Starts, on a grid of cells over all phases and all impact speeds up to the bound.
     pub starts: u64,
-    /// Starts whose orbit is proven to come to rest, or does not leave the platform, within the impacts of the longest orbit.
+    /// Starts whose orbit is proven to come to rest, or does not leave the platform, within the impacts of
+    /// the longest orbit.
     pub resting_starts: u64,
     /// First parts of orbits that were tried as a guess.
     pub attempts: u64,
     /// Attempts that ended on a periodic orbit within the limits.
     pub converged: u64,
-    /// Attempts that ended on a solution that is none: a disk at rest, no period of the platform, or more than the limit.
+    /// Attempts that ended on a solution that is none: a disk at rest, no period of the platform, or more
+    /// than the limit.
     pub refused: u64,
     /// Attempts whose Newton iteration did not settle.
     pub not_settled: u64,
-    /// How many of the orbits are also found from every other start along both axes alone: where it is all of them, a
-    /// grid of twice the distance would have done.
+    /// How many of the orbits are also found from every other start along both axes alone: where it is all of
+    /// them, a grid of twice the distance would have done.
     pub found_by_coarser: u64,
-    /// How many orbits a single attempt found. Its share of `converged` estimates the share of further attempts
-    /// that would find yet another orbit (Good and Turing).
+    /// How many orbits a single attempt found. Its share of `converged` estimates the share of further
+    /// attempts that would find yet another orbit (Good and Turing).
     pub found_once: u64,
 }
 
@@ -135,8 +138,9 @@ pub struct OrbitCoverage {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OrbitsFound {
-    /// Orbits of the map (no earlier impact forestalls a flight) that repeat no shorter one, by rising number of impacts,
-    /// then of platform periods, then by falling speed of their fastest impact, which is the first of each.
+    /// Orbits of the map (no earlier impact forestalls a flight) that repeat no shorter one, by rising number
+    /// of impacts, then of platform periods, then by falling speed of their fastest impact, which is the
+    /// first of each.
     pub orbits: Vec<PeriodicOrbit>,
     /// What was covered.
     pub coverage: OrbitCoverage,
@@ -151,11 +155,12 @@ struct Row {
 impl ImpactMap {
     /// The periodic orbits of few impacts, stable and unstable.
     ///
-    /// Those of one impact come from the closed form and are complete. All others are found by Newton's method on all
-    /// impacts at once, from the first 1, 2, ... impacts of orbits that start on a grid over all impacts that a
-    /// periodic orbit can have ([`Self::impact_speed_bound`]). The exact map decides where a flight ends, so that what
-    /// converges is an orbit of it. A search from a grid proves nothing about what it did not find: [`OrbitCoverage`] says what
-    /// was tried, and whether half the resolution would have found the same.
+    /// Those of one impact come from the closed form and are complete. All others are found by Newton's
+    /// method on all impacts at once, from the first 1, 2, ... impacts of orbits that start on a grid over
+    /// all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map decides where
+    /// a flight ends, so that what converges is an orbit of it. A search from a grid proves nothing about
+    /// what it did not find: [`OrbitCoverage`] says what was tried, and whether half the resolution would
+    /// have found the same.
     ///
     /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one.
     ///
@@ -293,7 +298,8 @@ struct Limits {
 impl Limits {
     fn new(map: &ImpactMap, search: &OrbitSearch) -> Self {
         let p = map.vibration().peak_acceleration();
-        // A disk with u^2 > P^2 + 4 P lands falling, after u + sqrt(u^2 - 4 P) at least: in K periods if u <= pi K + P/(pi K).
+        // A disk with u^2 > P^2 + 4 P lands falling, after u + sqrt(u^2 - 4 P) at least: in K periods if u <=
+        // pi K + P/(pi K).
         let longest = TAU * search.max_platform_periods as f64;
         let falling = if longest * longest > 4.0 * p { 0.5 * longest + 2.0 * p / longest } else { 0.0 };
         let within_periods = falling.max((p * (p + 4.0)).sqrt());

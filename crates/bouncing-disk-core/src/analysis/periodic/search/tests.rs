@@ -18,7 +18,8 @@ fn found(map: &ImpactMap, impacts: usize, periods: u64, starts: u32) -> OrbitsFo
     map.periodic_orbits(&search).expect("no failure")
 }
 
-/// Two flights of together 2 pi k, as a function of the first phase and the first duration: nothing of the map is in it.
+/// Two flights of together 2 pi k, as a function of the first phase and the first duration: nothing of the
+/// map is in it.
 struct TwoFlights {
     p: f64,
     r: f64,
@@ -44,8 +45,8 @@ impl TwoFlights {
         [left(u0, u1 - h1, t0), left(u1, u0 - h0, t1)]
     }
 
-    /// All solutions: cells in which a Lipschitz bound allows a root (see docs/numerics/dynamics.md), halved until they are small,
-    /// then Newton steps.
+    /// All solutions: cells in which a Lipschitz bound allows a root (see docs/numerics/dynamics.md), halved
+    /// until they are small, then Newton steps.
     fn solutions(&self) -> Vec<(f64, f64)> {
         let (p, r) = (self.p, self.r);
         let by_phase = 2.0 * (1.0 + r) * p;
@@ -103,7 +104,8 @@ impl TwoFlights {
         None
     }
 
-    /// The solution as an orbit of the map: in which the exact map finds the same flights, that do not repeat one another.
+    /// The solution as an orbit of the map: in which the exact map finds the same flights, that do not repeat
+    /// one another.
     fn orbit(&self, map: &ImpactMap, (phase, h): (f64, f64)) -> Option<PeriodicOrbit> {
         let [(t0, h0, u0), (t1, h1, u1)] = self.flights(phase, h);
         let state = |t: f64, landing: f64| {
@@ -130,7 +132,8 @@ fn random_map(random: &mut SplitMix64) -> ImpactMap {
     map(0.1 + 2.9 * random.unit(), restitution)
 }
 
-/// Every orbit of two impacts that the search finds is among those of the independent equations, and the other way round.
+/// Every orbit of two impacts that the search finds is among those of the independent equations, and the
+/// other way round.
 #[test]
 fn orbits_of_two_impacts_are_those_of_the_independent_equations() {
     let mut random = SplitMix64::new(2);
@@ -204,7 +207,8 @@ fn every_attractor_that_random_starts_settle_on_is_found() {
     assert!(settled > 60, "{settled}");
 }
 
-/// Before the fold of one impact there is no orbit, after it two, after one of two impacts four, after the doubling one more.
+/// Before the fold of one impact there is no orbit, after it two, after one of two impacts four, after the
+/// doubling one more.
 #[test]
 fn orbits_are_born_in_pairs_and_by_doubling() {
     let number = |forcing: f64| found(&map(forcing, 0.5), 2, 2, 48).orbits.len();

@@ -1,16 +1,16 @@
-//! The equations of a closed sequence of flights and of their derivatives by one parameter. They do not ask whether an
-//! earlier impact forestalls a flight, and so are smooth through a graze (docs/numerics/dynamics.md, "Branches").
+//! The equations of a closed sequence of flights and of their derivatives by one parameter. They do not ask
+//! whether an earlier impact forestalls a flight, and so are smooth through a graze
+//! (docs/numerics/dynamics.md, "Branches").
 
 use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
-use super::ContinuationParameter;
-use crate::analysis::periodic::PeriodicOrbit;
 use crate::error::Error;
-use crate::map::impact_map::ImpactMap;
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
-use crate::numerics::elementary::{nearest_whole, sin, sin_cos};
+use crate::numerics::elementary::{cos, nearest_whole, sin, sin_cos};
+use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 
 /// Newton steps until a correction is given up.
@@ -21,6 +21,36 @@ const NEARLY: f64 = 1.0e-8;
 
 /// A Newton step that is rounding.
 const ROUNDING: f64 = 1.0e-15;
+
+/// The parameter in which an orbit is continued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum ContinuationParameter {
+    /// The axial forcing Gamma, above 0.
+    Forcing,
+    /// The coefficient of restitution, in (0, 1).
+    Restitution,
+}
+
+impl ContinuationParameter {
+    /// Its value for a map.
+    #[must_use]
+    pub fn of(self, map: &ImpactMap) -> f64 {
+        match self {
+            Self::Forcing => map.vibration().axial_forcing(),
+            Self::Restitution => map.restitution(),
+        }
+    }
+
+    /// The range in which a map exists, and in which an impact is followed by a flight.
+    pub(super) const fn legal(self) -> (f64, f64) {
+        match self {
+            Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
+            Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
+        }
+    }
+}
 
 /// Impacts (phase in rad, the disk's own speed after the impact in units of g/omega) and the parameter.
 #[derive(Debug, Clone)]
@@ -44,7 +74,8 @@ pub(super) struct Scale {
     pub(super) parameter: f64,
 }
 
-/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase, speed, parameter).
+/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase,
+/// speed, parameter).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub(super) normal: [f64; 3],
@@ -68,21 +99,22 @@ impl Closing {
     pub(super) fn of(
         map: &ImpactMap,
         by: ContinuationParameter,
-        orbit: &PeriodicOrbit,
+        states: &[ImpactState],
     ) -> Result<(Self, Closed), Error> {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
-        let n = orbit.states.len();
+        let n = states.len();
         let mut impacts: Vec<DVec2> = Vec::with_capacity(n);
-        for (i, &state) in orbit.states.iter().enumerate() {
+        for (i, &state) in states.iter().enumerate() {
             let mut phase = state.phase().angle();
-            // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2 pi.
+            // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2
+            // pi.
             if n.is_multiple_of(2) && i >= n / 2 {
                 phase += TAU * nearest_whole((impacts[i - n / 2].x - phase) / TAU);
             }
             impacts.push(DVec2::new(phase, p * state.phase().cos() - r * state.velocity()));
         }
         let mut turns = Vec::with_capacity(n);
-        for (i, &state) in orbit.states.iter().enumerate() {
+        for (i, &state) in states.iter().enumerate() {
             let between = impacts[(i + 1) % n].x - impacts[i].x;
             turns.push(nearest_whole((map.step(state)?.duration() - between) / TAU));
         }
@@ -135,13 +167,40 @@ impl Closing {
         (impacts[(i + 1) % impacts.len()].x - impacts[i].x) + TAU * self.turns[i]
     }
 
+    /// Relative velocities (disk minus platform) before and after each impact.
+    pub(super) fn velocities(&self, at: &Closed) -> Vec<(f64, f64)> {
+        let n = at.impacts.len();
+        let (p, r) = self.strengths(at.parameter);
+        let one = |i: usize| {
+            let before = (i + n - 1) % n;
+            let platform = p * cos(at.impacts[i].x);
+            let landing = at.impacts[before].y - self.duration(&at.impacts, before);
+            // By the law: u - P cos tau would be a difference of large numbers where the restitution is
+            // small.
+            (landing - platform, r * (platform - landing))
+        };
+        (0..n).map(one).collect()
+    }
+
+    /// The impacts of a solution; `None` where one has no speed.
+    pub(super) fn states(&self, at: &Closed) -> Option<Vec<ImpactState>> {
+        let one = |(impact, (arrival, _)): (&DVec2, (f64, f64))| {
+            if arrival >= 0.0 {
+                return None;
+            }
+            ImpactState::new(Phase::new(impact.x).ok()?, arrival).ok()
+        };
+        at.impacts.iter().zip(self.velocities(at)).map(one).collect()
+    }
+
     /// First impact and parameter in units of the scale.
     pub(super) fn scaled(&self, at: &Closed) -> [f64; 3] {
         let first = at.impacts[0];
         [first.x, first.y / self.scale.speed, at.parameter / self.scale.parameter]
     }
 
-    /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight has no duration.
+    /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight
+    /// has no duration.
     fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
         let n = at.impacts.len();
         let (p, r) = self.strengths(at.parameter);
@@ -182,7 +241,8 @@ impl Closing {
         Border { first, parameter: parameter / self.scale.parameter, right }
     }
 
-    /// The solution in a plane by Newton's method from a guess, and how many steps it took; `None` if it does not settle.
+    /// The solution in a plane by Newton's method from a guess, and how many steps it took; `None` if it does
+    /// not settle.
     pub(super) fn corrected(&self, guess: Closed, plane: &Plane) -> Option<(Closed, u32)> {
         let mut at = guess;
         let mut last = f64::INFINITY;
@@ -206,7 +266,8 @@ impl Closing {
         None
     }
 
-    /// The direction of the branch, of scaled length 1 in first impact and parameter, on the side of `normal`.
+    /// The direction of the branch, of scaled length 1 in first impact and parameter, on the side of
+    /// `normal`.
     pub(super) fn tangent(&self, at: &Closed, normal: [f64; 3]) -> Option<Closed> {
         let mut equations = self.equations(at)?;
         equations.right.fill(DVec2::ZERO);
@@ -228,8 +289,7 @@ impl Closing {
             .then_some(Closed { impacts, parameter: parameter / length })
     }
 
-    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign. The
-    /// parameter's place holds how far that is from true.
+    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign.
     pub(super) fn flip_direction(&self, at: &Closed) -> Option<Vec<DVec2>> {
         let mut equations = self.equations(at)?;
         equations.right.fill(DVec2::ZERO);
