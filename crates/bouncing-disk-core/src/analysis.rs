@@ -2,6 +2,7 @@
 
 pub(crate) mod attraction;
 pub(crate) mod basin;
+pub(crate) mod cascade;
 pub(crate) mod doublings;
 pub(crate) mod follow_attractor;
 pub(crate) mod lyapunov;

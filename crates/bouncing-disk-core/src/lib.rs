@@ -29,6 +29,7 @@
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
 //! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
+//! | the doubling cascade | [`doubling_cascade`], [`CascadeDoubling`], [`feigenbaum_estimates`], [`FeigenbaumEstimate`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
@@ -36,6 +37,7 @@
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
+//! | `extended` | no | module `extended`: double-doubles, the cascade to 25 digits, cycles in as many digits as they take |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
 //!
@@ -45,6 +47,8 @@
 mod analysis;
 mod chatter;
 mod error;
+#[cfg(feature = "extended")]
+pub mod extended;
 mod flight;
 mod lockstep;
 mod map;
@@ -61,6 +65,8 @@ pub use analysis::basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,
 };
+pub use analysis::cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
+pub use analysis::cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade, doubling_cascade_observed};
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
