@@ -1,5 +1,5 @@
-//! Numbers of more digits than a double has (feature `extended`), and what needs them: the doubling cascade to 25 digits,
-//! and the cycle of an orbit that comes to rest, in as many digits as it takes.
+//! Numbers of more digits than a double has (feature `extended`), and what needs them: the doubling cascade
+//! to 25 digits, and the cycle of an orbit that comes to rest, in as many digits as it takes.
 
 mod cascade;
 mod exact_orbit;

@@ -1,5 +1,5 @@
-//! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by Newton's
-//! iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
+//! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
+//! Newton's iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
 //!
 //! `doublings.rs` has the search that settles on each orbit instead; its results are kept as they are.
 
@@ -31,11 +31,13 @@ pub struct CascadeDoubling {
     pub axial_forcing: f64,
     /// How far rounding may have moved the forcing.
     pub forcing_error: f64,
-    /// The multiplier that the search left, -1 but for rounding: this grows 6.6 times from one doubling to the next.
+    /// The multiplier that the search left, -1 but for rounding: this grows 6.6 times from one doubling to
+    /// the next.
     pub multiplier: f64,
     /// The largest distance (rad) of an impact of the orbit from the one half a period later; 0 for n = 1.
     pub width: f64,
-    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none dips.
+    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none
+    /// dips.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::stored::infinite_if_none"))]
     pub graze_margin: f64,
 }
@@ -66,13 +68,14 @@ impl CascadeDoubling {
     }
 }
 
-/// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the platform, for
-/// `restitution` in (0, 1), in doubles.
+/// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the
+/// platform, for `restitution` in (0, 1), in doubles.
 ///
-/// Every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at most 3e-13 at the thirteenth.
-/// What rounding leaves of the digits grows 6.6 times in the multiplier and 1.4 times in the forcing from one doubling to the
-/// next (docs/numerics/dynamics.md); the distances of the doublings shrink 4.67 times, so that ratios of distances have
-/// six digits at the twelfth. `extended::doubling_cascade` (feature `extended`) has sixteen more.
+/// Every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at most 1.5e-13
+/// at the thirteenth. What rounding leaves of the digits grows 6.6 times in the multiplier and 1.4 times in
+/// the forcing from one doubling to the next (docs/numerics/dynamics.md); the distances of the doublings
+/// shrink 4.67 times, so that ratios of distances have six digits at the twelfth.
+/// `extended::doubling_cascade` (feature `extended`) has sixteen more.
 ///
 /// ```
 /// use bouncing_disk_core::{ImpactMap, doubling_cascade};

@@ -22,13 +22,14 @@ pub struct ExtendedDoubling {
     pub multiplier: DoubleDouble,
     /// The largest distance (rad) of an impact of the orbit from the one half a period later; 0 for n = 1.
     pub width: DoubleDouble,
-    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none dips. A graze
-    /// within the rounding of a double would need a proof in more digits: a cascade with a margin below 1e-9 is refused.
+    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none
+    /// dips. A graze within the rounding of a double would need a proof in more digits: a cascade with a
+    /// margin below 1e-9 is refused.
     pub graze_margin: f64,
 }
 
-/// A graze margin that doubles can no longer tell from none (units of g/omega^2): their gap is exact to 1e-14 of the peak
-/// acceleration and the flight, and the phases here to all their digits.
+/// A graze margin that doubles can no longer tell from none (units of g/omega^2): their gap is exact to 1e-14
+/// of the peak acceleration and the flight, and the phases here to all their digits.
 const UNSURE_MARGIN: f64 = 1.0e-9;
 
 /// [`doubling_cascade`](crate::doubling_cascade) in double-doubles: forcings with an error below 1e-28 for count up to 13.
@@ -44,8 +45,8 @@ const UNSURE_MARGIN: f64 = 1.0e-9;
 /// ```
 ///
 /// # Errors
-/// Those of [`doubling_cascade`](crate::doubling_cascade); [`Error::NotSettled`] with the margin where an orbit of the
-/// cascade comes so near to an earlier impact that doubles cannot exclude it.
+/// Those of [`doubling_cascade`](crate::doubling_cascade); [`Error::NotSettled`] with the margin where an
+/// orbit of the cascade comes so near to an earlier impact that doubles cannot exclude it.
 pub fn doubling_cascade(restitution: DoubleDouble, count: usize) -> Result<Vec<ExtendedDoubling>, Error> {
     doubling_cascade_observed(restitution, count, &Unobserved)
 }
@@ -83,8 +84,9 @@ pub fn doubling_cascade_observed(
     described.collect()
 }
 
-/// The forcing Gamma_1 in closed form, as [`ImpactMap::first_doubling_forcing`](crate::ImpactMap::first_doubling_forcing):
-/// sqrt(((1-r)/(1+r))^2 + (2 (1+r^2)/(pi (1+r)^2))^2).
+/// The forcing Gamma_1 in closed form, as
+/// [`ImpactMap::first_doubling_forcing`](crate::ImpactMap::first_doubling_forcing): sqrt(((1-r)/(1+r))^2 + (2
+/// (1+r^2)/(pi (1+r)^2))^2).
 #[must_use]
 pub fn first_doubling_forcing(restitution: DoubleDouble) -> DoubleDouble {
     let (r, one) = (restitution, DoubleDouble::ONE);
@@ -94,7 +96,8 @@ pub fn first_doubling_forcing(restitution: DoubleDouble) -> DoubleDouble {
     (threshold * threshold + height * height).sqrt()
 }
 
-/// Feigenbaum's constants from a cascade in double-doubles, one estimate for each doubling from the seventh on.
+/// Feigenbaum's constants from a cascade in double-doubles, one estimate for each doubling from the seventh
+/// on.
 ///
 /// ```
 /// use bouncing_disk_core::extended::{doubling_cascade, feigenbaum_estimates};

@@ -1,8 +1,9 @@
 //! The orbit of a disk from its separation, in many digits.
 //!
-//! Each flight begins from the certified first impact in doubles and is continued by Newton's iteration with twice the bits in
-//! every step, so that the last one alone has all of them. The derivative of the map tells, in doubles, how far an error of
-//! the start has grown: as many bits of the state mean nothing any more and are dropped.
+//! Each flight begins from the certified first impact in doubles and is continued by Newton's iteration with
+//! twice the bits in every step, so that the last one alone has all of them. The derivative of the map tells,
+//! in doubles, how far an error of the start has grown: as many bits of the state mean nothing any more and
+//! are dropped.
 
 use dashu_int::IBig;
 use glam::DMat2;
@@ -15,7 +16,8 @@ use crate::numerics::elementary::ln;
 use crate::observer::Watch;
 use crate::platform::phase::Phase;
 
-/// Bits of a state that must mean something: those of a double, and what decides whether a flight's first impact is sure.
+/// Bits of a state that must mean something: those of a double, and what decides whether a flight's first
+/// impact is sure.
 const LEAST_BITS: usize = 96;
 
 /// Bits beyond those that mean something, so that dropping the rest adds nothing to the error.
@@ -27,12 +29,12 @@ const WORD: usize = 64;
 /// Bits of a duration that the certified solver finds in doubles, where the flight is sure.
 const BITS_OF_DOUBLES: usize = 30;
 
-/// How near (units of g/omega^2, times 1 + P) a flight may come to an earlier impact: far more than the rounding of the gap in
-/// doubles, 1e-14 of the same.
+/// How near (units of g/omega^2, times 1 + P) a flight may come to an earlier impact: far more than the
+/// rounding of the gap in doubles, 1e-14 of the same.
 const SURE_MARGIN: f64 = 1.0e-10;
 
-/// The share of (1 + P) and of the duration, up to 1 rad, that the impact speed must reach. The gap then dips behind the
-/// impact by 5e-13 (1 + P) of the squared duration at least, and an impact in doubles is one.
+/// The share of (1 + P) and of the duration, up to 1 rad, that the impact speed must reach. The gap then dips
+/// behind the impact by 5e-13 (1 + P) of the squared duration at least, and an impact in doubles is one.
 const SURE_SPEED: f64 = 1.0e-6;
 
 /// A correction (rad, times the duration up to 1) of a duration in doubles that is another flight.

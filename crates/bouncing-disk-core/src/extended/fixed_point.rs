@@ -1,11 +1,12 @@
 //! Numbers with a fixed number of bits behind the point, as many as are asked for.
 //!
-//! What an orbit needs is bounded and wanted to an absolute accuracy, so that whole numbers do: a number x is the whole number
-//! next to x 2^bits. Multiplication is `dashu-int`'s; sine, cosine and pi are here.
+//! What an orbit needs is bounded and wanted to an absolute accuracy, so that whole numbers do: a number x is
+//! the whole number next to x 2^bits. Multiplication is `dashu-int`'s; sine, cosine and pi are here.
 
 use dashu_int::{IBig, Sign};
 
-/// Bits beyond those asked for, within sine and cosine: for the roundings of a thousand terms and of the doublings.
+/// Bits beyond those asked for, within sine and cosine: for the roundings of a thousand terms and of the
+/// doublings.
 const GUARD_BITS: usize = 32;
 
 /// The arithmetic of numbers with so many bits behind the point.
@@ -123,8 +124,8 @@ impl FixedPoint {
 
     /// Sine and cosine of an angle (rad) within +-2^30, to some units of the last bit.
     ///
-    /// What is left of whole right angles is halved some more times, so that the series of both is short, and the angle
-    /// doubled again: sin 2x = 2 sin x (1 - v), versin 2x = 2 sin^2 x, without cancellation.
+    /// What is left of whole right angles is halved some more times, so that the series of both is short, and
+    /// the angle doubled again: sin 2x = 2 sin x (1 - v), versin 2x = 2 sin^2 x, without cancellation.
     pub(super) fn sin_cos(&self, angle: &IBig) -> (IBig, IBig) {
         // Half as many doublings as the terms that they save: measured to be the best within a tenth.
         let doublings = 4 + self.bits.isqrt() / 4;

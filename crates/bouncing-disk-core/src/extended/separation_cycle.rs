@@ -1,8 +1,8 @@
 //! The cycle of a disk that comes to rest: from one separation to the next, in as many digits as it takes.
 //!
-//! After every rest the disk leaves the platform in the same state, so that the orbit from there to its next rest is the
-//! whole cycle. In doubles a rounding decides which cycle that is, as soon as the rounding has grown to the size of the orbit
-//! (docs/numerics/dynamics.md, "The true sticking cycle").
+//! After every rest the disk leaves the platform in the same state, so that the orbit from there to its next
+//! rest is the whole cycle. In doubles a rounding decides which cycle that is, as soon as the rounding has
+//! grown to the size of the orbit (docs/numerics/dynamics.md, "The true sticking cycle").
 
 use crate::error::{Error, within};
 use crate::extended::exact_orbit::{ExactOrbit, Followed};
@@ -41,7 +41,8 @@ impl Default for CycleBudget {
 /// A cycle from separation to separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeparationCycle {
-    /// Impacts from the separation until the chatter that ends in rest is summed, as an [`Orbit`](crate::Orbit) under
+    /// Impacts from the separation until the chatter that ends in rest is summed, as an
+    /// [`Orbit`](crate::Orbit) under
     /// [`ChatterPolicy::Complete`] counts them.
     pub impacts: u64,
     /// Periods of the platform from one separation to the next.
@@ -116,14 +117,14 @@ pub enum SeparationOutcome {
     },
 }
 
-/// The true cycle of a disk that leaves the platform from rest, of the map whose peak acceleration P and restitution are
-/// exactly the doubles that `map` holds. A map with other digits has another cycle, as soon as the cycle is longer than
-/// doubles can follow.
+/// The true cycle of a disk that leaves the platform from rest, of the map whose peak acceleration P and
+/// restitution are exactly the doubles that `map` holds. A map with other digits has another cycle, as soon
+/// as the cycle is longer than doubles can follow.
 ///
-/// The digits are doubled until the errors that have grown leave enough of them at the end, and the cycle is computed once
-/// more with other ones: both must agree. Each flight begins from the proven first impact in doubles and is continued by Newton's
-/// iteration; a flight for which the first impact is in doubt in doubles ends the search
-/// ([`SeparationOutcome::UnsureFlight`]).
+/// The digits are doubled until the errors that have grown leave enough of them at the end, and the cycle is
+/// computed once more with other ones: both must agree. Each flight begins from the proven first impact in
+/// doubles and is continued by Newton's iteration; a flight for which the first impact is in doubt in doubles
+/// ends the search ([`SeparationOutcome::UnsureFlight`]).
 ///
 /// ```
 /// use bouncing_disk_core::extended::{CycleBudget, SeparationOutcome, separation_cycle};

@@ -1,9 +1,9 @@
 //! Numbers of two doubles: about 31 decimal digits, with the same bits everywhere.
 //!
-//! Only IEEE `+ - * /` and the square root are used, and the product is split as Dekker does it, not fused: a build with
-//! fused operations, another processor or another compiler gives the same two doubles. The algorithms are those of T. J.
-//! Dekker, Numer. Math. 18, 224 (1971); their error bounds in M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math.
-//! Softw. 44, 15 (2017).
+//! Only IEEE `+ - * /` and the square root are used, and the product is split as Dekker does it, not fused: a
+//! build with fused operations, another processor or another compiler gives the same two doubles. The
+//! algorithms are those of T. J. Dekker, Numer. Math. 18, 224 (1971); their error bounds in M. Joldes, J.-M.
+//! Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -15,8 +15,8 @@ mod decimal;
 
 /// The unevaluated sum of two doubles, of which the first is the nearest double of the sum: 106 bits.
 ///
-/// Products and quotients are exact to 2^-100 relative where no part underflows: for magnitudes from 1e-250 to 1e290. What
-/// overflows is no number, as in doubles.
+/// Products and quotients are exact to 2^-100 relative where no part underflows: for magnitudes from 1e-250
+/// to 1e290. What overflows is no number, as in doubles.
 ///
 /// ```
 /// use bouncing_disk_core::extended::DoubleDouble;
@@ -164,7 +164,8 @@ impl DoubleDouble {
         Self { high, low }
     }
 
-    /// Sine and cosine of an angle below 2^26 rad, to 2e-32 and as much as the angle's own rounding; not a number beyond.
+    /// Sine and cosine of an angle below 2^26 rad, to 2e-32 and as much as the angle's own rounding; not a
+    /// number beyond.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         if self.high.abs() >= LARGEST_ANGLE || !self.is_finite() {
@@ -187,7 +188,8 @@ impl DoubleDouble {
         }
     }
 
-    /// Sine and cosine of an angle of at most pi/4 and a little, by their series: the first term left out is below 1e-33.
+    /// Sine and cosine of an angle of at most pi/4 and a little, by their series: the first term left out is
+    /// below 1e-33.
     fn sin_cos_of_reduced(self) -> (Self, Self) {
         let square = self * self;
         let term = |k: usize| {

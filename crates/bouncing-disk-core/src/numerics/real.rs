@@ -1,4 +1,5 @@
-//! Real numbers of more than one precision: what an algorithm needs that is to run in doubles and in double-doubles.
+//! Real numbers of more than one precision: what an algorithm needs that is to run in doubles and in
+//! double-doubles.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,9 +1,10 @@
 //! From one period doubling to the next, in any precision.
 //!
-//! The orbit of twice the period is followed in the amplitude s, the distance of an impact from the one half a period later,
-//! and not in the forcing: at its birth s = 0 the forcing is stationary in s, so that the equations bordered by the amplitude
-//! stay regular. The trace of its derivative falls nearly linearly in s^2, from 1 + r^2n at the birth to -1 - r^2n where it
-//! doubles its own period: that is found by regula falsi, with both ends known.
+//! The orbit of twice the period is followed in the amplitude s, the distance of an impact from the one half
+//! a period later, and not in the forcing: at its birth s = 0 the forcing is stationary in s, so that the
+//! equations bordered by the amplitude stay regular. The trace of its derivative falls nearly linearly in
+//! s^2, from 1 + r^2n at the birth to -1 - r^2n where it doubles its own period: that is found by regula
+//! falsi, with both ends known.
 
 use super::recurrence::{Equations, ImpactTimes};
 use crate::error::Error;
@@ -23,27 +24,30 @@ const MAX_STEPS: u32 = 80;
 /// How often an amplitude that leads nowhere is halved.
 const MAX_HALVINGS: u32 = 30;
 
-/// A residual of this many roundings may be all that rounding leaves: the rounding of a few dozen operations on numbers of
-/// the size of the peak acceleration and the flights.
+/// A residual of this many roundings may be all that rounding leaves: the rounding of a few dozen operations
+/// on numbers of the size of the peak acceleration and the flights.
 const LEFT_BY_ROUNDING: f64 = 1.0e3;
 
-/// How much more a rounding in every impact moves the multiplier from one doubling to the next (J. P. Crutchfield,
-/// M. Nauenberg and J. Rudnick, Phys. Rev. Lett. 46, 933 (1981)).
+/// How much more a rounding in every impact moves the multiplier from one doubling to the next (J. P.
+/// Crutchfield, M. Nauenberg and J. Rudnick, Phys. Rev. Lett. 46, 933 (1981)).
 const NOISE_GROWTH: f64 = 6.619;
 
 /// How much the distance of the doublings shrinks from one to the next.
 const SHRINKING: f64 = 4.669;
 
-/// Roundings of the forcing at the first doubling, with room to spare: docs/numerics/dynamics.md has the measured ones.
+/// Roundings of the forcing at the first doubling, with room to spare: docs/numerics/dynamics.md has the
+/// measured ones.
 const FIRST_ROUNDINGS: f64 = 8.0;
 
-/// By how much the durations of one flight may differ that were found in two ways (relative). More is another flight.
+/// By how much the durations of one flight may differ that were found in two ways (relative). More is another
+/// flight.
 const SAME_FLIGHT: f64 = 1.0e-6;
 
 /// The amplitude that is tried first on the orbit of period 2 (rad).
 const FIRST_AMPLITUDE: f64 = 0.1;
 
-/// A little more than the square of 2.5029: the share of the squared amplitude of one doubling that is tried on the next.
+/// A little more than the square of 2.5029: the share of the squared amplitude of one doubling that is tried
+/// on the next.
 const SHARE_OF_LAST: f64 = 1.0 / 6.5;
 
 /// An orbit at the forcing where it doubles its period.
@@ -141,7 +145,8 @@ fn settle<R: Real>(
     Err(Error::NotSettled { what: "orbit of a cascade", iterations: MAX_NEWTON_STEPS, residual: last })
 }
 
-/// The root of a function that falls from `above` at 0 through zero, by regula falsi with the weights of Anderson and Bjorck.
+/// The root of a function that falls from `above` at 0 through zero, by regula falsi with the weights of
+/// Anderson and Bjorck.
 struct Bracket<R> {
     low: (R, R),
     high: (R, R),
@@ -345,8 +350,8 @@ pub(crate) fn next_flip<R: Real>(
 }
 
 impl<R: Real> FlipPoint<R> {
-    /// The smallest graze margin of its flights, in units of g/omega^2, after a check that the certified solver finds each
-    /// flight as the orbit has it: none that meets the platform earlier.
+    /// The smallest graze margin of its flights, in units of g/omega^2, after a check that the certified
+    /// solver finds each flight as the orbit has it: none that meets the platform earlier.
     pub(crate) fn graze_margin(&self, restitution: R) -> Result<f64, Error> {
         let vibration = Vibration::new(self.peak.value())?;
         let equations = self.times.equations(self.peak, restitution);

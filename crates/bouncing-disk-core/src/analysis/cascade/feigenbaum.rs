@@ -4,8 +4,8 @@ use super::CascadeDoubling;
 use super::branch::{rounding, width_rounding};
 use crate::numerics::real::Real;
 
-/// The first doubling of an estimate with an error: one ratio of distances less, one of widths; one step of extrapolation
-/// less, two of them; and two changes of these.
+/// The first doubling of an estimate with an error: one ratio of distances less, one of widths; one step of
+/// extrapolation less, two of them; and two changes of these.
 const FIRST_ESTIMATE: usize = 7;
 
 /// An error is this many times the larger one of the last two changes.
@@ -14,12 +14,13 @@ const CHANGES: f64 = 2.0;
 /// How much the extrapolation may enlarge the rounding of a ratio, with room to spare.
 const ENLARGED_ROUNDING: f64 = 4.0;
 
-/// What the doublings up to one of them say of Feigenbaum's constants delta = 4.6692016091... and alpha = 2.5029078750...,
-/// which nothing here knows.
+/// What the doublings up to one of them say of Feigenbaum's constants delta = 4.6692016091... and alpha =
+/// 2.5029078750..., which nothing here knows.
 ///
-/// The ratios themselves come near their limits as 1/delta and -1/alpha do. This is taken out with the ratios' own values,
-/// for alpha also the part that shrinks as 1/alpha^2 (docs/numerics/dynamics.md). The error is twice the larger one of the
-/// last two changes of the extrapolated value, and what rounding may add: no bound, but what the next doubling confirms.
+/// The ratios themselves come near their limits as 1/delta and -1/alpha do. This is taken out with the
+/// ratios' own values, for alpha also the part that shrinks as 1/alpha^2 (docs/numerics/dynamics.md). The
+/// error is twice the larger one of the last two changes of the extrapolated value, and what rounding may
+/// add: no bound, but what the next doubling confirms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeigenbaumEstimate {
     /// The number n of the last doubling that was used.
@@ -38,8 +39,9 @@ pub struct FeigenbaumEstimate {
     pub alpha_error: f64,
 }
 
-/// Feigenbaum's constants from a cascade in doubles, one estimate for each doubling from the seventh on. Rounding ends their
-/// progress at the eleventh or so; `extended::feigenbaum_estimates` (feature `extended`) goes on.
+/// Feigenbaum's constants from a cascade in doubles, one estimate for each doubling from the seventh on.
+/// Rounding ends their progress at the eleventh or so; `extended::feigenbaum_estimates` (feature `extended`)
+/// goes on.
 ///
 /// ```
 /// use bouncing_disk_core::{doubling_cascade, feigenbaum_estimates};
@@ -55,7 +57,8 @@ pub fn feigenbaum_estimates(cascade: &[CascadeDoubling]) -> Vec<FeigenbaumEstima
     estimates(&points)
 }
 
-/// The values with the part taken out that shrinks by `ratio` from one to the next; the first ones have none before them.
+/// The values with the part taken out that shrinks by `ratio` from one to the next; the first ones have none
+/// before them.
 fn without<R: Real>(values: &[Option<R>], ratio: impl Fn(usize) -> Option<R>) -> Vec<Option<R>> {
     let at = |i: usize| {
         let (before, now, ratio) = (values[i.checked_sub(1)?]?, values[i]?, ratio(i)?);

@@ -1,22 +1,22 @@
 //! A periodic orbit as a closed sequence of impact times alone.
 //!
-//! Two impacts at the phases a and b, a flight of h = b - a + 2 pi k apart, determine the flight between them: with
-//! D = (sin b - sin a)/h the disk leaves with the speed P D + h/2 and arrives with P D - h/2. The law of restitution at
-//! every impact is then one equation in three successive times, and its linearisation a three-term recurrence. Nothing is
-//! solved for within a flight, which takes one sine and cosine.
+//! Two impacts at the phases a and b, a flight of h = b - a + 2 pi k apart, determine the flight between
+//! them: with D = (sin b - sin a)/h the disk leaves with the speed P D + h/2 and arrives with P D - h/2. The
+//! law of restitution at every impact is then one equation in three successive times, and its linearisation a
+//! three-term recurrence. Nothing is solved for within a flight, which takes one sine and cosine.
 
 use crate::numerics::real::Real;
 
-/// The impacts of an orbit by their phases (rad, not reduced), and the periods of the platform that the flight after each of
-/// them adds to the difference of the phases.
+/// The impacts of an orbit by their phases (rad, not reduced), and the periods of the platform that the
+/// flight after each of them adds to the difference of the phases.
 #[derive(Debug, Clone)]
 pub(crate) struct ImpactTimes<R> {
     pub(crate) phases: Vec<R>,
     pub(crate) periods: Vec<i32>,
 }
 
-/// The law of restitution at one impact, `w + r u = 0`, and its derivatives by the phases of the impact before, of itself and
-/// of the impact after, and by the peak acceleration.
+/// The law of restitution at one impact, `w + r u = 0`, and its derivatives by the phases of the impact
+/// before, of itself and of the impact after, and by the peak acceleration.
 #[derive(Debug, Clone, Copy)]
 struct ImpactEquation<R> {
     residual: R,
@@ -32,14 +32,16 @@ pub(crate) struct Equations<R> {
     of_impacts: Vec<ImpactEquation<R>>,
     /// The largest residual, and the largest speed of an impact.
     pub(crate) worst: f64,
-    /// The launch speeds relative to the platform that the law of restitution asks for, and the durations of the flights.
+    /// The launch speeds relative to the platform that the law of restitution asks for, and the durations of
+    /// the flights.
     pub(crate) flights: Vec<(f64, f64)>,
 }
 
 /// A 2x2 matrix by columns.
 type Columns<R> = [[R; 2]; 2];
 
-/// What solves the equations but for the closing: from (change before, change at the first impact) to the same a turn later.
+/// What solves the equations but for the closing: from (change before, change at the first impact) to the
+/// same a turn later.
 struct Transfer<R> {
     /// The changes that a unit change of either would make, one after the other.
     homogeneous: [Vec<R>; 2],
@@ -47,7 +49,8 @@ struct Transfer<R> {
     particular: [Vec<R>; 2],
 }
 
-/// The changes of all phases that make up the residuals, and those that a unit of the peak acceleration makes.
+/// The changes of all phases that make up the residuals, and those that a unit of the peak acceleration
+/// makes.
 #[derive(Debug)]
 pub(crate) struct Correction<R> {
     pub(crate) by_residual: Vec<R>,
@@ -102,7 +105,8 @@ impl<R: Real> ImpactTimes<R> {
 }
 
 impl<R: Real> Equations<R> {
-    /// Whether every number in them is one, and every flight one that leaves the platform and comes back to it.
+    /// Whether every number in them is one, and every flight one that leaves the platform and comes back to
+    /// it.
     pub(crate) fn are_of_flights(&self) -> bool {
         let zero = R::of(0.0);
         self.flights.iter().all(|&(launch, duration)| launch > 0.0 && duration > 0.0 && duration.is_finite())
@@ -140,8 +144,8 @@ impl<R: Real> Equations<R> {
         first[0] + second[1]
     }
 
-    /// The changes that an orbit which flips (multiplier -1) returns with the other sign, scaled so that the largest is 1,
-    /// and where that is.
+    /// The changes that an orbit which flips (multiplier -1) returns with the other sign, scaled so that the
+    /// largest is 1, and where that is.
     pub(crate) fn flipping_direction(&self) -> (Vec<R>, usize) {
         let transfer = self.transfer();
         let [first, second] = transfer.monodromy();
@@ -166,7 +170,8 @@ impl<R: Real> Equations<R> {
         (changes, widest)
     }
 
-    /// The changes of the phases that close the linearised orbit; not finite where it has a multiplier of exactly 1.
+    /// The changes of the phases that close the linearised orbit; not finite where it has a multiplier of
+    /// exactly 1.
     pub(crate) fn corrected(&self) -> Correction<R> {
         let transfer = self.transfer();
         let [first, second] = transfer.monodromy();

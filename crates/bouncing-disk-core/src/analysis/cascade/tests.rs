@@ -19,7 +19,8 @@ fn the_forcings_are_those_of_the_settled_search() {
     }
 }
 
-/// The impacts that were found are an orbit of the impact map, and its multiplier is that of the map's own derivative.
+/// The impacts that were found are an orbit of the impact map, and its multiplier is that of the map's own
+/// derivative.
 #[test]
 fn the_orbit_is_one_of_the_impact_map() {
     for restitution in [0.1, 0.5, 0.8] {

@@ -14,9 +14,9 @@ fn cycle(peak: f64, restitution: f64) -> SeparationCycle {
     }
 }
 
-/// Periods and phases from a program that shares nothing with this one: mpmath with 60 to 120 digits, a scan for the first
-/// zero of the gap, and a leading-order sum of the chatter, which is off by less than 3e-6 rad. The first two are the motor of Table III, and
-/// one with the restitution 0.3; the others lie in Fig. 6.
+/// Periods and phases from a program that shares nothing with this one: mpmath with 60 to 120 digits, a scan
+/// for the first zero of the gap, and a leading-order sum of the chatter, which is off by less than 3e-6 rad.
+/// The first two are the motor of Table III, and one with the restitution 0.3; the others lie in Fig. 6.
 #[test]
 fn cycles_are_those_of_an_independent_program() {
     for (peak, restitution, periods, phase) in [
@@ -31,7 +31,8 @@ fn cycles_are_those_of_an_independent_program() {
     }
 }
 
-/// What no double can follow is followed: the motor of Table III loses 27 digits in 25 impacts, and doubles end another way.
+/// What no double can follow is followed: the motor of Table III loses 27 digits in 25 impacts, and doubles
+/// end another way.
 #[test]
 fn a_motor_in_doubles_is_on_a_cycle_of_its_rounding() {
     let motor = cycle(197.392_088_021_787_14, 0.5);
@@ -42,8 +43,8 @@ fn a_motor_in_doubles_is_on_a_cycle_of_its_rounding() {
     assert_ne!(motor.in_doubles.map(|cycle| cycle.platform_periods), Some(motor.platform_periods));
 }
 
-/// As long as an error of a rounding stays below the tolerance, doubles find the same cycle; the other way round doubles that
-/// follow an orbit to its rest have lost few digits.
+/// As long as an error of a rounding stays below the tolerance, doubles find the same cycle; the other way
+/// round doubles that follow an orbit to its rest have lost few digits.
 #[test]
 fn short_cycles_are_those_of_doubles() {
     let mut trusted = 0;

@@ -1,4 +1,5 @@
-//! Decimal digits of a number of two doubles, written exactly and read to the last of its bits or the one before.
+//! Decimal digits of a number of two doubles, written exactly and read to the last of its bits or the one
+//! before.
 
 use core::fmt;
 use core::str::FromStr;
