@@ -2,6 +2,7 @@
 
 pub(crate) mod attraction;
 pub(crate) mod basin;
+pub(crate) mod cascade;
 pub(crate) mod closing;
 pub(crate) mod continuation;
 pub(crate) mod doublings;

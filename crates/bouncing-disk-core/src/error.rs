@@ -79,6 +79,24 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
+    /// A flight of an orbit that was sought by its impacts meets the platform earlier: the orbit ends at a graze.
+    #[error(
+        "flight {index} of the orbit sought would take {sought:?} rad, but an impact comes after {found:?} rad"
+    )]
+    EarlierImpact {
+        /// Which flight of the orbit.
+        index: usize,
+        /// Its duration in the orbit that was sought, in radians.
+        sought: f64,
+        /// When the first impact comes, in radians after the launch.
+        found: f64,
+    },
+    /// A text is no decimal number.
+    #[error("byte {at} is no part of a decimal number")]
+    NoDecimal {
+        /// Where in the text, counted from 0.
+        at: usize,
+    },
     /// A law of restitution gives a number outside [0, 1], or none.
     #[error(
         "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside of [0, 1]"
@@ -170,6 +188,7 @@ mod tests {
                 Error::NotSettled { what: "search", iterations: 7, residual: number },
                 Error::ImpactWithoutSpeed { index: 3, phase: number },
                 Error::NoPlatformPeriods { impacts: 2, speed: number },
+                Error::EarlierImpact { index: 5, sought: number, found: number },
                 Error::IllegalRestitution { restitution: number, impact_speed: number },
             ] {
                 let text = error.to_string();

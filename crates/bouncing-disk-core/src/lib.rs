@@ -31,6 +31,7 @@
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`period_doublings`], [`follow_attractor`] |
 //! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
 //! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::flight_duration_bound`] |
+//! | the doubling cascade | [`doubling_cascade`], [`CascadeDoubling`], [`feigenbaum_estimates`], [`FeigenbaumEstimate`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
@@ -38,6 +39,7 @@
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
+//! | `extended` | no | module `extended`: double-doubles, the cascade to 25 digits, cycles in as many digits as they take |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
 //!
@@ -47,6 +49,8 @@
 mod analysis;
 mod chatter;
 mod error;
+#[cfg(feature = "extended")]
+pub mod extended;
 mod flight;
 mod lockstep;
 mod map;
@@ -63,6 +67,8 @@ pub use analysis::basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,
 };
+pub use analysis::cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
+pub use analysis::cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade, doubling_cascade_observed};
 pub use analysis::closing::ContinuationParameter;
 pub use analysis::continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation,

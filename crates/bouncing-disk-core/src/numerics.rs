@@ -5,8 +5,11 @@ pub(crate) mod block_cyclic;
 pub(crate) mod bordered_cyclic;
 pub mod circular;
 pub mod digest;
+#[cfg(feature = "extended")]
+pub(crate) mod double_double;
 pub mod elementary;
 pub mod minimum;
 pub mod random;
+pub(crate) mod real;
 pub mod roots;
 pub mod statistics;
