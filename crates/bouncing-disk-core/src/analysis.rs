@@ -8,3 +8,4 @@ pub(crate) mod lyapunov;
 pub(crate) mod orbit_batch;
 pub(crate) mod periodic;
 pub(crate) mod sweep;
+pub(crate) mod verdict;

@@ -29,7 +29,8 @@
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
 //! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`period_doublings`], [`follow_attractor`] |
-//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
+//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`lyapunov_spectra`], [`sweep`] |
+//! | what an orbit does for good | [`Verdict`], [`verdicts`], [`VerdictSettings`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
 //! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
@@ -63,12 +64,18 @@ pub use analysis::basin::{
 };
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
+pub use analysis::lyapunov::spectrum::{
+    LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,
+};
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, orbit_diagram, orbit_diagram_observed,
     survival_times, survival_times_observed, sweep, sweep_observed,
+};
+pub use analysis::verdict::{
+    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, verdicts, verdicts_observed,
 };
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
 pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};
