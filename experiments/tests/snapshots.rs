@@ -54,6 +54,8 @@ snapshots![
     extra_traps,
     extra_fit,
     extra_design,
+    extra_lyapunov,
+    extra_regimes,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

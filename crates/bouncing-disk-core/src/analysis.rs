@@ -12,3 +12,4 @@ pub(crate) mod orbit_batch;
 pub(crate) mod periodic;
 pub(crate) mod sweep;
 pub(crate) mod trapping_region;
+pub(crate) mod verdict;

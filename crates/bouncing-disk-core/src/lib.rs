@@ -32,7 +32,8 @@
 //! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
 //! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::flight_duration_bound`] |
 //! | the doubling cascade | [`doubling_cascade`], [`CascadeDoubling`], [`feigenbaum_estimates`], [`FeigenbaumEstimate`] |
-//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`sweep`] |
+//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`lyapunov_spectra`], [`sweep`] |
+//! | what an orbit does for good | [`Verdict`], [`verdicts`], [`VerdictSettings`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
 //! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
@@ -75,6 +76,9 @@ pub use analysis::continuation::{
 };
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
+pub use analysis::lyapunov::spectrum::{
+    LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,
+};
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::pair::{PeriodOneOrbit, PeriodOnePair};
@@ -83,6 +87,9 @@ pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, orbit_diagram, orbit_diagram_observed,
     survival_times, survival_times_observed, sweep, sweep_observed,
+};
+pub use analysis::verdict::{
+    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, verdicts, verdicts_observed,
 };
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
 pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};

@@ -1,6 +1,7 @@
 //! Arithmetic that gives the same bits on every processor, roots, minima, statistics of samples and angles, random streams and
 //! digests.
 
+pub mod batch_means;
 pub(crate) mod block_cyclic;
 pub(crate) mod bordered_cyclic;
 pub mod circular;

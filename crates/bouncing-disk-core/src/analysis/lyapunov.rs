@@ -1,8 +1,10 @@
 //! The largest Lyapunov exponent of an orbit.
 
+pub(crate) mod spectrum;
+
 use core::ops::ControlFlow;
 
-use glam::DMat2;
+use glam::{DMat2, DVec2};
 
 use crate::analysis::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
@@ -46,6 +48,11 @@ impl TangentGrowth {
     /// Follows the perturbation through one impact, where the map has this derivative
     /// ([`ImpactMap::step_with_derivative`]).
     pub fn grow(&mut self, derivative: DMat2) {
+        self.advance(derivative);
+    }
+
+    /// [`Self::grow`], and the logarithm of this one growth.
+    pub(crate) fn advance(&mut self, derivative: DMat2) -> f64 {
         let (by_phase, by_velocity) = (derivative.x_axis, derivative.y_axis);
         let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;
         let y = by_phase.y * self.tangent.0 + by_velocity.y * self.tangent.1;
@@ -53,9 +60,16 @@ impl TangentGrowth {
         // Next to a graze the derivative is large and yet bounded: its squares may overflow, or vanish.
         let length = if (1.0e-280..1.0e280).contains(&square) { square.sqrt() } else { hypot(x, y) };
         self.bounded &= length > 0.0 && length.is_finite();
-        self.sum += ln(length);
+        let growth = ln(length);
+        self.sum += growth;
         self.tangent = (x / length, y / length);
         self.impacts += 1;
+        growth
+    }
+
+    /// The direction of the perturbation, of length one.
+    pub(crate) const fn tangent(&self) -> DVec2 {
+        DVec2::new(self.tangent.0, self.tangent.1)
     }
 
     /// Impacts that it was followed through.

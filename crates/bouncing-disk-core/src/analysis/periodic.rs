@@ -192,7 +192,7 @@ fn accepted(orbit: PeriodicOrbit) -> Result<PeriodicOrbit, Error> {
 }
 
 /// The smaller way round the circle from `from` to `to`, in (-pi, pi].
-fn phase_difference(to: f64, from: f64) -> f64 {
+pub(crate) fn phase_difference(to: f64, from: f64) -> f64 {
     let difference = to - from;
     if difference > PI {
         difference - TAU

@@ -1,0 +1,138 @@
+use super::*;
+use crate::analysis::lyapunov::lyapunov_exponents;
+use crate::analysis::periodic::Multipliers;
+use crate::platform::vibration::Vibration;
+use crate::testing::{StopAfter, golden_spread, stored};
+
+fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
+}
+
+fn start() -> ImpactState {
+    ImpactState::from_normalised(0.8, 1.3).expect("legal")
+}
+
+/// Orbits of every kind, most of them chaotic.
+fn starts(count: u64) -> Vec<(ImpactMap, ImpactState)> {
+    (0..count)
+        .map(|k| {
+            let state = ImpactState::from_normalised(6.0 * golden_spread(3 * k), 2.0 * golden_spread(5 * k));
+            (map(0.35 + 2.0 * golden_spread(k), 0.1 + 0.8 * golden_spread(7 * k)), state.expect("legal"))
+        })
+        .collect()
+}
+
+/// The sum is known exactly (docs/numerics/dynamics.md): the second exponent is found without it.
+#[test]
+fn the_sum_of_the_exponents_is_the_exact_one() {
+    let outcomes = lyapunov_spectra(&starts(300), 100, 3_000).expect("no failure");
+    let mut chaotic = 0;
+    for spectrum in outcomes.iter().filter_map(LyapunovOutcome::spectrum) {
+        let sum = spectrum.largest + spectrum.second.expect("restitution above 0");
+        let exact = spectrum.exact_sum.expect("restitution above 0");
+        assert!((sum - exact).abs() < 1e-10, "{spectrum:?}");
+        chaotic += usize::from(spectrum.largest > 3.0 * spectrum.standard_error);
+    }
+    assert!(chaotic > 15, "{chaotic}");
+}
+
+/// Along a periodic orbit the exponents are the logarithms of the multipliers, whose product is the
+/// restitution squared.
+#[test]
+fn the_exponents_of_a_periodic_orbit_are_those_of_its_multipliers() {
+    // Near its birth the multipliers are real.
+    let map = map(0.334, 0.5);
+    let state = map.period_one(1).expect("exists");
+    let (_, derivative) = map.step_with_derivative(state).expect("flies");
+    let Multipliers::Real(large, small) = Multipliers::of(derivative) else { panic!("real") };
+    // The first impacts turn the directions into those of the multipliers: they are in both sums.
+    let sums = [1_000, 3_000].map(|impacts| {
+        let outcome = lyapunov_spectra(&[(map, state)], 100, impacts).expect("no failure")[0];
+        let spectrum = *outcome.spectrum().expect("bounces on");
+        assert!(spectrum.standard_error < 1e-3 && spectrum.impacts == impacts, "{spectrum:?}");
+        [spectrum.largest, spectrum.second.expect("two")].map(|exponent| exponent * impacts as f64)
+    });
+    for (k, multiplier) in [large, small].into_iter().enumerate() {
+        let exponent = (sums[1][k] - sums[0][k]) / 2_000.0;
+        assert!((exponent - ln(multiplier.abs())).abs() < 1e-11, "{exponent} of {multiplier}");
+    }
+}
+
+/// The spread of many orbits of one attractor is what the error of each says.
+#[test]
+fn the_standard_error_is_the_spread_of_many_orbits() {
+    let starts: Vec<_> = (0..200)
+        .map(|k| {
+            let state = ImpactState::from_normalised(0.8 + 1e-3 * golden_spread(k), 1.3).expect("legal");
+            (map(0.55, 0.5), state)
+        })
+        .collect();
+    let outcomes = lyapunov_spectra(&starts, 500, 4_000).expect("no failure");
+    let spectra: Vec<_> = outcomes.iter().filter_map(LyapunovOutcome::spectrum).collect();
+    assert_eq!(spectra.len(), 200);
+    let of = |value: fn(&LyapunovSpectrum) -> f64| spectra.iter().map(|own| value(own)).collect::<Vec<_>>();
+    let spread = crate::numerics::statistics::standard_deviation(&of(|own| own.largest));
+    let told = crate::numerics::statistics::mean(&of(|own| own.standard_error));
+    assert!((0.8..1.6).contains(&(told / spread)), "{told} against {spread}");
+}
+
+#[test]
+fn the_largest_exponent_is_the_known_one() {
+    let starts = starts(60);
+    let spectra = lyapunov_spectra(&starts, 50, 500).expect("no failure");
+    let exponents = lyapunov_exponents(&starts, 50, 500).expect("no failure");
+    for (outcome, exponent) in spectra.iter().zip(exponents) {
+        match (outcome, exponent) {
+            (LyapunovOutcome::Exponents(spectrum), Some(exponent)) => {
+                assert!((spectrum.largest - exponent).abs() < 1e-12 * (1.0 + exponent.abs()));
+            }
+            (LyapunovOutcome::Rested { .. } | LyapunovOutcome::Grazed { .. }, None) => (),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+#[test]
+fn what_has_no_exponent_says_why() {
+    let fails = |map: ImpactMap, state| lyapunov_spectra(&[(map, state)], 3, 100).expect("no failure")[0];
+    // A weak vibration, a still one, and a disk that never left.
+    let resting = fails(map(0.2, 0.5), start());
+    assert!(matches!(resting, LyapunovOutcome::Rested { impacts: 1.. }), "{resting:?}");
+    assert_eq!(resting.spectrum(), None);
+    let phase = Phase::new(0.0).expect("legal");
+    let still = fails(map(0.0, 0.0), ImpactState::new(phase, -1.0).expect("legal"));
+    assert_eq!(still, LyapunovOutcome::Rested { impacts: 0 });
+    let never = fails(map(0.2, 0.5), ImpactState::new(phase, -0.0).expect("legal"));
+    assert_eq!(never, LyapunovOutcome::Rested { impacts: 0 });
+}
+
+/// Without restitution the disk lands and leaves again at once where the platform falls away: one exponent is
+/// left.
+#[test]
+fn without_restitution_there_is_one_exponent() {
+    let outcomes: Vec<_> = (0..200)
+        .map(|k| lyapunov_spectra(&[(map(0.5 + 0.02 * f64::from(k), 0.0), start())], 0, 16))
+        .map(|outcomes| outcomes.expect("no failure")[0])
+        .collect();
+    assert!(outcomes.iter().any(|outcome| matches!(outcome, LyapunovOutcome::Rested { .. })));
+    for spectrum in outcomes.iter().filter_map(LyapunovOutcome::spectrum) {
+        assert_eq!((spectrum.second, spectrum.exact_sum), (None, None));
+        assert!(spectrum.largest.is_finite());
+    }
+}
+
+#[test]
+fn too_few_impacts_are_refused_and_a_stopped_call_goes_on() {
+    for impacts in [0, 15] {
+        let error = lyapunov_spectra(&starts(3), 0, impacts).expect_err("too few");
+        assert!(matches!(error, Error::OutOfRange { field: "impacts", .. }), "{error}");
+    }
+    assert_eq!(lyapunov_spectra(&[], 0, 16), Ok(Vec::new()));
+    let starts = starts(200);
+    let mut run = SweepRun::new(starts.len());
+    let stopped = run.advance_lyapunov_spectra(&starts, 100, 2_000, &StopAfter::calls(12));
+    assert!(matches!(stopped, Err(Error::Stopped { done: 1..200, total: 200 })), "{stopped:?}");
+    let mut run = stored(&run);
+    run.advance_lyapunov_spectra(&starts, 100, 2_000, &Unobserved).expect("goes on");
+    assert_eq!(run.into_results(), lyapunov_spectra(&starts, 100, 2_000));
+}

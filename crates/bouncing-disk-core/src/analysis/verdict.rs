@@ -1,0 +1,373 @@
+//! What an orbit of the impact map does for good: a verdict with its evidence, for one start or for many in
+//! lockstep.
+
+mod display;
+mod proof;
+mod returns;
+mod settings;
+mod witness;
+
+use crate::analysis::periodic::Multipliers;
+use crate::analysis::sweep::SweepRun;
+use crate::chatter::policy::ChatterPolicy;
+use crate::error::{Error, finite, not_negative, within};
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::observer::{Observer, Unobserved};
+use crate::platform::phase::Phase;
+use crate::read_checked;
+use witness::Witness;
+
+pub use settings::VerdictSettings;
+
+/// How many standard errors an exponent must be away from zero to decide.
+pub(crate) const DECISIVE_ERRORS: f64 = 3.0;
+
+/// What an orbit does for good, and the evidence. Impacts and rests are judged by
+/// [`ChatterPolicy::Complete`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedVerdict"))]
+#[non_exhaustive]
+pub enum Verdict {
+    /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
+    /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
+    /// the unit circle, and no impact of it chatters to rest.
+    Periodic {
+        /// Impacts of one period of the orbit.
+        impacts: u64,
+        /// Periods of the platform that it takes, at least 1.
+        platform_periods: u64,
+        /// Its Floquet multipliers.
+        multipliers: Multipliers,
+        /// One of its impacts, from which all others follow.
+        state: ImpactState,
+        /// How near the followed orbit was to it (rad; a radian counts as much as the speed P).
+        distance: f64,
+        /// Impacts after which that was seen.
+        after: u64,
+        /// How often the disk came to rest on the way, 0 or 1: the basin of a start with a rest is that of
+        /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
+        rests: u64,
+    },
+    /// Small perturbations grow: the largest Lyapunov exponent is more than three standard errors above zero.
+    /// Over a finite number of impacts nobody can tell an attractor from a long transient.
+    Chaotic {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error, by batch means.
+        standard_error: f64,
+        /// Impacts that it was measured over, after the transient.
+        impacts: u64,
+        /// Periods of the platform that these took.
+        platform_periods: u64,
+        /// How often the disk came to rest before, 0 or 1.
+        rests: u64,
+    },
+    /// The disk comes to rest on the platform, separates, and comes to rest again: as it separates in always
+    /// the same way, this repeats for ever, and no perturbation survives the rest.
+    Chattering {
+        /// What repeats.
+        cycle: RestCycle,
+        /// Impacts before the first rest.
+        after: u64,
+    },
+    /// The disk has come to rest on a platform that never falls away (P <= 1).
+    AtRest {
+        /// Phase at which it comes to rest.
+        phase: Phase,
+        /// Impacts before, without those that are summed.
+        after: u64,
+    },
+    /// The impacts that were allowed tell nothing for certain.
+    Undecided {
+        /// Why.
+        reason: UndecidedReason,
+        /// How often the disk came to rest before, 0 or 1.
+        rests: u64,
+    },
+}
+
+/// One round of a disk that comes to rest again and again: from one separation to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCycle"))]
+pub struct RestCycle {
+    /// Impacts, without those that are summed.
+    pub impacts: u64,
+    /// Periods of the platform, at least 1.
+    pub platform_periods: u64,
+    /// Flights that last longer than half a period of the platform. The short ones of a chatter get shorter
+    /// without end: their number says how they are summed rather than what the disk does.
+    pub long_flights: u64,
+    /// How far rounding may have carried the impacts of the round away from those of exact arithmetic (rad
+    /// and g/omega), to first order; 1 where it is 1 or more.
+    pub rounding_error: f64,
+    /// Whether the numbers above are those of exact arithmetic.
+    pub trust: CycleTrust,
+}
+
+/// Whether a [`RestCycle`] is the one of exact arithmetic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedTrust"))]
+#[non_exhaustive]
+pub enum CycleTrust {
+    /// Rounding stays far below what would change a flight.
+    Exact,
+    /// The round is so long that rounding has grown to the size of the motion: another program finds another
+    /// cycle. What is true of all of them are statistics, such as the growth between two rests.
+    ChosenByRounding {
+        /// The mean logarithmic growth of a small perturbation per flight, over the flights from the first
+        /// impact of the round to the rest; `None` where one of them grazes.
+        exponent: Option<f64>,
+        /// Its standard error, by batch means; `None` of fewer than 16 flights.
+        standard_error: Option<f64>,
+    },
+}
+
+/// Why there is no verdict.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedReason"))]
+#[non_exhaustive]
+pub enum UndecidedReason {
+    /// The exponent is within three standard errors of zero, and no period up to the longest one was proved.
+    ExponentNearZero {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+    },
+    /// Perturbations shrink, but no period up to the longest one was proved: a longer one, or one that is
+    /// approached too slowly.
+    NoPeriodFound {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+    },
+    /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
+    Grazing {
+        /// Impacts up to this one.
+        impacts: u64,
+        /// Its phase.
+        phase: Phase,
+    },
+}
+
+read_checked!(enum Verdict as UncheckedVerdict {
+    Periodic {
+        impacts: u64, platform_periods: u64, multipliers: Multipliers, state: ImpactState, distance: f64,
+        after: u64, rests: u64,
+    },
+    Chaotic { exponent: f64, standard_error: f64, impacts: u64, platform_periods: u64, rests: u64 },
+    Chattering { cycle: RestCycle, after: u64 },
+    AtRest { phase: Phase, after: u64 },
+    Undecided { reason: UndecidedReason, rests: u64 },
+});
+
+read_checked!(RestCycle as UncheckedCycle {
+    impacts: u64,
+    platform_periods: u64,
+    long_flights: u64,
+    rounding_error: f64,
+    trust: CycleTrust,
+});
+
+read_checked!(enum CycleTrust as UncheckedTrust {
+    Exact,
+    ChosenByRounding { exponent: Option<f64>, standard_error: Option<f64> },
+});
+
+read_checked!(enum UndecidedReason as UncheckedReason {
+    ExponentNearZero { exponent: f64, standard_error: f64 },
+    NoPeriodFound { exponent: f64, standard_error: f64 },
+    Grazing { impacts: u64, phase: Phase },
+});
+
+/// Checks a count that is at least one.
+fn at_least_one(field: &'static str, count: u64) -> Result<(), Error> {
+    within(field, count as f64, 1.0, f64::MAX, "at least 1").map(|_| ())
+}
+
+fn check_exponent(exponent: f64, standard_error: f64) -> Result<(), Error> {
+    finite("exponent", exponent)?;
+    not_negative("standard error of an exponent", standard_error).map(|_| ())
+}
+
+fn check_rests(rests: u64) -> Result<(), Error> {
+    within("rests before the verdict", rests as f64, 0.0, 1.0, "0 or 1").map(|_| ())
+}
+
+impl Verdict {
+    /// Checks what is read: what [`ImpactMap::verdict`] may find.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::Periodic { impacts, platform_periods, multipliers, state, distance, rests, .. } => {
+                at_least_one("impacts of a period", impacts)?;
+                at_least_one("platform periods", platform_periods)?;
+                let radius = multipliers.spectral_radius();
+                within("modulus of a multiplier", radius, 0.0, 1.0_f64.next_down(), "[0, 1)")?;
+                let fastest = 0.0_f64.next_down();
+                within("velocity of a periodic orbit", state.velocity(), f64::MIN, fastest, "below 0")?;
+                not_negative("distance", distance)?;
+                check_rests(rests)
+            }
+            Self::Chaotic { exponent, standard_error, impacts, rests, .. } => {
+                check_exponent(exponent, standard_error)?;
+                let least = DECISIVE_ERRORS * standard_error;
+                within("exponent of chaos", exponent, least, f64::MAX, "three errors above 0")?;
+                at_least_one("impacts", impacts)?;
+                check_rests(rests)
+            }
+            Self::Undecided { rests, .. } => check_rests(rests),
+            Self::Chattering { .. } | Self::AtRest { .. } => Ok(()),
+        }
+    }
+}
+
+impl RestCycle {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        at_least_one("impacts of a cycle", self.impacts)?;
+        at_least_one("platform periods", self.platform_periods)?;
+        let (long, all) = (self.long_flights as f64, self.impacts as f64);
+        within("long flights", long, 0.0, all, "at most one before each impact")?;
+        within("rounding error of a cycle", self.rounding_error, 0.0, 1.0, "[0, 1]").map(|_| ())
+    }
+
+    /// Whether the numbers of the cycle are those of exact arithmetic.
+    #[must_use]
+    pub const fn is_exact(&self) -> bool {
+        matches!(self.trust, CycleTrust::Exact)
+    }
+}
+
+impl CycleTrust {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::ChosenByRounding { exponent, standard_error } => {
+                check_exponent(exponent.unwrap_or(0.0), standard_error.unwrap_or(0.0))
+            }
+            Self::Exact => Ok(()),
+        }
+    }
+}
+
+impl UndecidedReason {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::ExponentNearZero { exponent, standard_error }
+            | Self::NoPeriodFound { exponent, standard_error } => check_exponent(exponent, standard_error),
+            Self::Grazing { impacts, .. } => at_least_one("impacts", impacts),
+        }
+    }
+}
+
+impl ImpactMap {
+    /// What the orbit from `state` does for good.
+    ///
+    /// ```
+    /// use bouncing_disk_core::{ImpactMap, ImpactState, Verdict, VerdictSettings, Vibration};
+    ///
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let start = ImpactState::from_normalised(1.2, 1.3)?;
+    /// let verdict = map.verdict(start, VerdictSettings::default())?;
+    /// assert!(matches!(verdict, Verdict::Periodic { impacts: 1, platform_periods: 1, .. }));
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`verdicts`].
+    pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
+        self.verdict_observed(state, settings, &Unobserved)
+    }
+
+    /// [`Self::verdict`] with an observer; the item is the orbit.
+    ///
+    /// # Errors
+    /// Those of [`verdicts`]; [`Error::Stopped`] if the observer breaks.
+    pub fn verdict_observed(
+        &self,
+        state: ImpactState,
+        settings: VerdictSettings,
+        observer: &dyn Observer,
+    ) -> Result<Verdict, Error> {
+        let mut verdicts = verdicts_observed(&[(*self, state)], settings, observer)?;
+        verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
+    }
+}
+
+/// What the orbit of each of `starts` does for good, in their order; the orbits are advanced in lockstep,
+/// with the bits of
+/// [`ImpactMap::verdict`].
+///
+/// ```
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Verdict, VerdictSettings, Vibration, verdicts};
+///
+/// // From order to chaos: what a disk does against the forcing.
+/// let start = ImpactState::from_normalised(1.2, 1.3)?;
+/// let starts = (0..20)
+///     .map(|k| {
+///         let vibration = Vibration::from_axial_forcing(0.2 + 0.02 * f64::from(k))?;
+///         Ok((ImpactMap::new(vibration, 0.5)?, start))
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
+/// let verdicts = verdicts(&starts, VerdictSettings::default())?;
+/// assert!(matches!(verdicts[0], Verdict::AtRest { .. }));
+/// assert!(matches!(verdicts[10], Verdict::Periodic { .. }));
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep()).
+pub fn verdicts(
+    starts: &[(ImpactMap, ImpactState)],
+    settings: VerdictSettings,
+) -> Result<Vec<Verdict>, Error> {
+    verdicts_observed(starts, settings, &Unobserved)
+}
+
+/// [`verdicts`] with an observer; the items are the orbits. [`SweepRun::advance_verdicts`] keeps the finished
+/// ones of a call that is stopped.
+///
+/// # Errors
+/// Those of [`verdicts`]; [`Error::Stopped`] if the observer breaks.
+pub fn verdicts_observed(
+    starts: &[(ImpactMap, ImpactState)],
+    settings: VerdictSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Verdict>, Error> {
+    let mut run = SweepRun::new(starts.len());
+    run.advance_verdicts(starts, settings, observer)?;
+    run.into_results()
+}
+
+impl SweepRun<Verdict> {
+    /// Goes on with the [`verdicts`] on the orbits that are not finished.
+    ///
+    /// # Errors
+    /// Those of [`verdicts`] and of [`Self::advance`].
+    pub fn advance_verdicts(
+        &mut self,
+        starts: &[(ImpactMap, ImpactState)],
+        settings: VerdictSettings,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        settings.check()?;
+        let orbits: Vec<Orbit> =
+            starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+        self.advance_with(
+            &orbits,
+            |index| Witness::new(starts[index], settings),
+            Witness::see,
+            |witness| Ok(witness.verdict()),
+            observer,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests;

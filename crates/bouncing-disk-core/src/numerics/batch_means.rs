@@ -1,0 +1,173 @@
+//! The mean of a long sequence whose members are correlated, and its standard error.
+
+use crate::numerics::statistics::standard_deviation;
+
+/// Most batches that are kept; when there are as many, neighbours are joined.
+const MOST_BATCHES: usize = 128;
+
+/// Fewest batches that a standard error is taken from: of 16 it is itself uncertain by 18 %.
+const FEWEST_BATCHES: usize = 16;
+
+/// Numbers that a standard error needs at least.
+pub const FEWEST_NUMBERS: u64 = FEWEST_BATCHES as u64;
+
+/// The mean of numbers that come one after the other, with a standard error by batch means: it holds for
+/// correlated numbers, too, as long as the correlation dies out within a sixteenth of the sequence.
+///
+/// Between 64 and 128 sums of batches are kept, however many numbers come.
+///
+/// ```
+/// use bouncing_disk_core::numerics::batch_means::BatchMeans;
+///
+/// // Each number repeats the last one's sign: these are 40 independent numbers and not 4,000.
+/// let mut means = BatchMeans::default();
+/// for k in 0..4_000 {
+///     means.push(if k / 100 % 2 == 0 { 1.0 } else { -1.0 });
+/// }
+/// assert!(means.mean().is_some_and(|mean| mean.abs() < 1e-15));
+/// assert!(means.standard_error().is_some_and(|error| error > 0.05));
+/// ```
+#[derive(Debug, Clone)]
+pub struct BatchMeans {
+    sums: Vec<f64>,
+    /// Numbers of each of these batches.
+    length: u64,
+    /// Sum and count of the batch that is not full.
+    open: (f64, u64),
+}
+
+impl Default for BatchMeans {
+    fn default() -> Self {
+        Self { sums: Vec::new(), length: 1, open: (0.0, 0) }
+    }
+}
+
+/// The sums of pairs of neighbours; the last of an odd number of them is left out.
+fn joined(sums: &[f64]) -> Vec<f64> {
+    sums.as_chunks::<2>().0.iter().map(|[first, second]| first + second).collect()
+}
+
+impl BatchMeans {
+    /// Takes the next number.
+    #[inline]
+    pub fn push(&mut self, value: f64) {
+        self.open.0 += value;
+        self.open.1 += 1;
+        if self.open.1 == self.length {
+            self.close();
+        }
+    }
+
+    fn close(&mut self) {
+        self.sums.push(self.open.0);
+        self.open = (0.0, 0);
+        if self.sums.len() == MOST_BATCHES {
+            self.sums = joined(&self.sums);
+            self.length *= 2;
+        }
+    }
+
+    /// How many numbers there were.
+    #[must_use]
+    pub const fn count(&self) -> u64 {
+        self.sums.len() as u64 * self.length + self.open.1
+    }
+
+    /// Their mean; `None` of none.
+    #[must_use]
+    pub fn mean(&self) -> Option<f64> {
+        let sum = self.sums.iter().sum::<f64>() + self.open.0;
+        (self.count() > 0).then(|| sum / self.count() as f64)
+    }
+
+    /// The standard error of the mean; `None` of fewer than [`FEWEST_NUMBERS`].
+    ///
+    /// It is the largest that batches of this length, of twice and four times this length and so on give,
+    /// down to 16 of them: batches that are shorter than the correlation give less. Of numbers without
+    /// correlation it is therefore too large by a tenth or so.
+    #[must_use]
+    pub fn standard_error(&self) -> Option<f64> {
+        let (mut sums, mut length, mut largest) = (self.sums.clone(), self.length as f64, None::<f64>);
+        while sums.len() >= FEWEST_BATCHES {
+            let means: Vec<f64> = sums.iter().map(|sum| sum / length).collect();
+            let error = standard_deviation(&means) / (means.len() as f64).sqrt();
+            largest = Some(largest.map_or(error, |largest| largest.max(error)));
+            sums = joined(&sums);
+            length *= 2.0;
+        }
+        largest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::random::SplitMix64;
+
+    /// A sequence in which each number keeps a share of the last one, about zero.
+    fn correlated(share: f64, count: usize, random: &mut SplitMix64) -> BatchMeans {
+        let (mut means, mut value) = (BatchMeans::default(), 0.0);
+        for _ in 0..count {
+            value = share * value + (random.unit() - 0.5);
+            means.push(value);
+        }
+        means
+    }
+
+    /// The variance of such a mean is known: that of the kicks, 1/12, over n (1 - share)^2.
+    #[test]
+    fn the_error_of_correlated_numbers_is_that_of_their_mean() {
+        let mut random = SplitMix64::new(7);
+        for share in [-0.5, 0.0, 0.5, 0.9, 0.99] {
+            let count = 20_000;
+            let exact = (1.0 / 12.0 / count as f64).sqrt() / (1.0 - share);
+            let (mut sum, mut within, tries) = (0.0, 0, 100);
+            for _ in 0..tries {
+                let means = correlated(share, count, &mut random);
+                let error = means.standard_error().expect("many numbers");
+                sum += error;
+                within += u32::from(means.mean().expect("some").abs() <= 2.0 * error);
+            }
+            let ratio = sum / f64::from(tries) / exact;
+            assert!((0.95..1.5).contains(&ratio), "share {share}: {ratio}");
+            assert!(within >= 92, "share {share}: {within} of {tries} within two errors");
+        }
+    }
+
+    #[test]
+    fn few_numbers_have_a_mean_and_no_error() {
+        let mut means = BatchMeans::default();
+        assert_eq!((means.mean(), means.standard_error(), means.count()), (None, None, 0));
+        for k in 0..15 {
+            means.push(f64::from(k));
+        }
+        assert_eq!((means.mean(), means.standard_error(), means.count()), (Some(7.0), None, 15));
+        means.push(7.0);
+        // 15 numbers from 0 to 14 and their middle: 280 over 15, over 16.
+        let error = means.standard_error().expect("16 numbers");
+        assert!((error - (280.0_f64 / 15.0 / 16.0).sqrt()).abs() < 1e-15, "{error}");
+    }
+
+    /// However many numbers come, none is lost, and equal ones have no error.
+    #[test]
+    fn the_batches_grow_with_the_sequence() {
+        let mut means = BatchMeans::default();
+        for k in 1..=100_003_u64 {
+            means.push(0.5);
+            assert_eq!(means.count(), k);
+            assert!(means.sums.len() < MOST_BATCHES);
+        }
+        assert_eq!((means.mean(), means.standard_error()), (Some(0.5), Some(0.0)));
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_hidden() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut means = BatchMeans::default();
+            for k in 0..300 {
+                means.push(if k == 17 { bad } else { 1.0 });
+            }
+            assert!(means.mean().is_some_and(|mean| !mean.is_finite()));
+        }
+    }
+}
