@@ -17,6 +17,7 @@ pub mod artifacts;
 pub mod cache_key;
 pub mod catalogue;
 pub mod claim;
+mod colour_scale;
 pub mod count;
 pub mod errata;
 pub mod experiment;

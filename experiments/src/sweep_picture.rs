@@ -5,6 +5,8 @@ use bouncing_disk_plot::{
     Axis, Band, Colour, Figure, Line, Panel, Raster, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };
 
+use crate::colour_scale::colour;
+
 /// Of a normal distribution, so many standard errors hold 95 %.
 const BARS: f64 = 1.96;
 
@@ -13,14 +15,6 @@ const PIXELS: usize = 240;
 
 /// Colours of a map, between the least and the largest value.
 const LEVELS: usize = 24;
-
-/// The colours of low, middle and high values.
-const COLOURS: [Colour; 4] = [
-    Colour::rgb(253, 231, 160),
-    Colour::rgb(120, 198, 140),
-    Colour::rgb(35, 120, 150),
-    Colour::rgb(50, 25, 95),
-];
 
 /// Draws a quantity of a sweep. What a cell does not have (the speed of a runaway, the efficiency of a motor that the load
 /// drives) is a gap in a curve, and grey in a map.
@@ -85,13 +79,6 @@ fn curve(result: &MotorSweepResult, quantity: SweepQuantity, axis: &SweepAxis) -
 fn nearest(values: &[f64], at: f64) -> usize {
     let distance = |index: &usize| (values[*index] - at).abs();
     (0..values.len()).min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or(0)
-}
-
-/// The colour a share of the way through the scale.
-fn colour(share: f64) -> Colour {
-    let place = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
-    let index = (place as usize).min(COLOURS.len() - 2);
-    COLOURS[index].mixed(COLOURS[index + 1], place - index as f64)
 }
 
 /// A grey for cells without a value, and the colours of the levels.

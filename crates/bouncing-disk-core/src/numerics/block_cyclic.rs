@@ -6,9 +6,9 @@ use crate::numerics::elementary::hypot;
 
 /// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following unknown, and the
 /// right side.
-const OWN: usize = 0;
-const FIRST: usize = 2;
-const NEXT: usize = 4;
+pub(crate) const OWN: usize = 0;
+pub(crate) const FIRST: usize = 2;
+pub(crate) const NEXT: usize = 4;
 const RIGHT: usize = 6;
 
 type Row = [f64; 7];
@@ -39,23 +39,9 @@ pub(crate) fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2
         put(&mut fresh, OWN, blocks[i]);
         put(&mut fresh, if i + 1 < n { NEXT } else { FIRST }, -DMat2::IDENTITY);
         put_right(&mut fresh, right[i]);
-        let [first, second] = last;
-        let [third, fourth] = fresh;
-        let mut rows = [first, second, third, fourth];
-        for column in 0..2 {
-            for lower in column + 1..4 {
-                rotate(&mut rows, column, lower, column);
-            }
-        }
-        let [first, second, third, fourth] = rows;
-        eliminated.push([first, second]);
-        last = [third, fourth].map(|row| {
-            // What was the following unknown is the next one's own.
-            let mut moved = row;
-            (moved[OWN], moved[OWN + 1]) = (row[NEXT], row[NEXT + 1]);
-            (moved[NEXT], moved[NEXT + 1]) = (0.0, 0.0);
-            moved
-        });
+        let (done, left) = eliminate(last, fresh);
+        eliminated.push(done);
+        last = left;
     }
     let [first, second] = last;
     let mut rows = [first, second];
@@ -72,6 +58,31 @@ pub(crate) fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2
         following = *unknown;
     }
     solution
+}
+
+/// Eliminates the unknown of the first two columns from the two rows that couple it with the first unknown of the sequence and
+/// the two that couple it with the following one (two columns from [`NEXT`] on): the two rows that hold it now, and the two
+/// that are left, in which what was the following unknown is the next one's own.
+pub(crate) fn eliminate<const WIDTH: usize>(
+    last: [[f64; WIDTH]; 2],
+    fresh: [[f64; WIDTH]; 2],
+) -> ([[f64; WIDTH]; 2], [[f64; WIDTH]; 2]) {
+    let [first, second] = last;
+    let [third, fourth] = fresh;
+    let mut rows = [first, second, third, fourth];
+    for column in 0..2 {
+        for lower in column + 1..4 {
+            rotate(&mut rows, column, lower, column);
+        }
+    }
+    let [first, second, third, fourth] = rows;
+    let left = [third, fourth].map(|row| {
+        let mut moved = row;
+        (moved[OWN], moved[OWN + 1]) = (row[NEXT], row[NEXT + 1]);
+        (moved[NEXT], moved[NEXT + 1]) = (0.0, 0.0);
+        moved
+    });
+    ([first, second], left)
 }
 
 fn put(rows: &mut [Row; 2], at: usize, block: DMat2) {

@@ -3,13 +3,9 @@
 
 use glam::{DMat2, DVec2};
 
-use crate::numerics::block_cyclic::rotate;
+use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following
-/// unknown, of the parameter, and the right side.
-const OWN: usize = 0;
-const FIRST: usize = 2;
-const NEXT: usize = 4;
+/// Columns of a row that is being eliminated, behind those of the unknowns: that of the parameter, and the right side.
 const PARAMETER: usize = 6;
 const RIGHT: usize = 7;
 
@@ -59,23 +55,9 @@ impl CyclicEquations {
             let mut fresh = self.rows(i);
             put(&mut fresh, OWN, self.own[i]);
             put(&mut fresh, if i + 1 < n { NEXT } else { FIRST }, self.next[i]);
-            let [first, second] = last;
-            let [third, fourth] = fresh;
-            let mut rows = [first, second, third, fourth];
-            for column in 0..2 {
-                for lower in column + 1..4 {
-                    rotate(&mut rows, column, lower, column);
-                }
-            }
-            let [first, second, third, fourth] = rows;
-            eliminated.push([first, second]);
-            last = [third, fourth].map(|row| {
-                // What was the following unknown is the next one's own.
-                let mut moved = row;
-                (moved[OWN], moved[OWN + 1]) = (row[NEXT], row[NEXT + 1]);
-                (moved[NEXT], moved[NEXT + 1]) = (0.0, 0.0);
-                moved
-            });
+            let (done, left) = eliminate(last, fresh);
+            eliminated.push(done);
+            last = left;
         }
         let (start, parameter) = closed(last, border);
         let mut solution = vec![start; n];

@@ -8,27 +8,13 @@ use bouncing_disk_plot::{
 };
 
 use super::data::ExtraEfficiencyData;
+use crate::colour_scale::colour;
 
 /// Cells of the picture for each step of the map.
 const FINER: usize = 8;
 
 /// Efficiency (%) of one colour.
 const STEP: f64 = 1.0;
-
-/// The colour of the highest efficiencies, by that of low and middle ones.
-const COLOURS: [Colour; 4] = [
-    Colour::rgb(253, 231, 160),
-    Colour::rgb(120, 198, 140),
-    Colour::rgb(35, 120, 150),
-    Colour::rgb(50, 25, 95),
-];
-
-/// The colour a share of the way through the scale.
-fn colour(share: f64) -> Colour {
-    let place = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
-    let index = (place as usize).min(COLOURS.len() - 2);
-    COLOURS[index].mixed(COLOURS[index + 1], place - index as f64)
-}
 
 pub(super) fn draw(data: &ExtraEfficiencyData) -> Figure {
     const HEIGHT: f64 = 215.0;
