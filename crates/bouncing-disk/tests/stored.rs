@@ -2,6 +2,9 @@
 
 #![cfg(feature = "serde")]
 
+#[cfg(feature = "fit")]
+#[path = "stored/fits.rs"]
+mod fits;
 #[path = "../../bouncing-disk-core/tests/round_trip/mod.rs"]
 mod round_trip;
 

@@ -276,7 +276,7 @@ fn checked<'a>(
     }
     let mut windows = Vec::with_capacity(transients.len());
     for transient in transients {
-        transient.check()?;
+        transient.check_for_fit()?;
         let peak_acceleration = transient.motor(nominal)?.system().peak_acceleration();
         if peak_acceleration <= 1.0 {
             return Err(Error::NeverLeaves { peak_acceleration });
@@ -323,7 +323,5 @@ fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> Undetermi
     UndeterminedDirection { direction, standard_error: error * largest.abs() }
 }
 
-#[cfg(all(test, feature = "serde"))]
-mod storage_tests;
 #[cfg(test)]
 mod tests;

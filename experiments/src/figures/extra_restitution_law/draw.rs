@@ -74,7 +74,7 @@ fn laws(data: &ExtraRestitutionLawData, panel: Panel) -> Panel {
     let reference = data.law.reference_speed() / std::f64::consts::PI;
     panel
         .x(Axis::linear(0.0, last).label(r"$|w_A\Gamma/(\omega A)|$").ticks(Ticks::every(1.0).minor(5)))
-        .y(Axis::linear(0.0, 1.0).label("restitution $r$").ticks(Ticks::every(0.2).minor(2)))
+        .y(Axis::linear(0.0, 1.0).label(r"restitution $\epsilon$").ticks(Ticks::every(0.2).minor(2)))
         .letter_in("c", Corner::BottomLeft)
         .layer(Band::new([(slow, 0.0, 1.0), (fast, 0.0, 1.0)]).colour(Colour::PALE_GREY).opacity(0.8))
         .layer(

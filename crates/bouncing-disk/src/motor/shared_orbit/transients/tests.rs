@@ -90,6 +90,31 @@ fn curves_of_any_length_are_those_of_the_motor_alone() {
     }
 }
 
+/// The least loads, frictions and twists that are numbers; loads that equal the friction, and miss it by a rounding;
+/// starts in roundings about the phase at which the platform falls away, and about a whole turn.
+#[test]
+fn curves_on_the_seams_are_those_of_the_motor_alone() {
+    let base = motor(1e-8, 0.0);
+    let neighbour = |value: f64, steps: i64| f64::from_bits(value.to_bits().wrapping_add_signed(steps));
+    let holds = base.dimensionless().friction() * base.scales().angular_acceleration;
+    let least = [5e-324, 1e-310, f64::MIN_POSITIVE, 1e-300];
+    let loads = least.into_iter().chain([-2, -1, 0, 1, 2].map(|steps| neighbour(holds, steps)));
+    let mut systems: Vec<System> = loads
+        .flat_map(|load| [load, -load])
+        .map(|load| base.with_disk(|rotor| rotor.load_acceleration = load).expect("legal"))
+        .collect();
+    for value in least {
+        systems.push(base.with_disk(|rotor| rotor.friction = value).expect("legal"));
+        systems.push(base.with_platform(|stator| stator.twist_amplitude = value).expect("legal"));
+    }
+    let leaves = base.dimensionless().vibration().separation_phase().expect("it throws the rotor").angle();
+    let about = |angle: f64| [-2, -1, 0, 1, 2].map(|steps| neighbour(angle, steps));
+    let settings = TransientSettings { duration: 0.02, intervals: 20, ..TransientSettings::default() };
+    for angle in about(leaves).into_iter().chain(about(TAU)).chain([5e-324, -5e-324]) {
+        assert_as_alone(&systems, Phase::new(angle).expect("finite"), &settings);
+    }
+}
+
 #[test]
 fn motors_without_a_common_vertical_motion_are_refused_by_name() {
     let base = System::motor();

@@ -1,42 +1,9 @@
-//! What is stored of a fit and its inputs comes back with the same bits, and nothing illegal does.
+//! Parameters fitted to transients, and what they are fitted to.
 
+use bouncing_disk::*;
 use serde_json::{Value, json};
 
-use super::*;
-
-/// Reads a value back, also from a binary format, and refuses it with each of the `illegal` values at its
-/// place (a JSON pointer), by a text that names the field.
-fn check_stored<T>(value: &T, illegal: &[(&str, Value, &str)])
-where
-    T: serde::Serialize + serde::de::DeserializeOwned + PartialEq + std::fmt::Debug,
-{
-    let text = serde_json::to_string(value).expect("writes");
-    let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-    assert_eq!(&read, value);
-    assert_eq!(serde_json::to_string(&read).expect("writes"), text, "the same bits");
-    let mut binary = Vec::new();
-    ciborium::into_writer(value, &mut binary).expect("writes");
-    assert_eq!(&ciborium::from_reader::<T, _>(&*binary).expect("legal"), value);
-    let whole = serde_json::to_value(value).expect("writes");
-    let refusal = |changed: Value| match serde_json::from_value::<T>(changed.clone()) {
-        Ok(read) => panic!("{changed} was read: {read:?}"),
-        Err(error) => error.to_string(),
-    };
-    for (place, bad, told) in illegal {
-        let mut changed = whole.clone();
-        *changed.pointer_mut(place).unwrap_or_else(|| panic!("{place} in {whole}")) = bad.clone();
-        let error = refusal(changed);
-        assert!(error.contains(told), "{place}: {error}");
-    }
-    for key in whole.as_object().expect("an object").keys().filter(|key| *key != "estimate") {
-        let mut less = whole.clone();
-        less.as_object_mut().expect("an object").remove(key);
-        assert!(refusal(less).contains(key.as_str()), "{key}");
-    }
-    let mut more = whole;
-    more["unheard_of"] = json!(1);
-    assert!(refusal(more).contains("unheard_of"));
-}
+use crate::round_trip::{check, refused};
 
 fn estimate(parameter: FitParameter, nominal: f64, ends: Option<(f64, f64)>) -> ParameterEstimate {
     let interval = |(low, high): (f64, f64)| IntervalEstimate { value: 0.5 * (low + high), low, high };
@@ -64,7 +31,7 @@ fn fit() -> ParameterFit {
 #[test]
 fn ranges_and_settings() {
     let friction = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 / 3.0 };
-    check_stored(
+    check(
         &friction,
         &[
             ("/low", json!(0.0), "friction = 0"),
@@ -75,14 +42,14 @@ fn ranges_and_settings() {
         ],
     );
     let restitution = FitRange { parameter: FitParameter::Restitution, low: 0.0, high: 0.9 };
-    check_stored(
+    check(
         &restitution,
         &[("/high", json!(1.0), "restitution = 1"), ("/low", json!(-1e-300), "restitution = -1e-300")],
     );
     let lag = FitRange { parameter: FitParameter::PhaseLag, low: -3.0, high: 3.0 };
-    check_stored(&lag, &[("/high", json!(3.3), "width of the range of the phase lag")]);
+    check(&lag, &[("/high", json!(3.3), "width of the range of the phase lag")]);
     let settings = ParameterFitSettings { seed: u64::MAX, ..ParameterFitSettings::default() };
-    check_stored(
+    check(
         &settings,
         &[
             ("/members", json!(23), "members"),
@@ -102,7 +69,7 @@ fn ranges_and_settings() {
 #[test]
 fn estimates_and_directions() {
     let amplitude = estimate(FitParameter::Amplitude, 1.0e-8, Some((5.0e-324, 3.0e-8)));
-    check_stored(
+    check(
         &amplitude,
         &[
             ("/nominal", json!(0.0), "nominal = 0"),
@@ -112,7 +79,7 @@ fn estimates_and_directions() {
         ],
     );
     let restitution = estimate(FitParameter::Restitution, 0.5, Some((0.0, 0.75)));
-    check_stored(
+    check(
         &restitution,
         &[
             ("/nominal", json!(1.0), "nominal = 1"),
@@ -120,10 +87,10 @@ fn estimates_and_directions() {
             ("/estimate/high", json!(1.0), "high = 1"),
         ],
     );
-    check_stored(&estimate(FitParameter::PhaseLag, -7.0, None), &[("/nominal", Value::Null, "null")]);
+    check(&estimate(FitParameter::PhaseLag, -7.0, None), &[("/nominal", Value::Null, "null")]);
     for standard_error in [5.0e-324, 2.5, f64::INFINITY] {
         let direction = UndeterminedDirection { standard_error, ..fit().undetermined[0].clone() };
-        check_stored(
+        check(
             &direction,
             &[
                 ("/standard_error", json!(0.0), "standard_error = 0"),
@@ -140,7 +107,7 @@ fn estimates_and_directions() {
 
 #[test]
 fn a_fit() {
-    check_stored(
+    check(
         &fit(),
         &[
             ("/parameters", json!([]), "parameters"),
@@ -165,12 +132,6 @@ fn a_fit() {
 /// What JSON cannot hold, a binary format can.
 #[test]
 fn numbers_that_are_none_are_refused() {
-    let refused = |value: &ParameterFit, told: &str| {
-        let mut binary = Vec::new();
-        ciborium::into_writer(value, &mut binary).expect("writes");
-        let error = ciborium::from_reader::<ParameterFit, _>(&*binary).expect_err(told).to_string();
-        assert!(error.contains(told), "{error}");
-    };
     for bad in [f64::NAN, f64::INFINITY] {
         refused(&ParameterFit { misfit: bad, ..fit() }, "misfit");
         let mut spoilt = fit();
@@ -179,8 +140,34 @@ fn numbers_that_are_none_are_refused() {
         let mut spoilt = fit();
         spoilt.parameters[1].nominal = bad;
         refused(&spoilt, "nominal");
+        refused(&MeasuredTransient { speed_error: Some(bad), ..transient() }, "speed_error");
+        refused(&MeasuredTransient { preload: RunPreload::Force(bad), ..transient() }, "preload");
     }
     let mut spoilt = fit();
     spoilt.undetermined[0].standard_error = f64::NAN;
     refused(&spoilt, "standard_error");
+}
+
+fn transient() -> MeasuredTransient {
+    let times: Vec<f64> = (0..8).map(|k| 0.01 * f64::from(k + 1)).collect();
+    let speeds = times.iter().map(|time| 20.0 * time / 3.0).collect();
+    MeasuredTransient {
+        preload: RunPreload::Acceleration(9.8),
+        runs: MeasuredSpeeds::new(vec![MeasuredRun { member: 3, times, speeds }]).expect("legal"),
+        speed_error: Some(0.1),
+    }
+}
+
+#[test]
+fn transients() {
+    check(
+        &transient(),
+        &[
+            ("/preload", json!({ "Acceleration": 0.0 }), "preload"),
+            ("/preload", json!({ "Force": -1.0 }), "preload"),
+            ("/speed_error", json!(-0.1), "speed_error"),
+            ("/runs/runs/0/times/1", json!(0.0), "time"),
+        ],
+    );
+    check(&MeasuredTransient { preload: RunPreload::Force(2.0), speed_error: None, ..transient() }, &[]);
 }
