@@ -100,7 +100,7 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
     let (step, parts) = match ticks.choice {
         Choice::None => return Ok(PlacedTicks::default()),
         Choice::At(ref given) => return Ok(within(given, low, high).into()),
-        Choice::Automatic => round_step((high - low) / room.max(1) as f64),
+        Choice::Automatic => automatic_step(low, high, room),
         Choice::Every(step) => (step, 2),
         Choice::PiFractions { numerator, denominator } => {
             (PI * f64::from(numerator) / f64::from(denominator), 2)
@@ -197,6 +197,13 @@ fn round_step(raw: f64) -> (f64, u32) {
     (format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN), parts)
 }
 
+/// A round step for so many labels; a finer one where it would leave one label or none, which is no scale.
+fn automatic_step(low: f64, high: f64, room: usize) -> (f64, u32) {
+    let choice = round_step((high - low) / room.max(1) as f64);
+    let labels = |step: f64| libm::floor(high / step) - libm::ceil(low / step) + 1.0;
+    if labels(choice.0) >= 2.0 { choice } else { round_step(0.5 * choice.0) }
+}
+
 /// The power of ten to leave out of the numbers, when they are very large or small.
 fn common_power(largest: f64) -> Option<i32> {
     let plain = (1e-3..1e5).contains(&largest) || largest == 0.0;
@@ -287,6 +294,13 @@ mod tests {
         let ticks = linear(&Ticks::automatic(), 0.0, 2e-8, 5).expect("ticks");
         assert_eq!(labels(ticks.clone()), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
         assert_eq!(ticks.power, Some(-8));
+    }
+
+    /// Room for three labels asks for a step of 2, of which only 0 lies on the axis.
+    #[test]
+    fn no_automatic_scale_has_a_single_label() {
+        let ticks = linear(&Ticks::automatic(), -1.575, 1.575, 3).expect("ticks");
+        assert_eq!(labels(ticks), ["−1", "0", "1"]);
     }
 
     #[test]

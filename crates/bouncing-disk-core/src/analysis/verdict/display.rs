@@ -9,7 +9,8 @@ impl core::fmt::Display for Verdict {
         let digits = formatter.precision().unwrap_or(4);
         match *self {
             Self::Periodic { impacts, platform_periods, multipliers, .. } => {
-                write!(formatter, "{impacts} impacts in {platform_periods} periods of the platform, ")?;
+                let (impacts, periods) = (counted(impacts, "impact"), counted(platform_periods, "period"));
+                write!(formatter, "{impacts} in {periods} of the platform, ")?;
                 write!(formatter, "multipliers {multipliers:.digits$}")
             }
             Self::Chaotic { exponent, standard_error, .. } => {
@@ -22,11 +23,17 @@ impl core::fmt::Display for Verdict {
     }
 }
 
+/// `1 impact`, `2 impacts`.
+fn counted(count: u64, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
 impl core::fmt::Display for RestCycle {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { impacts, platform_periods, long_flights, .. } = self;
-        write!(formatter, "rest after {impacts} impacts, {long_flights} of them behind long flights, ")?;
-        write!(formatter, "every {platform_periods} periods of the platform")?;
+        let (impacts, long) = (counted(*impacts, "impact"), counted(*long_flights, "long flight"));
+        let periods = counted(*platform_periods, "period");
+        write!(formatter, "rest after {impacts} and {long}, every {periods} of the platform")?;
         if self.is_exact() { Ok(()) } else { formatter.write_str(" (chosen by rounding)") }
     }
 }

@@ -355,8 +355,8 @@ fn a_verdict_that_is_read_is_legal() {
 fn verdicts_are_printed_in_words() {
     let text = |forcing, restitution, start| format!("{:.2}", of(map(forcing, restitution), start));
     let orbit = text(0.45, 0.5, state(1.2, 1.3));
-    assert!(orbit.starts_with("1 impacts in 1 periods of the platform, multipliers "), "{orbit}");
+    assert!(orbit.starts_with("1 impact in 1 period of the platform, multipliers "), "{orbit}");
     assert!(text(0.55, 0.5, state(1.2, 1.3)).starts_with("chaos, exponent 0."));
     assert!(text(0.2, 0.5, state(1.2, 1.3)).starts_with("at rest from "));
-    assert!(text(0.4, 0.3, state(3.0, 0.01)).ends_with("every 1 periods of the platform"));
+    assert!(text(0.4, 0.3, state(3.0, 0.01)).ends_with("every 1 period of the platform"));
 }
