@@ -73,7 +73,9 @@ pub enum Error {
         load: f64,
     },
     /// What was given as a periodic orbit is none of this system.
-    #[error("impact {impact} is not followed by the next one of the orbit, but {distance:?} (rad, or relative speed) from it")]
+    #[error(
+        "impact {impact} is not followed by the next one of the orbit, but {distance:?} (rad, or relative speed) from it"
+    )]
     NotAnOrbit {
         /// The impact, from 0 on.
         impact: usize,

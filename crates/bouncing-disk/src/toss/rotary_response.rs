@@ -251,7 +251,8 @@ impl SpinMap {
         let mut order: Vec<usize> = (0..states.len()).collect();
         order.sort_by(|a, b| available[*b].total_cmp(&available[*a]));
         let pairs = states.iter().map(|state| (state.phase().cos(), state.phase().sin())).collect();
-        let platform_speeds = states.iter().map(|state| system.platform_angular_speed(state.phase())).collect();
+        let platform_speeds =
+            states.iter().map(|state| system.platform_angular_speed(state.phase())).collect();
         Ok(Self { pairs, durations, available, platform_speeds, friction, load: system.load(), order })
     }
 

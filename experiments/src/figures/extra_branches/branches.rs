@@ -8,8 +8,8 @@ use rayon::prelude::*;
 
 use super::data::Family;
 
-/// So far above its birth a pair is picked up.
-const ABOVE_BIRTH: f64 = 0.05;
+/// So far above its birth a pair is picked up: below its doubling, which is 0.046 above it for k = 4.
+const ABOVE_BIRTH: f64 = 0.02;
 
 /// The first and the largest step of a continuation (arclength).
 const STEPS: (f64, f64) = (0.002, 0.02);
@@ -19,6 +19,9 @@ const MOST_POINTS: usize = 20_000;
 
 /// Orbits nearer than this (rad, and relative speed) are one.
 pub(super) const SAME: f64 = 1e-6;
+
+/// Special points with forcings nearer than this are one.
+const SAME_BIFURCATION: f64 = 1e-9;
 
 /// How far (rad, and relative speed) an orbit may be from what its neighbours on the branch promise.
 const NEAR: f64 = 0.05;
@@ -102,6 +105,21 @@ impl Walked {
         let walked =
             Self { family: Family::Doubled, joints: path, bifurcations: branch.bifurcations.clone(), ends };
         Ok(Some((walked, branch)))
+    }
+
+    /// Whether both have the same special points, of which there are some.
+    fn has_bifurcations_of(&self, other: &Self) -> bool {
+        let sorted = |walked: &Self| {
+            let mut forcings: Vec<f64> =
+                walked.bifurcations.iter().map(|found| found.point.parameter).collect();
+            forcings.sort_by(f64::total_cmp);
+            forcings
+        };
+        let (own, others) = (sorted(self), sorted(other));
+        (self.impacts(), self.platform_periods()) == (other.impacts(), other.platform_periods())
+            && !own.is_empty()
+            && own.len() == others.len()
+            && own.iter().zip(&others).all(|(a, b)| (a - b).abs() < SAME_BIFURCATION)
     }
 
     /// Whether the orbits between a point and the next attract.
@@ -233,7 +251,13 @@ pub(super) fn add_searched(
                 branches.on_known_branches += 1;
                 continue;
             }
-            branches.all.push(Walked::through(Family::Other, &map, &orbit, narrow)?.0);
+            let walked = Walked::through(Family::Other, &map, &orbit, narrow)?.0;
+            // Next to the end of a branch its orbits are not found again from their neighbours.
+            if branches.all.iter().any(|own| own.has_bifurcations_of(&walked)) {
+                branches.on_known_branches += 1;
+            } else {
+                branches.all.push(walked);
+            }
         }
     }
     Ok(())

@@ -26,7 +26,9 @@ pub(super) fn settled(
         .par_iter()
         .zip(verdicts)
         .map(|((map, _), verdict)| match verdict {
-            Verdict::Periodic { impacts, platform_periods, state, .. } if counts(impacts, platform_periods) => {
+            Verdict::Periodic { impacts, platform_periods, state, .. }
+                if counts(impacts, platform_periods) =>
+            {
                 let nearest = nearest_stable(branches, map, impacts, &state);
                 Some((map.vibration().axial_forcing(), impacts, platform_periods, nearest))
             }
@@ -52,9 +54,8 @@ pub(super) fn settled(
 fn nearest_stable(branches: &[Walked], map: &ImpactMap, impacts: u64, state: &ImpactState) -> Option<f64> {
     let of_as_many = branches.iter().filter(|walked| walked.impacts() as u64 == impacts);
     let orbits = of_as_many.flat_map(|walked| walked.orbits_at(map)).filter(|(_, stable)| *stable);
-    let distances = orbits.flat_map(|(orbit, _)| {
-        orbit.states.iter().map(|own| distance(own, state)).collect::<Vec<_>>()
-    });
+    let distances =
+        orbits.flat_map(|(orbit, _)| orbit.states.iter().map(|own| distance(own, state)).collect::<Vec<_>>());
     distances.min_by(f64::total_cmp)
 }
 

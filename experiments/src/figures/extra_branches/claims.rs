@@ -1,6 +1,6 @@
 //! What the branches show, and their check.
 
-use super::data::{CascadePoint, ExtraBranchesData, MarkKind, Pair, Settled};
+use super::data::{CascadePoint, ExtraBranchesData, Mark, MarkKind, Pair, Settled};
 use crate::claim::Claim;
 
 const ID: &str = "extra-branches";
@@ -31,6 +31,8 @@ fn largest<T>(items: &[T], difference: impl Fn(&T) -> Option<f64>) -> f64 {
 
 pub(super) fn claims(data: &ExtraBranchesData) -> Vec<Claim> {
     let grazing: Vec<&Pair> = data.pairs.iter().filter(|pair| pair.saddle_graze.is_some()).collect();
+    let vanishing: Vec<&Mark> =
+        data.marks.iter().filter(|mark| mark.kind == MarkKind::VanishingImpact).collect();
     let lost = data.curves.iter().filter(|curve| curve.lost).count();
     let count = |kind: MarkKind| data.marks.iter().filter(|mark| mark.kind == kind).count();
     vec![
@@ -73,6 +75,15 @@ pub(super) fn claims(data: &ExtraBranchesData) -> Vec<Claim> {
             largest(&grazing, |pair| Some(pair.saddle_graze? - pair.saddle_admissible_up_to?)),
         )
         .note(format!("{} saddles end by a graze below Γ = {}", grazing.len(), data.axial_forcing_ranges[1].1)),
+        Claim::expected(
+            ID,
+            PLACE,
+            "Γ at which an orbit loses an impact, less that of the nearest graze of one with an impact fewer: the largest deviation",
+            "",
+            (0.0, GRAZE_ROUNDING),
+            largest(&vanishing, |mark| lost_impact(mark, &data.marks)),
+        )
+        .note("where an orbit grazes the platform, one with an impact of no speed takes its place"),
         settled_claim(
             &data.settled,
             "attractors followed from one impact every k periods that settle on an orbit of a kind that is drawn lie on a stable branch",
@@ -98,13 +109,25 @@ pub(super) fn claims(data: &ExtraBranchesData) -> Vec<Claim> {
     ]
 }
 
+/// How far in Γ the nearest graze of an orbit with one impact fewer, and as many periods, is.
+fn lost_impact(mark: &Mark, marks: &[Mark]) -> Option<f64> {
+    let grazes = marks.iter().filter(|other| {
+        other.kind == MarkKind::Graze
+            && other.impacts + 1 == mark.impacts
+            && other.platform_periods == mark.platform_periods
+    });
+    grazes.map(|other| (other.axial_forcing - mark.axial_forcing).abs()).min_by(f64::total_cmp)
+}
+
 /// Whether all settled orbits lie on a branch that attracts, and how near.
 fn settled_claim(settled: &Settled, quantity: &str) -> Claim {
     let near = settled.distance <= SETTLED;
     let missed: Vec<String> = settled
         .missed
         .iter()
-        .map(|(forcing, impacts, periods)| format!("{impacts} impacts in {periods} periods at Γ = {forcing:.4}"))
+        .map(|(forcing, impacts, periods)| {
+            format!("{impacts} impacts in {periods} periods at Γ = {forcing:.4}")
+        })
         .collect();
     let claim = Claim::statement(
         ID,

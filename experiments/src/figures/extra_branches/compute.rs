@@ -6,9 +6,9 @@ use bouncing_disk::core::{
 use rayon::prelude::*;
 
 use super::branches::{self, Branches, Walked};
+use super::checks;
 use super::data::{CascadePoint, Curve, ExtraBranchesData, Mark, MarkKind};
 use super::diagram::{self, Lengths};
-use super::checks;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::fig06::FORCING_RANGE;
 use crate::paper;
@@ -40,10 +40,8 @@ pub(super) fn compute(
 ) -> Result<ExtraBranchesData, ExperimentError> {
     let section = paper::section_four()?;
     let restitution = section.restitution;
-    let lengths = quality.choose(
-        Lengths { transient: 600, examined: 60 },
-        Lengths { transient: 3_000, examined: 200 },
-    );
+    let lengths =
+        quality.choose(Lengths { transient: 600, examined: 60 }, Lengths { transient: 3_000, examined: 200 });
     let (columns, wide_columns, start_columns) = quality.choose((160, 120, 24), (1_000, 800, 200));
     let settings = VerdictSettings {
         transient: lengths.transient as u64,
@@ -55,7 +53,8 @@ pub(super) fn compute(
         section.axial_forcings_of_fig7.iter().copied().chain(SEARCHED).collect();
     searched_axial_forcings.sort_by(f64::total_cmp);
     let search = OrbitSearch::new(SEARCHED_IMPACTS, SEARCHED_PERIODS).map_err(ExperimentError::model)?;
-    let mut found = branches::pairs(restitution, WIDE, MOST_PERIODS, DOUBLINGS).map_err(ExperimentError::model)?;
+    let mut found =
+        branches::pairs(restitution, WIDE, MOST_PERIODS, DOUBLINGS).map_err(ExperimentError::model)?;
     progress.advance(1);
     branches::add_searched(&mut found, restitution, &searched_axial_forcings, &search, FORCING_RANGE)
         .map_err(ExperimentError::model)?;
@@ -67,8 +66,10 @@ pub(super) fn compute(
         .map_err(ExperimentError::model)?;
 
     let narrow = diagram::forcings(FORCING_RANGE, columns);
-    let above: Vec<f64> =
-        diagram::forcings(WIDE, wide_columns).into_iter().filter(|forcing| *forcing > FORCING_RANGE.1).collect();
+    let above: Vec<f64> = diagram::forcings(WIDE, wide_columns)
+        .into_iter()
+        .filter(|forcing| *forcing > FORCING_RANGE.1)
+        .collect();
     let forcings: Vec<f64> = narrow.iter().chain(&above).copied().collect();
     let walks = (1..=MOST_PERIODS)
         .into_par_iter()
@@ -84,18 +85,14 @@ pub(super) fn compute(
     progress.advance(1);
 
     let most_doubled = 1_u64 << DOUBLINGS;
-    let walked: Vec<(ImpactMap, ImpactState)> =
-        walks.iter().flatten().map(|at| (at.map, at.state)).collect();
+    let walked: Vec<(ImpactMap, ImpactState)> = walks.iter().flatten().map(|at| (at.map, at.state)).collect();
     // Of the pairs beyond the first only the orbits of two impacts are drawn.
     let drawn = |impacts: u64, periods: u64| {
         impacts <= 2 || impacts.is_power_of_two() && impacts <= most_doubled && periods == impacts
     };
-    let settled =
-        checks::settled(&found.all, &walked, settings, drawn).map_err(ExperimentError::model)?;
+    let settled = checks::settled(&found.all, &walked, settings, drawn).map_err(ExperimentError::model)?;
     let starts = starts(restitution, start_columns).map_err(ExperimentError::model)?;
-    let few = |impacts: u64, periods: u64| {
-        impacts <= SEARCHED_IMPACTS as u64 && periods <= SEARCHED_PERIODS
-    };
+    let few = |impacts: u64, periods: u64| impacts <= SEARCHED_IMPACTS as u64 && periods <= SEARCHED_PERIODS;
     let starts = checks::settled(&found.all, &starts, settings, few).map_err(ExperimentError::model)?;
     progress.advance(1);
 
@@ -122,7 +119,10 @@ pub(super) fn compute(
 }
 
 /// Starts all over the range of Fig. 6.
-fn starts(restitution: f64, columns: usize) -> Result<Vec<(ImpactMap, ImpactState)>, bouncing_disk::core::Error> {
+fn starts(
+    restitution: f64,
+    columns: usize,
+) -> Result<Vec<(ImpactMap, ImpactState)>, bouncing_disk::core::Error> {
     let mut starts = Vec::new();
     for forcing in diagram::forcings(FORCING_RANGE, columns) {
         let map = branches::map(forcing, restitution)?;

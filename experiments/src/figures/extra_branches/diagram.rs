@@ -41,11 +41,7 @@ pub(super) fn columns_of(followed: &[Followed], lengths: Lengths) -> Result<Vec<
 }
 
 /// The impacts of a disk that leaves the platform from rest.
-pub(super) fn from_rest(
-    restitution: f64,
-    forcings: &[f64],
-    lengths: Lengths,
-) -> Result<Vec<Column>, Error> {
+pub(super) fn from_rest(restitution: f64, forcings: &[f64], lengths: Lengths) -> Result<Vec<Column>, Error> {
     let (mut leaving, mut orbits) = (Vec::new(), Vec::new());
     for &forcing in forcings {
         let map = map(forcing, restitution)?;

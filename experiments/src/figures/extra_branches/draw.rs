@@ -1,8 +1,8 @@
 //! The drawing of the figure.
 
 use bouncing_disk_plot::{
-    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins, Marker,
-    Panel, Scatter, Text, Ticks,
+    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
+    Marker, Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
 
 use super::data::{Column, Curve, ExtraBranchesData, Family, Mark, MarkKind};
@@ -64,12 +64,13 @@ fn dots(columns: &[Column]) -> Vec<(f64, f64)> {
 
 pub(super) fn draw(data: &ExtraBranchesData) -> Figure {
     const HEIGHT: f64 = 520.0;
-    let margins = Margins { left: 46.0, right: 10.0, top: 12.0, bottom: 34.0 };
-    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 1).margins(margins).gaps(0.0, 36.0);
+    let margins = Margins { left: 46.0, right: 10.0, top: 18.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 1).margins(margins).gaps(0.0, 40.0);
     let [narrow, wide] = data.axial_forcing_ranges;
     let everything = |_: &Curve| true;
     let of_pairs = |curve: &Curve| curve.family != Family::Other && curve.impacts <= 2;
-    let a = panel(data, &grid, 0, narrow, everything).letter("a").legend(Legend::at(Corner::TopLeft).inset(24.0));
+    let a =
+        panel(data, &grid, 0, narrow, everything).letter("a").legend(Legend::at(Corner::TopLeft).inset(24.0));
     let b = panel(data, &grid, 1, wide, of_pairs).letter("b");
     Figure::new(DOUBLE_COLUMN, HEIGHT)
         .panels([named(a, data, narrow, &[1, 2, 4]), named(b, data, wide, &[1])])
@@ -89,18 +90,20 @@ fn panel(
             .label(r"$\tau_{imp}/2\pi$")
             .ticks(Ticks::every(0.2).minor(4)))
         .markers_on_top()
-        .layer(DensePoints::new(dots(&data.from_rest)).colour(Colour::PALE_GREY).radius(0.3));
+        .layer(DensePoints::new(dots(&data.from_rest)).colour(Colour::LIGHT_GREY).radius(0.3));
     for followed in &data.followed {
-        panel = panel.layer(DensePoints::new(dots(followed)).colour(Colour::LIGHT_GREY).radius(0.5));
+        panel = panel.layer(DensePoints::new(dots(followed)).colour(Colour::GREY).radius(0.35));
     }
-    let names = [(Family::PeriodOne(1), "one impact"), (Family::Doubled, "doubled"), (Family::Other, "others")];
+    let names =
+        [(Family::PeriodOne(1), "one impact"), (Family::Doubled, "doubled"), (Family::Other, "others")];
     // What is drawn last lies on top.
     for (family, name) in [names[2], names[1], names[0]] {
         let own = |curve: &&Curve| colour(curve.family) == colour(family) && is_drawn(curve);
         let mut name = Some(name);
         for curve in data.curves.iter().filter(own) {
             let width = if family == Family::Other { 0.7 } else { 1.0 };
-            let dashed = Line::new(parts(curve, false)).colour(colour(family)).width(0.7 * width).dash(Dash::Dashed);
+            let dashed =
+                Line::new(parts(curve, false)).colour(colour(family)).width(0.7 * width).dash(Dash::Dashed);
             let mut solid = Line::new(parts(curve, true)).colour(colour(family)).width(1.5 * width);
             if let Some(name) = name.take() {
                 solid = solid.name(name);
@@ -109,15 +112,21 @@ fn panel(
         }
     }
     let is_marked = |mark: &Mark| {
-        data.curves.iter().any(|curve| {
-            curve.family == mark.family && curve.impacts >= mark.impacts && is_drawn(curve)
-        })
+        data.curves
+            .iter()
+            .any(|curve| curve.family == mark.family && curve.impacts >= mark.impacts && is_drawn(curve))
     };
     for (kind, name, marker) in KINDS {
         let own = data.marks.iter().filter(|mark| mark.kind == kind && is_marked(mark));
-        let mut name = Some(name);
+        let scatter = |points: Vec<(f64, f64)>, colour: Colour| {
+            Scatter::new(points).marker(marker).size(3.6).width(0.7).colour(colour).filled_white()
+        };
+        if own.clone().next().is_some() {
+            // In the legend marks have the colour of no family.
+            panel = panel.layer(scatter(Vec::new(), Colour::DARK_GREY).name(name));
+        }
         for family in [Family::Other, Family::Doubled, Family::PeriodOne(1)] {
-            let points: Vec<(f64, f64)> = own
+            let points = own
                 .clone()
                 .filter(|mark| colour(mark.family) == colour(family))
                 .flat_map(|mark| {
@@ -125,15 +134,7 @@ fn panel(
                 })
                 .filter(|(forcing, _)| (low..=high).contains(forcing))
                 .collect();
-            if points.is_empty() {
-                continue;
-            }
-            let mut scatter =
-                Scatter::new(points).marker(marker).size(3.6).width(0.7).colour(colour(family)).filled_white();
-            if let Some(name) = name.take() {
-                scatter = scatter.name(name);
-            }
-            panel = panel.layer(scatter);
+            panel = panel.layer(scatter(points, colour(family)));
         }
     }
     panel
@@ -145,22 +146,18 @@ fn named(mut panel: Panel, data: &ExtraBranchesData, (low, high): (f64, f64), do
     let inside = |forcing: f64| (low..high).contains(&forcing);
     for pair in data.pairs.iter().filter(|pair| inside(pair.fold_in_closed_form)) {
         let text = format!("$k = {}$", pair.platform_periods);
-        let place = Text::at_data(pair.fold_in_closed_form - 0.008 * width, 0.0, text);
-        panel = panel.layer(place.anchor(Anchor::RightCentre).size(8.0).halo(Colour::WHITE));
+        let place = Text::at_data(pair.fold_in_closed_form + 0.012 * width, 0.0, text);
+        panel = panel.layer(place.anchor(Anchor::LeftCentre).size(8.0).halo(Colour::WHITE));
     }
     for (n, point) in data.doublings.iter().enumerate() {
         if !doublings.contains(&point.impacts) || !inside(point.axial_forcing) {
             continue;
         }
-        let marks = data.marks.iter().filter(|mark| {
-            mark.kind == MarkKind::Doubling
-                && mark.impacts == point.impacts
-                && (mark.axial_forcing - point.axial_forcing).abs() < 1e-9
-        });
-        let lowest = marks.flat_map(|mark| &mark.impact_phase_cycles).map(|phase| shown(*phase));
-        let Some(phase) = lowest.min_by(f64::total_cmp) else { continue };
-        let text = Text::at_data(point.axial_forcing, phase - 0.06, format!(r"$\Gamma_{}$", n + 1));
-        panel = panel.layer(text.anchor(Anchor::Middle).size(8.0).halo(Colour::WHITE));
+        let text = Text::at_axes((point.axial_forcing - low) / width, 1.025, format!(r"$\Gamma_{}$", n + 1));
+        let stroke = Stroke::new(Colour::BLUE, 0.5).dashed(Dash::Dotted);
+        panel = panel
+            .layer(Rule::vertical(point.axial_forcing).stroke(stroke))
+            .layer(text.anchor(Anchor::Middle).size(8.0).colour(Colour::BLUE));
     }
     panel
 }

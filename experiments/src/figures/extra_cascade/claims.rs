@@ -50,13 +50,17 @@ pub(super) fn claims(data: &ExtraCascadeData) -> Vec<Claim> {
                 (data.published_delta, own.delta_error),
                 own.delta,
             )
-            .note(format!("{note}, {} times that of double-doubles", times(own.delta_error, extended.delta_error))),
+            .note(format!(
+                "{note}, {} times that of double-doubles",
+                times(own.delta_error, extended.delta_error)
+            )),
         );
     }
     let all = |of: fn(&Doubling) -> f64| {
         data.cascades.iter().flat_map(|cascade| &cascade.doublings).map(of).fold(0.0_f64, f64::max)
     };
-    let closed = data.cascades.iter().map(|cascade| cascade.closed_form_deviation.abs()).fold(0.0_f64, f64::max);
+    let closed =
+        data.cascades.iter().map(|cascade| cascade.closed_form_deviation.abs()).fold(0.0_f64, f64::max);
     claims.push(
         Claim::expected(
             ID,
@@ -87,9 +91,8 @@ pub(super) fn claims(data: &ExtraCascadeData) -> Vec<Claim> {
         ID,
         PLACE,
         "every Γ_n in doubles is within the error that is stated for it",
-        (!data.cascades.is_empty()).then(|| {
-            data.cascades.iter().flat_map(|cascade| &cascade.doublings).all(within)
-        }),
+        (!data.cascades.is_empty())
+            .then(|| data.cascades.iter().flat_map(|cascade| &cascade.doublings).all(within)),
         "against double-doubles",
     ));
     let delta: fn(&Constants) -> (f64, f64) = |constants| (constants.delta, constants.delta_error);

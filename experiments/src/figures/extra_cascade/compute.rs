@@ -4,7 +4,7 @@ use bouncing_disk::core::extended::{self, DoubleDouble, ExtendedDoubling, first_
 use bouncing_disk::core::{CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates};
 use rayon::prelude::*;
 
-use super::data::{Cascade, Constants, Doubling, DoublesEnd, Estimate, ExtraCascadeData};
+use super::data::{Cascade, Constants, DoublesEnd, Doubling, Estimate, ExtraCascadeData};
 use crate::experiment::{ExperimentError, Quality};
 use crate::paper;
 use crate::progress::Progress;
@@ -25,8 +25,7 @@ pub(super) fn compute(
 ) -> Result<ExtraCascadeData, ExperimentError> {
     let count = quality.choose(11, 13);
     let of_fig6 = paper::section_four()?.restitution.to_string();
-    let restitutions: Vec<&str> =
-        std::iter::once(of_fig6.as_str()).chain(OTHER_RESTITUTIONS).collect();
+    let restitutions: Vec<&str> = std::iter::once(of_fig6.as_str()).chain(OTHER_RESTITUTIONS).collect();
     progress.start(restitutions.len() as u64, "cascades");
     let cascades = restitutions
         .par_iter()
@@ -44,7 +43,9 @@ fn cascade(restitution: &str, count: usize) -> Result<Cascade, bouncing_disk::co
     let found = extended::doubling_cascade(exact, count)?;
     let in_doubles = doubling_cascade(exact.high(), count)?;
     let doublings: Vec<Doubling> = (0..found.len())
-        .map(|index| doubling(index.checked_sub(1).map(|before| &found[before]), &found[index], &in_doubles[index]))
+        .map(|index| {
+            doubling(index.checked_sub(1).map(|before| &found[before]), &found[index], &in_doubles[index])
+        })
         .collect();
     let estimates: Vec<Estimate> = extended::feigenbaum_estimates(&found)
         .iter()
@@ -74,6 +75,7 @@ fn doubling(before: Option<&ExtendedDoubling>, found: &ExtendedDoubling, own: &C
         period: found.period,
         axial_forcing: format!("{:.25}", found.axial_forcing),
         separation: before.map(|before| (found.axial_forcing - before.axial_forcing).high()),
+        width: found.width.high(),
         forcing_error: found.forcing_error,
         axial_forcing_in_doubles: own.axial_forcing,
         forcing_error_in_doubles: own.forcing_error,

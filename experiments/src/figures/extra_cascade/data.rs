@@ -39,6 +39,8 @@ pub(super) struct Doubling {
     pub(super) axial_forcing: String,
     /// Γ_n − Γ_(n−1).
     pub(super) separation: Option<f64>,
+    /// The largest distance (rad) of an impact from the one half a period later.
+    pub(super) width: f64,
     /// Stated bound on the rounding of Γ_n.
     pub(super) forcing_error: f64,
     pub(super) axial_forcing_in_doubles: f64,
@@ -148,6 +150,16 @@ impl Cascade {
     /// The estimate in double-doubles from the doublings up to this one.
     pub(super) fn estimate(&self, number: usize) -> Option<&Constants> {
         self.estimates.iter().find(|estimate| estimate.number == number).map(|estimate| &estimate.extended)
+    }
+
+    /// The ratios δ_n and α_n of one doubling and the ones before it; those that there are not.
+    pub(super) fn ratios(&self, number: usize) -> (Option<f64>, Option<f64>) {
+        let at = |number: usize| self.doublings.iter().find(|doubling| doubling.number == number);
+        let (Some(now), Some(before)) = (at(number), number.checked_sub(1).and_then(at)) else {
+            return (None, None);
+        };
+        let of_widths = (before.width > 0.0).then(|| before.width / now.width);
+        (before.separation.zip(now.separation).map(|(before, now)| before / now), of_widths)
     }
 
     /// n and Γ_∞ − Γ_n.

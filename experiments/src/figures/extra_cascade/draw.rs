@@ -1,8 +1,8 @@
 //! The drawing of the figure.
 
 use bouncing_disk_plot::{
-    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Drawing, Figure, Legend, Line, Marker, Panel, Path, Rect,
-    Scatter, Stroke, TextStyle, Ticks,
+    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Drawing, Figure, Legend, Line, Marker, Panel, Path,
+    Rect, Scatter, Stroke, TextStyle, Ticks,
 };
 
 use super::data::{Cascade, Constants, ExtraCascadeData};
@@ -17,7 +17,7 @@ const ESTIMATED: (f64, f64) = (6.3, 13.7);
 const LEAST: f64 = 1e-17;
 
 /// A distance from the known constant that is smaller is drawn here.
-const LEAST_DEVIATION: f64 = 1e-11;
+const LEAST_DEVIATION: f64 = 1e-12;
 
 pub(super) fn draw(data: &ExtraCascadeData) -> Figure {
     const HEIGHT: f64 = 410.0;
@@ -43,7 +43,7 @@ fn distances(data: &ExtraCascadeData, area: Rect) -> Panel {
         .x(Axis::linear(NUMBERS.0, NUMBERS.1).label("$n$").ticks(Ticks::every(2.0).minor(2)))
         .y(Axis::log(LEAST, 1.0).label(r"$\Gamma_\infty - \Gamma_n$"))
         .letter_in("a", Corner::TopRight)
-        .legend(Legend::at(Corner::BottomLeft).without_frame());
+        .legend(Legend::at(Corner::TopRight).without_frame().inset(18.0));
     for (cascade, colour) in data.cascades.iter().zip(COLOURS) {
         let name = format!(r"$\epsilon = {}$", cascade.restitution);
         let distances = cascade.distances();
@@ -133,12 +133,16 @@ fn numbers(cascade: &Cascade, area: Rect) -> Drawing {
     for (row, doubling) in cascade.doublings.iter().enumerate() {
         let y = HEAD + 2.0 + ROW * (row as f64 + 0.6);
         let mut cells = vec![doubling.number.to_string(), doubling.axial_forcing.clone()];
-        if let Some(constants) = cascade.estimate(doubling.number) {
-            cells.push(format!("{:.10}", constants.forcing_ratio));
-            cells.push(with_error(constants.delta, constants.delta_error));
-            cells.push(format!("{:.7}", constants.width_ratio));
-            cells.push(with_error(constants.alpha, constants.alpha_error));
-        }
+        let (delta, alpha) = cascade.ratios(doubling.number);
+        let written = |ratio: Option<f64>| ratio.map_or_else(String::new, |ratio| format!("{ratio:.8}"));
+        let estimate = cascade.estimate(doubling.number);
+        let extrapolated = |of: fn(&Constants) -> (f64, f64)| {
+            estimate.map(of).map_or_else(String::new, |(value, error)| with_error(value, error))
+        };
+        cells.push(written(delta));
+        cells.push(extrapolated(|constants| (constants.delta, constants.delta_error)));
+        cells.push(written(alpha));
+        cells.push(extrapolated(|constants| (constants.alpha, constants.alpha_error)));
         for ((x, _), cell) in COLUMNS.iter().zip(cells) {
             drawing = drawing.text((x + 4.0, y), style, cell.as_str());
         }

@@ -374,7 +374,10 @@ fn a_branch_that_is_stored_and_extended_is_the_same() {
     let whole = forcing(0.3, 0.6, false).with_steps(0.002, 0.01, 400).expect("legal");
     let doubling = map.continued(&orbit, &forcing(0.3, 0.6, true)).expect("continued");
     let from = |settings: &Continuation| {
-        [map.continued(&orbit, settings).expect("continued"), doubling.switched(0, settings).expect("switches")]
+        [
+            map.continued(&orbit, settings).expect("continued"),
+            doubling.switched(0, settings).expect("switches"),
+        ]
     };
     let expected = from(&whole);
     assert!(expected[0].of_kind(BifurcationKind::Fold).count() == 1 && expected[1].points.len() > 20);

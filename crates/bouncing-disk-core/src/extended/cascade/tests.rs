@@ -108,10 +108,7 @@ fn doublings_and_estimates_are_stored_and_printed_as_they_are() {
     for doubling in &cascade {
         assert_eq!(&stored(doubling), doubling);
     }
-    assert_eq!(
-        cascade[2].to_string(),
-        "Gamma_3 = 0.5401020860760663669196152, of the orbit of 4 impacts"
-    );
+    assert_eq!(cascade[2].to_string(), "Gamma_3 = 0.5401020860760663669196152, of the orbit of 4 impacts");
     assert_eq!(format!("{:.4}", cascade[0]), "Gamma_1 = 0.4860, of the orbit of 1 impact");
     let legal = cascade[1];
     let nothing = DoubleDouble::from(f64::NAN);
@@ -141,7 +138,11 @@ fn doublings_and_estimates_are_stored_and_printed_as_they_are() {
 #[test]
 fn an_estimate_that_is_none_is_refused() {
     let estimate = feigenbaum_estimates(&doubling_cascade(number("0.5"), 7).expect("found"))[0];
-    for (key, value) in [("number", serde_json::json!(6)), ("delta_error", serde_json::json!(-1.0)), ("more", serde_json::json!(1))] {
+    for (key, value) in [
+        ("number", serde_json::json!(6)),
+        ("delta_error", serde_json::json!(-1.0)),
+        ("more", serde_json::json!(1)),
+    ] {
         let mut wrong = serde_json::to_value(estimate).expect("writes");
         wrong[key] = value;
         assert!(serde_json::from_value::<FeigenbaumEstimate>(wrong).is_err(), "{key}");

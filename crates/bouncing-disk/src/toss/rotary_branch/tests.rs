@@ -10,9 +10,16 @@ use crate::toss::rotary_response::tests::orbits;
 
 fn system(forcing: f64, restitution: f64, twist: f64, lag: f64, load: f64) -> DimensionlessSystem {
     let peak_acceleration = PI * forcing;
-    DimensionlessParameters { peak_acceleration, twist_speed: twist, phase_lag: lag, friction: 0.4, restitution, load }
-        .build()
-        .expect("legal")
+    DimensionlessParameters {
+        peak_acceleration,
+        twist_speed: twist,
+        phase_lag: lag,
+        friction: 0.4,
+        restitution,
+        load,
+    }
+    .build()
+    .expect("legal")
 }
 
 /// What the pieces say is what is found at any value, but next to the changes.
@@ -75,7 +82,8 @@ fn the_first_slip_of_two_impacts_is_in_closed_form() {
             let slowest = orbit.states.iter().map(|state| -state.velocity()).fold(f64::INFINITY, f64::min);
             let expected = (1.0 + restitution) * slowest / (PI * (one - other).abs());
             let range = (0.0, 2.0 * expected);
-            let branch = rotary_branch(&system, &orbit, RotaryParameter::AngularForcing, range).expect("a branch");
+            let branch =
+                rotary_branch(&system, &orbit, RotaryParameter::AngularForcing, range).expect("a branch");
             let changes: Vec<f64> = branch.changes().collect();
             assert_eq!(changes.len(), 1, "{branch:?}");
             assert!((changes[0] - expected).abs() < 1e-9 * expected, "{changes:?} {expected}");
@@ -91,7 +99,8 @@ fn the_first_slip_of_two_impacts_is_in_closed_form() {
 #[test]
 fn one_impact_always_sticks() {
     let system = system(0.45, 0.5, 50.0, 0.3, 0.1);
-    let orbit = system.map().period_one_pair(1).expect("exists").node.orbit(system.map()).expect("no failure");
+    let orbit =
+        system.map().period_one_pair(1).expect("exists").node.orbit(system.map()).expect("no failure");
     let orbit = orbit.expect("admissible");
     for (parameter, range) in [
         (RotaryParameter::AngularForcing, (0.0, 1e6)),
@@ -108,7 +117,8 @@ fn one_impact_always_sticks() {
 #[test]
 fn what_has_no_branch_is_refused() {
     let system = system(0.45, 0.5, 1.0, 0.0, 0.0);
-    let orbit = system.map().period_one_pair(1).expect("exists").node.orbit(system.map()).expect("no failure");
+    let orbit =
+        system.map().period_one_pair(1).expect("exists").node.orbit(system.map()).expect("no failure");
     let orbit = orbit.expect("admissible");
     let refused = |system: &DimensionlessSystem, parameter, range| {
         rotary_branch(system, &orbit, parameter, range).expect_err("refused").to_string()

@@ -243,7 +243,8 @@ fn a_load_as_large_as_friction_keeps_spins_and_a_larger_one_none() {
             assert!(!multipliers.is_stable() && multipliers.rotary.is_none());
         }
     }
-    let free = ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.0, restitution: 0.5 };
+    let free =
+        ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.0, restitution: 0.5 };
     let mut parameters = free.build().expect("legal").parameters();
     parameters.friction = 0.0;
     let free = parameters.build().expect("legal");
