@@ -50,7 +50,7 @@ pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
 }
 
 /// What may be absent: a number that there may not be, or that has a value without being there.
-const OPTIONAL: [&str; 9] = [
+const OPTIONAL: [&str; 10] = [
     "separation",
     "speed_ratio",
     "lyapunov_exponent",
@@ -60,6 +60,7 @@ const OPTIONAL: [&str; 9] = [
     "stall_acceleration",
     "load",
     "load_acceleration",
+    "rotary",
 ];
 
 /// The places of all objects in a value.
