@@ -72,7 +72,7 @@ pub use analysis::cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates
 pub use analysis::cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade, doubling_cascade_observed};
 pub use analysis::closing::ContinuationParameter;
 pub use analysis::continuation::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation,
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchTip, Continuation,
 };
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};

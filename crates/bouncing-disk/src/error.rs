@@ -72,6 +72,17 @@ pub enum Error {
         /// Load torque in units of m g a_e.
         load: f64,
     },
+    /// What was given as a periodic orbit is none of this system.
+    #[error(
+        "impact {impact} is not followed by the next one of the orbit, but {distance:?} (rad, or relative speed) from it"
+    )]
+    NotAnOrbit {
+        /// The impact, from 0 on.
+        impact: usize,
+        /// How far the impact that follows it is from the next one of the orbit (rad, or relative to 1 + the
+        /// speed).
+        distance: f64,
+    },
     /// Low-period traps leave too few motors of a range for a straight line.
     #[error(
         "{traps} motors of the range are in low-period traps, which leaves {left}, and {needed} are needed"

@@ -21,6 +21,7 @@
 //! | without units | [`DimensionlessSystem`], [`ForcingParameters`], [`Scales`] |
 //! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
+//! | the spin on a periodic orbit | [`rotary_response`], [`RotaryOutcome`], [`collision_multipliers`], [`rotary_round`]; over forcing, lag or load: [`rotary_branch`] |
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
 //! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
@@ -42,6 +43,7 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
+//! | `extended` | no | in the core: the cascade to 25 digits, cycles in as many digits as they take |
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
@@ -168,6 +170,13 @@ pub use toss::multiple::{
     MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss, multi_toss_observed,
 };
 pub use toss::period_one::period_one_rotary_speed;
+pub use toss::rotary_branch::{
+    RotaryBranch, RotaryParameter, RotaryPiece, rotary_branch, rotary_branch_observed,
+};
+pub use toss::rotary_response::{
+    CollisionMultipliers, RotaryOutcome, RotaryResponse, RotaryRound, collision_multipliers, rotary_response,
+    rotary_round,
+};
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the example of the README.

@@ -282,3 +282,39 @@ fn what_is_no_number_is_not_read() {
         refused(&PhasedImpulse { phase: 0.0, impulse: number }, "impulse");
     }
 }
+
+#[test]
+fn the_spin_on_a_periodic_orbit() {
+    let system = lively().parameters();
+    let system = DimensionlessParameters { load: 0.2, ..system }.build().expect("legal");
+    let orbit =
+        system.map().period_one_pair(1).expect("exists").saddle.orbit(system.map()).expect("no failure");
+    let orbit = orbit.expect("admissible");
+    let outcome = rotary_response(&system, &orbit).expect("an orbit");
+    check(
+        &outcome,
+        &[
+            ("/Steady/slips", json!([]), "slips"),
+            ("/Steady/sliding", json!([]), "sliding"),
+            ("/Steady/sliding/0", json!("Forward"), "ends its slip"),
+        ],
+    );
+    check(&RotaryOutcome::Runaway { change: -0.1 }, &[]);
+    check(
+        &collision_multipliers(&system, &orbit).expect("an orbit"),
+        &[("/rotary", json!(0.5), "rotary multiplier")],
+    );
+    check(&rotary_round(&system, &orbit, 30.0).expect("a round"), &[]);
+    let branch = rotary_branch(&system, &orbit, RotaryParameter::PhaseLag, (0.0, TAU)).expect("a branch");
+    check(
+        &branch,
+        &[
+            ("/pieces/0/high", json!(-1.0), "high end"),
+            (
+                "/pieces",
+                json!([{"low": 0.0, "high": 1.0, "sliding": [null]}, {"low": 2.0, "high": 3.0, "sliding": ["Forward"]}]),
+                "gap",
+            ),
+        ],
+    );
+}

@@ -56,16 +56,39 @@ read_checked!(CascadeDoubling as UncheckedCascadeDoubling {
 impl CascadeDoubling {
     /// Checks what is read.
     fn check(&self) -> Result<(), Error> {
-        within("number of a doubling", self.number as f64, 1.0, MAX_DOUBLINGS as f64, "[1, 13]")?;
-        let period = (1_u64 << (self.number - 1)) as f64;
-        within("period of a doubling", self.period as f64, period, period, "2^(n - 1)")?;
-        Vibration::from_axial_forcing(self.axial_forcing)?;
-        within("error of a forcing", self.forcing_error, 0.0, f64::MAX, "[0, inf)")?;
-        finite("multiplier", self.multiplier)?;
-        within("width of an orbit", self.width, 0.0, f64::MAX, "[0, inf) (rad)")?;
-        within("graze margin", self.graze_margin, 0.0, f64::INFINITY, "[0, inf] (g/omega^2)")?;
-        Ok(())
+        let doubles = [self.axial_forcing, self.multiplier, self.width];
+        check_doubling((self.number, self.period), doubles, self.forcing_error, self.graze_margin)
     }
+}
+
+/// `Gamma_3 = 0.5401020860760664, of the orbit of 4 impacts`; a precision given is the number of decimals.
+impl core::fmt::Display for CascadeDoubling {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { number, period, axial_forcing, .. } = self;
+        let impacts = if *period == 1 { "impact" } else { "impacts" };
+        write!(formatter, "Gamma_{number} = ")?;
+        core::fmt::Display::fmt(axial_forcing, formatter)?;
+        write!(formatter, ", of the orbit of {period} {impacts}")
+    }
+}
+
+/// Checks what is read of a doubling, in whatever numbers: number and period; forcing, multiplier and width;
+/// error and margin.
+pub(crate) fn check_doubling(
+    (number, period): (usize, usize),
+    [axial_forcing, multiplier, width]: [f64; 3],
+    forcing_error: f64,
+    graze_margin: f64,
+) -> Result<(), Error> {
+    within("number of a doubling", number as f64, 1.0, MAX_DOUBLINGS as f64, "[1, 13]")?;
+    let expected = (1_u64 << (number - 1)) as f64;
+    within("period of a doubling", period as f64, expected, expected, "2^(n - 1)")?;
+    Vibration::from_axial_forcing(axial_forcing)?;
+    within("error of a forcing", forcing_error, 0.0, f64::MAX, "[0, inf)")?;
+    finite("multiplier", multiplier)?;
+    within("width of an orbit", width, 0.0, f64::MAX, "[0, inf) (rad)")?;
+    within("graze margin", graze_margin, 0.0, f64::INFINITY, "[0, inf] (g/omega^2)")?;
+    Ok(())
 }
 
 /// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the

@@ -53,13 +53,20 @@ impl ContinuationParameter {
 }
 
 /// Impacts (phase in rad, the disk's own speed after the impact in units of g/omega) and the parameter.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct Closed {
     pub(super) impacts: Vec<DVec2>,
     pub(super) parameter: f64,
 }
 
 impl Closed {
+    /// Whether all numbers are.
+    pub(super) fn is_finite(&self) -> bool {
+        self.parameter.is_finite() && self.impacts.iter().all(|impact| impact.is_finite())
+    }
+
     /// This much of a direction further.
     pub(super) fn moved(&self, direction: &Self, by: f64) -> Self {
         let impacts = self.impacts.iter().zip(&direction.impacts).map(|(x, d)| *x + *d * by).collect();
@@ -122,6 +129,22 @@ impl Closing {
         let of_parameter = if by == ContinuationParameter::Forcing { parameter } else { 1.0 };
         let scale = Scale { speed: 1.0 + p, parameter: of_parameter };
         Ok((Self { map: *map, by, scale, turns }, Closed { impacts, parameter }))
+    }
+
+    /// The equations that [`Self::scale_and_turns`] are those of.
+    pub(super) const fn of_parts(
+        map: ImpactMap,
+        by: ContinuationParameter,
+        (speed, parameter): (f64, f64),
+        turns: Vec<f64>,
+    ) -> Self {
+        Self { map, by, scale: Scale { speed, parameter }, turns }
+    }
+
+    /// What the equations have besides map and parameter: the units of speed and parameter, and the turns of
+    /// the phase in each flight.
+    pub(super) fn scale_and_turns(&self) -> ((f64, f64), Vec<f64>) {
+        ((self.scale.speed, self.scale.parameter), self.turns.clone())
     }
 
     /// The equations of the orbit gone through twice.

@@ -10,8 +10,10 @@ use crate::platform::vibration::Vibration;
 use crate::read_checked;
 
 mod birth;
+mod tip;
 mod walker;
 
+pub use tip::BranchTip;
 use walker::Walker;
 
 /// In what, how far and how finely an orbit is continued.
@@ -202,7 +204,7 @@ pub enum BranchEnd {
     Bifurcation,
     /// The branch is back at its start.
     Closed,
-    /// There are as many points as were allowed.
+    /// There are as many points as were allowed: [`Branch::extended`] goes on.
     PointLimit(usize),
     /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do
     /// not tell.
@@ -224,6 +226,8 @@ pub struct Branch {
     pub bifurcations: Vec<Bifurcation>,
     /// Why the branch ends.
     pub end: BranchEnd,
+    /// Where it goes on, if it ends for its number of points alone.
+    pub tip: Option<BranchTip>,
 }
 
 impl Branch {
@@ -243,6 +247,49 @@ impl Branch {
             }
             ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
         }
+    }
+
+    /// The branch up to so many points in all, in [2, 1e6]: the very same as if it had been continued for as
+    /// many at once, also after it has been stored. What has come to another end, or is as long already, is
+    /// returned as it is.
+    ///
+    /// A long continuation is stopped and gone on with in this way, some points at a time.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{Branch, Continuation, ContinuationParameter, ImpactMap, Vibration};
+    /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
+    /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), false)?;
+    /// let begun = map.continued(&orbit, &whole.with_steps(0.01, 0.05, 10)?)?;
+    /// let extended = begun.extended(whole.max_points())?;
+    /// assert_eq!(extended, map.continued(&orbit, &whole)?);
+    /// assert_eq!((begun.points.len(), begun.tip.is_some(), extended.tip), (10, true, None));
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the number of points; [`Error::Unfitting`] where the tip is that of another
+    /// branch.
+    pub fn extended(&self, points: usize) -> Result<Self, Error> {
+        self.extended_observed(points, &Unobserved)
+    }
+
+    /// [`Self::extended`] with an observer; the items are the points that are allowed.
+    ///
+    /// # Errors
+    /// Those of [`Self::extended`]; [`Error::Stopped`] if the observer breaks.
+    pub fn extended_observed(&self, points: usize, observer: &dyn Observer) -> Result<Self, Error> {
+        within("points of a branch", points as f64, 2.0, Continuation::MAX_POINTS as f64, "[2, 1e6]")?;
+        let Some(tip) = &self.tip else { return Ok(self.clone()) };
+        if points <= self.points.len() {
+            return Ok(self.clone());
+        }
+        let settings = Continuation { max_points: points, ..*tip.settings() };
+        let watch = Watch::begin(observer, self.points.len() as u64, points as u64)?;
+        let (closing, underway) = tip.underway(self)?;
+        let branch = Walker::resumed(closing, &settings, watch.work()).go_on(underway)?;
+        watch.end();
+        Ok(branch)
     }
 
     /// The branch of twice the period that begins at the doubling number `index` of this branch's

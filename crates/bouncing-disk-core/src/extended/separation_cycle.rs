@@ -8,7 +8,9 @@ use crate::error::{Error, within};
 use crate::extended::exact_orbit::{ExactOrbit, Followed};
 use crate::map::impact_map::{ImpactMap, OrbitEvent};
 use crate::observer::{Observer, Unobserved, Watch};
-use crate::{ChatterPolicy, Launch};
+use crate::{ChatterPolicy, Launch, read_checked};
+
+mod stored;
 
 /// Bits of the first attempt.
 const FIRST_BITS: usize = 256;
@@ -24,11 +26,24 @@ const BITS_PER_DIGIT: f64 = core::f64::consts::LOG2_10;
 
 /// How far a cycle is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedBudget"))]
 pub struct CycleBudget {
     /// Impacts of a cycle, from 1 to 10^7.
     pub max_impacts: u64,
     /// Decimal digits of the arithmetic, from 20 to 100,000.
     pub max_digits: usize,
+}
+
+read_checked!(CycleBudget as UncheckedBudget { max_impacts: u64, max_digits: usize });
+
+impl CycleBudget {
+    /// Checks what is read or given.
+    fn check(&self) -> Result<(), Error> {
+        within("impacts of a cycle", self.max_impacts as f64, 1.0, 1.0e7, "[1, 1e7]")?;
+        within("digits of a cycle", self.max_digits as f64, 20.0, 1.0e5, "[20, 1e5]")?;
+        Ok(())
+    }
 }
 
 /// 5,000 impacts and 4,000 digits: some seconds.
@@ -40,6 +55,8 @@ impl Default for CycleBudget {
 
 /// A cycle from separation to separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCycle"))]
 pub struct SeparationCycle {
     /// Impacts from the separation until the chatter that ends in rest is summed, as an
     /// [`Orbit`](crate::Orbit) under
@@ -61,6 +78,8 @@ pub struct SeparationCycle {
 
 /// The cycle of the same map in doubles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct DoublesCycle {
     /// Impacts until it comes to rest.
     pub impacts: u64,
@@ -79,6 +98,8 @@ impl SeparationCycle {
 
 /// What became of the search for a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedOutcome"))]
 #[non_exhaustive]
 pub enum SeparationOutcome {
     /// The disk comes to rest: this is the cycle.
@@ -117,6 +138,25 @@ pub enum SeparationOutcome {
     },
 }
 
+read_checked!(SeparationCycle as UncheckedCycle {
+    impacts: u64,
+    platform_periods: u64,
+    rest_phase: f64,
+    digits: usize,
+    lost_digits: f64,
+    impacts_in_doubles: u64,
+    in_doubles: Option<DoublesCycle>,
+});
+
+read_checked!(enum SeparationOutcome as UncheckedOutcome {
+    Cycle(cycle: SeparationCycle),
+    NeverSeparates,
+    NoRestWithin { impacts: u64, lost_digits: f64, impacts_in_doubles: u64 },
+    DigitsSpent { impacts: u64, digits: usize },
+    UnsureFlight { impacts: u64, margin: f64 },
+    Disagreement { impacts: u64, digits: usize },
+});
+
 /// The true cycle of a disk that leaves the platform from rest, of the map whose peak acceleration P and
 /// restitution are exactly the doubles that `map` holds. A map with other digits has another cycle, as soon
 /// as the cycle is longer than doubles can follow.
@@ -152,8 +192,7 @@ pub fn separation_cycle_observed(
     budget: CycleBudget,
     observer: &dyn Observer,
 ) -> Result<SeparationOutcome, Error> {
-    within("impacts of a cycle", budget.max_impacts as f64, 1.0, 1.0e7, "[1, 1e7]")?;
-    within("digits of a cycle", budget.max_digits as f64, 20.0, 1.0e5, "[20, 1e5]")?;
+    budget.check()?;
     let watch = Watch::begin(observer, 0, budget.max_impacts)?;
     if map.vibration().separation_phase().is_none() {
         watch.end();

@@ -52,7 +52,7 @@ pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
 }
 
 /// What may be absent: a number that there may not be, or that has a value without being there.
-const OPTIONAL: [&str; 11] = [
+const OPTIONAL: [&str; 12] = [
     "estimate",
     "speed_error",
     "separation",
@@ -64,6 +64,7 @@ const OPTIONAL: [&str; 11] = [
     "stall_acceleration",
     "load",
     "load_acceleration",
+    "rotary",
 ];
 
 /// The places of all objects in a value.

@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
+use super::tip::BranchTip;
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
 use crate::analysis::closing::{Closed, Closing, Plane};
 use crate::analysis::periodic::PeriodicOrbit;
@@ -28,7 +29,7 @@ const HARD: u32 = 7;
 const GROWTH: f64 = 1.5;
 
 /// The smallest arclength of a step.
-const SMALLEST_STEP: f64 = 1.0e-10;
+pub(super) const SMALLEST_STEP: f64 = 1.0e-10;
 
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
 pub(super) const HALVINGS: u32 = 56;
@@ -44,6 +45,23 @@ pub(super) struct Located {
     pub(super) direction: Closed,
     pub(super) arclength: f64,
     pub(super) corrections: u32,
+}
+
+/// Where a branch began, and in which direction (scaled; phase, speed, parameter): whether it is back there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start {
+    pub(super) at: [f64; 3],
+    pub(super) direction: [f64; 3],
+}
+
+/// A walk under way: all that the rest of it depends on.
+#[derive(Debug)]
+pub(super) struct Underway {
+    pub(super) start: Start,
+    pub(super) base: Located,
+    pub(super) step: f64,
+    pub(super) points: Vec<BranchPoint>,
+    pub(super) bifurcations: Vec<Bifurcation>,
 }
 
 /// What ends a branch where it is no orbit of the map any more.
@@ -83,6 +101,11 @@ impl<'s> Walker<'s> {
         let (at, corrections) = walker.closing.corrected(guess, &plane).ok_or(lost)?;
         let direction = walker.closing.tangent(&at, across).ok_or(lost)?;
         Ok((walker, Located { at, direction, arclength: 0.0, corrections }))
+    }
+
+    /// To go on with a branch.
+    pub(super) const fn resumed(closing: Closing, settings: &'s Continuation, work: WorkCount<'s>) -> Self {
+        Self { closing, settings, work: RefCell::new(work) }
     }
 
     /// From a doubling, onto the branch of twice the period.
@@ -146,15 +169,29 @@ impl<'s> Walker<'s> {
 
     /// The whole branch from `start` on; the items are its points.
     pub(super) fn walk(self, start: Located) -> Result<Branch, Error> {
-        let (closing, settings) = (&self.closing, self.settings);
         let Some(first) = self.point(&start)? else {
             let residual = start.at.parameter;
             return Err(Error::NotSettled { what: "start of a branch", iterations: 0, residual });
         };
-        let (mut points, mut bifurcations) = (vec![first], Vec::new());
-        let (mut base, mut step) = (start.clone(), settings.first_step);
+        let [at, direction] = [&start.at, &start.direction].map(|part| self.closing.scaled(part));
+        let step = self.settings.first_step;
+        self.go_on(Underway {
+            start: Start { at, direction },
+            base: start,
+            step,
+            points: vec![first],
+            bifurcations: Vec::new(),
+        })
+    }
+
+    /// The rest of a branch.
+    pub(super) fn go_on(self, underway: Underway) -> Result<Branch, Error> {
+        let (closing, settings) = (&self.closing, self.settings);
+        let Underway { start, mut base, mut step, mut points, mut bifurcations } = underway;
+        let mut tip = None;
         let end = loop {
             if points.len() >= settings.max_points {
+                tip = Some(BranchTip::of(closing, settings, start, base, step));
                 break BranchEnd::PointLimit(points.len());
             }
             self.spend()?;
@@ -222,7 +259,7 @@ impl<'s> Walker<'s> {
             }
             base = next;
         };
-        Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end })
+        Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end, tip })
     }
 
     /// The doublings and folds between two points, in their order.
@@ -334,9 +371,9 @@ impl<'s> Walker<'s> {
     }
 
     /// Whether the step from `base` to `next` passes the start of the branch.
-    fn passes(&self, base: &Located, next: &Located, start: &Located) -> bool {
-        let [from, to, goal] = [base, next, start].map(|located| self.closing.scaled(&located.at));
-        let direction = self.closing.scaled(&start.direction);
+    fn passes(&self, base: &Located, next: &Located, start: &Start) -> bool {
+        let [from, to] = [base, next].map(|located| self.closing.scaled(&located.at));
+        let (goal, direction) = (start.at, start.direction);
         let along = |a: [f64; 3], b: [f64; 3]| (0..3).fold(0.0, |sum, k| sum + direction[k] * (b[k] - a[k]));
         let distance = (0..3).fold(0.0, |sum, k| sum + (goal[k] - from[k]) * (goal[k] - from[k])).sqrt();
         let step = next.arclength - base.arclength;

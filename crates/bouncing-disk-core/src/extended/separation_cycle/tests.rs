@@ -1,7 +1,7 @@
 use super::*;
 use crate::Vibration;
 use crate::numerics::roots::bisected_bracket;
-use crate::testing::StopAfter;
+use crate::testing::{StopAfter, stored};
 
 fn map(peak: f64, restitution: f64) -> ImpactMap {
     ImpactMap::new(Vibration::new(peak).expect("legal"), restitution).expect("legal")
@@ -180,4 +180,50 @@ fn a_search_can_be_stopped_and_refuses_no_budget() {
         let refused = separation_cycle(motor, CycleBudget { max_impacts, max_digits });
         assert!(matches!(refused, Err(Error::OutOfRange { .. })), "{refused:?}");
     }
+}
+
+#[test]
+fn a_cycle_is_stored_and_printed_as_it_is() {
+    let motor = map(197.392_088_021_787_14, 0.5);
+    let outcome = separation_cycle(motor, CycleBudget::default()).expect("followed");
+    assert_eq!(stored(&outcome), outcome);
+    let SeparationOutcome::Cycle(cycle) = outcome else { panic!("{outcome:?}") };
+    assert_eq!(stored(&cycle), cycle);
+    assert_eq!(
+        format!("{outcome:.0}"),
+        "25 impacts in 1055 periods of the platform, 27 digits lost; in doubles 25 impacts in 865 periods (6 as they are)"
+    );
+    let short = separation_cycle(map(19.739_208_802_178_714, 0.5), CycleBudget::default()).expect("followed");
+    assert!(short.to_string().ends_with("the same in doubles"), "{short}");
+    for outcome in [
+        SeparationOutcome::NeverSeparates,
+        SeparationOutcome::NoRestWithin { impacts: 9, lost_digits: 2.5, impacts_in_doubles: 9 },
+        SeparationOutcome::DigitsSpent { impacts: 7, digits: 77 },
+        SeparationOutcome::UnsureFlight { impacts: 0, margin: 0.0 },
+        SeparationOutcome::Disagreement { impacts: 7, digits: 77 },
+    ] {
+        assert_eq!(stored(&outcome), outcome);
+        assert!(!outcome.to_string().is_empty());
+    }
+    assert_eq!(stored(&CycleBudget::default()), CycleBudget::default());
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_stored_cycle_that_is_none_is_refused() {
+    let motor = map(19.739_208_802_178_714, 0.5);
+    let outcome = separation_cycle(motor, CycleBudget::default()).expect("followed");
+    let whole = serde_json::to_value(outcome).expect("writes");
+    for (place, value) in [
+        ("/Cycle/rest_phase", serde_json::json!(core::f64::consts::TAU)),
+        ("/Cycle/lost_digits", serde_json::json!(-1.0)),
+        ("/Cycle/impacts_in_doubles", serde_json::json!(1_000)),
+        ("/Cycle/digits", serde_json::json!(null)),
+    ] {
+        let mut wrong = whole.clone();
+        *wrong.pointer_mut(place).expect("is there") = value;
+        assert!(serde_json::from_value::<SeparationOutcome>(wrong).is_err(), "{place}");
+    }
+    let budget = serde_json::json!({"max_impacts": 0, "max_digits": 100});
+    assert!(serde_json::from_value::<CycleBudget>(budget).is_err());
 }

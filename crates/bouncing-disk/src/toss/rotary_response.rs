@@ -1,0 +1,380 @@
+//! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: the steady spin, and the
+//! Floquet multipliers of the next-collision map (docs/numerics/dynamics.md, "The spin on a periodic orbit").
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::{Multipliers, PeriodicOrbit, read_checked};
+
+use crate::error::{Error, all_finite, check};
+use crate::motion::impact::{available_impulse, axial_impulse};
+use crate::motion::state::SlipDirection;
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// How far (rad, or relative to 1 + the speed) the impact after one of the orbit may be from the next one: an
+/// orbit of this map closes far better, one of another map hardly ever as well.
+const CLOSES: f64 = 1.0e-6;
+
+/// What becomes of the spin of a disk on a periodic orbit.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub enum RotaryOutcome {
+    /// From every spin the disk comes to this one, in finitely many impacts: the rotary multiplier is 0.
+    Steady(RotaryResponse),
+    /// The load is as large as friction: every spin repeats itself for which all impacts slide in the
+    /// direction that the load gives, and the rotary multiplier is 1.
+    Kept {
+        /// The end of the spins that do, before the first impact of the orbit, in units of g a_e/(a_g^2
+        /// omega): those below it for a positive load, above it for a negative one; `None` without friction
+        /// and load, where every spin is kept.
+        limit: Option<f64>,
+    },
+    /// The load exceeds friction: no spin repeats itself.
+    Runaway {
+        /// How much the angular speed changes in one period of the orbit in the end, when every impact
+        /// slides, in units of g a_e/(a_g^2 omega).
+        change: f64,
+    },
+}
+
+impl RotaryOutcome {
+    /// The multiplier of the spin around the orbit, 0 or 1; `None` where no spin repeats itself.
+    #[must_use]
+    pub const fn multiplier(&self) -> Option<f64> {
+        match self {
+            Self::Steady(_) => Some(0.0),
+            Self::Kept { .. } => Some(1.0),
+            Self::Runaway { .. } => None,
+        }
+    }
+
+    /// The steady spin, if there is one.
+    #[must_use]
+    pub const fn steady(&self) -> Option<&RotaryResponse> {
+        match self {
+            Self::Steady(response) => Some(response),
+            Self::Kept { .. } | Self::Runaway { .. } => None,
+        }
+    }
+}
+
+/// The steady spin on a periodic orbit; lists run over its impacts.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedResponse"))]
+pub struct RotaryResponse {
+    /// The disk's angular speed just before each impact, in units of g a_e/(a_g^2 omega).
+    pub angular_speeds: Vec<f64>,
+    /// Disk minus platform just before each impact, the paper's w_T, in the same units.
+    pub slips: Vec<f64>,
+    /// The slip that an impact leaves; `None` where it ends within it. At least one is `None`.
+    pub sliding: Vec<Option<SlipDirection>>,
+    /// The largest margin by which friction ends a slip, in the same units: what it could give, less what it
+    /// takes. A disturbance of the spin that is smaller is forgotten within one period of the orbit. Zero
+    /// where stick gives way to slip.
+    pub stick_margin: f64,
+    /// The mean angular speed, in the same units.
+    pub mean_angular_speed: f64,
+}
+
+read_checked!(RotaryResponse as UncheckedResponse {
+    angular_speeds: Vec<f64>,
+    slips: Vec<f64>,
+    sliding: Vec<Option<SlipDirection>>,
+    stick_margin: f64,
+    mean_angular_speed: f64,
+});
+
+impl RotaryResponse {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let impacts = self.angular_speeds.len();
+        for (field, count) in [("slips", self.slips.len()), ("sliding", self.sliding.len())] {
+            check(count == impacts, field, count as f64, "one for each impact")?;
+        }
+        check(self.sliding.contains(&None), "sliding", impacts as f64, "with an impact that ends its slip")?;
+        for value in self.angular_speeds.iter().chain(&self.slips) {
+            all_finite([("angular_speed", *value)])?;
+        }
+        all_finite([("stick_margin", self.stick_margin), ("mean_angular_speed", self.mean_angular_speed)])
+    }
+
+    /// How many impacts end the slip.
+    #[must_use]
+    pub fn sticking_impacts(&self) -> usize {
+        self.sliding.iter().filter(|slides| slides.is_none()).count()
+    }
+}
+
+/// The Floquet multipliers of the next-collision map around a periodic orbit. Its derivative is block
+/// triangular: those of the impact map, and one of the spin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMultipliers"))]
+pub struct CollisionMultipliers {
+    /// Those of the vertical motion.
+    pub vertical: Multipliers,
+    /// That of the spin: 0 or 1, or `None` where the load exceeds friction and no spin repeats itself.
+    pub rotary: Option<f64>,
+}
+
+read_checked!(CollisionMultipliers as UncheckedMultipliers { vertical: Multipliers, rotary: Option<f64> });
+
+impl CollisionMultipliers {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        let legal = self.rotary.is_none_or(|rotary| [0.0_f64, 1.0].contains(&rotary));
+        check(legal, "rotary multiplier", self.rotary.unwrap_or_default(), "0 or 1")?;
+        Ok(())
+    }
+
+    /// Whether the orbit attracts, its spin included.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.vertical.spectral_radius() < 1.0 && self.rotary == Some(0.0)
+    }
+}
+
+/// One period of a periodic orbit with some spin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct RotaryRound {
+    /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
+    pub angular_speed: f64,
+    /// Impacts that end the slip. The derivative of the speed by that one period before is 1 without any,
+    /// and else 0.
+    pub sticking_impacts: usize,
+}
+
+/// What becomes of the spin of a disk on `orbit`, a periodic orbit of the vertical motion of `system`, stable
+/// or unstable.
+///
+/// ```
+/// use bouncing_disk::{ForcingParameters, period_one_rotary_speed, rotary_response};
+///
+/// let system = ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.3, restitution: 0.5 }.build()?;
+/// let pair = system.map().period_one_pair(1).expect("born at 1/3");
+/// // The saddle, which no motion settles on, turns by Eq. (16), too.
+/// let saddle = pair.saddle.orbit(system.map())?.expect("admissible");
+/// let outcome = rotary_response(&system, &saddle)?;
+/// let spin = outcome.steady().expect("no load");
+/// assert_eq!(spin.angular_speeds, [period_one_rotary_speed(&system, pair.saddle.state.phase())]);
+/// assert_eq!(outcome.multiplier(), Some(0.0));
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::NotAnOrbit`] if `orbit` is none of this system; [`Error::OutOfRange`] if it is empty; those of
+/// [`ImpactMap::step`](crate::core::ImpactMap::step).
+pub fn rotary_response(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<RotaryOutcome, Error> {
+    Ok(SpinMap::of(system, orbit)?.outcome())
+}
+
+/// The Floquet multipliers of the next-collision map (phase, axial and tangential velocity) around a periodic
+/// orbit of the vertical motion of `system`.
+///
+/// # Errors
+/// Those of [`rotary_response`].
+pub fn collision_multipliers(
+    system: &DimensionlessSystem,
+    orbit: &PeriodicOrbit,
+) -> Result<CollisionMultipliers, Error> {
+    let rotary = rotary_response(system, orbit)?.multiplier();
+    let trace = orbit.monodromy.x_axis.x + orbit.monodromy.y_axis.y;
+    let squared = system.restitution() * system.restitution();
+    let determinant = orbit.states.iter().fold(1.0, |product, _| product * squared);
+    Ok(CollisionMultipliers { vertical: Multipliers::of_invariants(trace, determinant), rotary })
+}
+
+/// One period of `orbit` for a disk that has this angular speed (in units of g a_e/(a_g^2 omega)) before its
+/// first impact.
+///
+/// # Errors
+/// Those of [`rotary_response`]; [`Error::OutOfRange`] for a speed that is not finite.
+pub fn rotary_round(
+    system: &DimensionlessSystem,
+    orbit: &PeriodicOrbit,
+    angular_speed: f64,
+) -> Result<RotaryRound, Error> {
+    all_finite([("angular_speed", angular_speed)])?;
+    let map = SpinMap::of(system, orbit)?;
+    let (mut speed, mut sticking_impacts) = (angular_speed, 0);
+    for index in 0..map.len() {
+        let (after, slides) = map.impact(index, speed);
+        sticking_impacts += usize::from(slides.is_none());
+        speed = after - map.lost(index);
+    }
+    Ok(RotaryRound { angular_speed: speed, sticking_impacts })
+}
+
+/// The rotary half of the next-collision map around one orbit: what does not depend on the spin.
+#[derive(Debug, Clone)]
+pub(crate) struct SpinMap {
+    /// Cosine and sine of each impact phase.
+    pub(crate) pairs: Vec<(f64, f64)>,
+    /// The flight after each impact (rad).
+    pub(crate) durations: Vec<f64>,
+    /// What friction can give in each impact.
+    pub(crate) available: Vec<f64>,
+    /// The platform's angular speed at each impact.
+    pub(crate) platform_speeds: Vec<f64>,
+    pub(crate) friction: f64,
+    pub(crate) load: f64,
+    /// Impacts by falling `available`: those that may stick first.
+    order: Vec<usize>,
+}
+
+impl SpinMap {
+    /// The map for an orbit, which has to be one.
+    pub(crate) fn of(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<Self, Error> {
+        let states = &orbit.states;
+        check(!states.is_empty(), "impacts of a periodic orbit", 0.0, "at least 1")?;
+        let mut durations = Vec::with_capacity(states.len());
+        for (index, state) in states.iter().enumerate() {
+            let impact = system.map().step(*state)?;
+            let target = states[(index + 1) % states.len()];
+            let turned = (impact.phase.angle() - target.phase().angle()).abs();
+            let speed = (impact.velocity - target.velocity()).abs() / (1.0 + target.velocity().abs());
+            let distance = turned.min(TAU - turned).max(speed);
+            if distance > CLOSES {
+                return Err(Error::NotAnOrbit { impact: index, distance });
+            }
+            durations.push(impact.duration());
+        }
+        let friction = system.friction();
+        let available: Vec<f64> = states
+            .iter()
+            .map(|state| available_impulse(friction, axial_impulse(system.restitution(), state.velocity())))
+            .collect();
+        let mut order: Vec<usize> = (0..states.len()).collect();
+        order.sort_by(|a, b| available[*b].total_cmp(&available[*a]));
+        let pairs = states.iter().map(|state| (state.phase().cos(), state.phase().sin())).collect();
+        let platform_speeds =
+            states.iter().map(|state| system.platform_angular_speed(state.phase())).collect();
+        Ok(Self { pairs, durations, available, platform_speeds, friction, load: system.load(), order })
+    }
+
+    /// The same orbit under another twist or load.
+    pub(crate) fn turn(&mut self, system: &DimensionlessSystem) {
+        for (speed, (cosine, sine)) in self.platform_speeds.iter_mut().zip(&self.pairs) {
+            *speed = system.angular_speed_at((*sine, *cosine));
+        }
+        self.load = system.load();
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.durations.len()
+    }
+
+    /// What the load takes away in the flight after an impact.
+    pub(crate) fn lost(&self, index: usize) -> f64 {
+        self.load * self.durations[index]
+    }
+
+    /// The angular speed after an impact with this one before, and the slip that is left.
+    fn impact(&self, index: usize, speed: f64) -> (f64, Option<SlipDirection>) {
+        let slip = speed - self.platform_speeds[index];
+        let available = self.available[index];
+        if slip.abs() <= available {
+            return (self.platform_speeds[index], None);
+        }
+        // A slip beyond the available impulse is not zero.
+        let direction = if slip > 0.0 { SlipDirection::Forward } else { SlipDirection::Backward };
+        (speed - direction.sign() * available, Some(direction))
+    }
+
+    /// By how much what stops the slip in the impact `stuck` exceeds what friction gives, if the disk turns
+    /// with the platform after it and goes around once: not positive for the steady spin.
+    fn excess(&self, stuck: usize) -> f64 {
+        let mut speed = self.platform_speeds[stuck];
+        let mut index = stuck;
+        loop {
+            speed -= self.lost(index);
+            index = (index + 1) % self.len();
+            if index == stuck {
+                return (speed - self.platform_speeds[stuck]).abs() - self.available[stuck];
+            }
+            speed = self.impact(index, speed).0;
+        }
+    }
+
+    /// An impact that ends the slip in the steady spin, for a load below friction. There is one; if rounding
+    /// says of all that they do not, the one that nearly does.
+    fn sticking(&self, hint: Option<usize>) -> usize {
+        let mut best = (f64::INFINITY, self.order[0]);
+        for index in hint.into_iter().chain(self.order.iter().copied()) {
+            let excess = self.excess(index);
+            if excess <= 0.0 {
+                return index;
+            }
+            if excess < best.0 {
+                best = (excess, index);
+            }
+        }
+        best.1
+    }
+
+    /// The steady spin, for a load below friction; an impact that sticks may be guessed.
+    pub(crate) fn steady(&self, hint: Option<usize>) -> RotaryResponse {
+        let count = self.len();
+        let stuck = self.sticking(hint);
+        let mut response = RotaryResponse {
+            angular_speeds: vec![0.0; count],
+            slips: vec![0.0; count],
+            sliding: vec![None; count],
+            stick_margin: 0.0,
+            mean_angular_speed: 0.0,
+        };
+        let (mut speed, mut index) = (self.platform_speeds[stuck], stuck);
+        let (mut turned, mut time) = (0.0, 0.0);
+        for _ in 0..count {
+            let duration = self.durations[index];
+            turned += (speed - 0.5 * self.lost(index)) * duration;
+            time += duration;
+            speed -= self.lost(index);
+            index = (index + 1) % count;
+            response.angular_speeds[index] = speed;
+            response.slips[index] = speed - self.platform_speeds[index];
+            let (after, slides) =
+                if index == stuck { (self.platform_speeds[stuck], None) } else { self.impact(index, speed) };
+            if slides.is_none() {
+                let margin = self.available[index] - response.slips[index].abs();
+                response.stick_margin = response.stick_margin.max(margin);
+            }
+            response.sliding[index] = slides;
+            speed = after;
+        }
+        response.mean_angular_speed = turned / time;
+        response
+    }
+
+    fn outcome(&self) -> RotaryOutcome {
+        let (load, friction) = (self.load, self.friction);
+        if load.abs() > friction {
+            let given: f64 = self.available.iter().fold(0.0, |sum, available| sum + available);
+            let taken = (0..self.len()).fold(0.0, |sum, index| sum + self.lost(index));
+            return RotaryOutcome::Runaway { change: given * load.signum() - taken };
+        }
+        if load.abs() == friction {
+            return RotaryOutcome::Kept { limit: (friction > 0.0).then(|| self.kept_limit()) };
+        }
+        RotaryOutcome::Steady(self.steady(None))
+    }
+
+    /// The end of the spins before the first impact for which all impacts slide against the load.
+    fn kept_limit(&self) -> f64 {
+        let sign = self.load.signum();
+        let (mut gained, mut limit) = (0.0, f64::INFINITY);
+        for index in 0..self.len() {
+            let edge = sign * self.platform_speeds[index] - self.available[index] - gained;
+            limit = limit.min(edge);
+            gained += self.available[index] - self.lost(index).abs();
+        }
+        sign * limit
+    }
+}
+
+#[cfg(test)]
+pub(in crate::toss) mod tests;
