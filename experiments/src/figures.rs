@@ -12,6 +12,7 @@ pub mod dough_record;
 pub mod extra_design;
 pub mod extra_efficiency;
 pub mod extra_fit;
+pub mod extra_literature;
 pub mod extra_lyapunov;
 pub mod extra_regimes;
 pub mod extra_restitution_law;
