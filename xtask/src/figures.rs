@@ -481,6 +481,23 @@ mod tests {
         }
     }
 
+    /// The options as a whole command line.
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    #[test]
+    fn the_documentation_is_written_of_all_or_of_the_extras() {
+        use clap::Parser as _;
+        let parse = |arguments: &[&str]| Line::try_parse_from([&["figures"], arguments].concat());
+        let both = parse(&["--docs", "--extras"]).map(|line| (line.options.docs, line.options.extras));
+        assert_eq!(both.ok(), Some((true, true)));
+        assert!(parse(&["--docs"]).is_ok() && parse(&["--extras", "--check"]).is_ok());
+        assert!(parse(&["--docs", "fig01"]).is_err() && parse(&["--docs", "--check"]).is_err());
+    }
+
     #[test]
     fn the_default_folder_is_that_of_the_workspace() {
         let folder = options(Quality::Paper, None).folder();

@@ -45,7 +45,8 @@ impl Experiment for ExtraLiterature {
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &ExtraLiteratureData) -> String {
-        let counts = Judgement::ALL.map(|judgement| format!("{} {}", judgement.words(), data.count(judgement)));
+        let counts =
+            Judgement::ALL.map(|judgement| format!("{} {}", judgement.words(), data.count(judgement)));
         format!(
             "What {} passages of others state of bouncing balls, beside the exact map: {}. Their words, and what comes out, are in \
              docs/literature.md.",
@@ -112,10 +113,39 @@ fn rounds_to_printed(entry: &Entry, name: &str, computed: f64) -> Result<Answer,
 }
 
 /// The same within a tolerance that is printed, too, where it is the larger one.
-fn rounds_within(entry: &Entry, name: &str, computed: f64, tolerance: f64) -> Result<Answer, ExperimentError> {
+fn rounds_within(
+    entry: &Entry,
+    name: &str,
+    computed: f64,
+    tolerance: f64,
+) -> Result<Answer, ExperimentError> {
     const DIGITS: usize = 7;
     let printed = entry.printed(name)?;
     // A value between two printed ones may round either way; the decimal digits are rounded themselves.
     let tolerance = printed.half_unit.max(tolerance) * (1.0 + 1e-9);
     Ok(Answer::number(computed, DIGITS, (computed - printed.value).abs() <= tolerance))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_agrees_up_to_half_a_unit_of_its_last_digit() {
+        let entries = catalogue::entries().expect("legal");
+        // Printed 0.486.
+        let (entry, name) = (&entries[0], "doubling_1");
+        let judged = |computed| rounds_to_printed(entry, name, computed).expect("printed").judgement;
+        for agreeing in [0.4855, 0.486, 0.4865] {
+            assert_eq!(judged(agreeing), Judgement::Agrees, "{agreeing}");
+        }
+        for other in [0.4854, 0.4866, 0.0, -0.486, f64::NAN, f64::INFINITY] {
+            assert_eq!(judged(other), Judgement::Differs, "{other}");
+        }
+        // A printed grid counts where it is wider, and never narrows.
+        let within = |computed, grid| rounds_within(entry, name, computed, grid).expect("printed").judgement;
+        assert_eq!(within(0.4885, 0.003), Judgement::Agrees);
+        assert_eq!(within(0.4865, 1e-9), Judgement::Agrees);
+        assert!(rounds_to_printed(entry, "nothing", 0.486).is_err());
+    }
 }

@@ -34,7 +34,9 @@ pub(super) enum Behaviour {
 impl Behaviour {
     pub(super) fn of(verdict: &Verdict) -> Self {
         match *verdict {
-            Verdict::Periodic { impacts, platform_periods, .. } => Self::Periodic { impacts, platform_periods },
+            Verdict::Periodic { impacts, platform_periods, .. } => {
+                Self::Periodic { impacts, platform_periods }
+            }
             Verdict::Chaotic { .. } => Self::Chaotic,
             Verdict::Chattering { cycle, .. } => match cycle.trust {
                 CycleTrust::Exact => Self::Chattering {

@@ -48,7 +48,12 @@ fn chaos_answer(entry: &Entry) -> Result<(&'static str, Answer), ExperimentError
     let printed = entry.statement(NAME)?.printed.is_some();
     // The statement that is printed is that there is none.
     let answer = if printed { Answer::statement(!positive, text) } else { Answer::nothing_printed(text) };
-    Ok((NAME, answer.because("a computation and no proof: a finite orbit cannot tell an attractor from a long transient")))
+    Ok((
+        NAME,
+        answer.because(
+            "a computation and no proof: a finite orbit cannot tell an attractor from a long transient",
+        ),
+    ))
 }
 
 /// Exponents on the attractor of the cascade, and whether all are positive.
@@ -67,7 +72,10 @@ fn chaos() -> Result<(String, bool), ExperimentError> {
         match outcome {
             LyapunovOutcome::Exponents(spectrum) => {
                 positive &= spectrum.largest > 3.0 * spectrum.standard_error;
-                parts.push(format!("{:.4} ± {:.4} at Γ = {forcing}", spectrum.largest, spectrum.standard_error));
+                parts.push(format!(
+                    "{:.4} ± {:.4} at Γ = {forcing}",
+                    spectrum.largest, spectrum.standard_error
+                ));
             }
             _ => {
                 positive = false;
@@ -75,7 +83,10 @@ fn chaos() -> Result<(String, bool), ExperimentError> {
             }
         }
     }
-    let text = format!("exponents per impact at r = {RESTITUTION}, without a rest in {IMPACTS} impacts: {}", parts.join(", "));
+    let text = format!(
+        "exponents per impact at r = {RESTITUTION}, without a rest in {IMPACTS} impacts: {}",
+        parts.join(", ")
+    );
     Ok((text, positive))
 }
 
@@ -151,7 +162,8 @@ pub(super) fn mechanism(_: &Entry) -> Answers {
     let mut listed = Vec::new();
     for below in BELOW {
         let map = map_at(survived - below, RESTITUTION)?;
-        let orbits: Vec<Orbit> = states.iter().map(|state| map.orbit(*state, ChatterPolicy::Complete)).collect();
+        let orbits: Vec<Orbit> =
+            states.iter().map(|state| map.orbit(*state, ChatterPolicy::Complete)).collect();
         let impacts = orbit_diagram(&orbits, SKIPPED, IMPACTS)?.concat();
         let slowest = impacts.iter().map(|state| -state.velocity()).fold(f64::INFINITY, f64::min);
         listed.push((below, slowest, nearest_saddle(&map, &impacts)?));
@@ -160,11 +172,11 @@ pub(super) fn mechanism(_: &Entry) -> Answers {
     let nearest: Vec<String> = listed
         .iter()
         .map(|(below, _, (impacts, periods, distance))| {
-            format!("{} from one of {impacts} in {periods} at {below:.0e}", rounded(*distance, 2))
+            format!("of {impacts} in {periods}, {} away at {below:.0e}", rounded(*distance, 2))
         })
         .collect();
     let answer = Answer::nothing_printed(format!(
-        "no graze: the slowest impact of the attractor has the speed {} g/ω at 1e-3, 1e-4 and 1e-5 below the crisis. The nearest saddle outside: {}",
+        "no graze: the slowest impact of the attractor has the speed {} g/ω at 1e-3, 1e-4 and 1e-5 below the crisis. The nearest saddle with positive multipliers is one of three impacts at most: {}",
         slowest.join(", "),
         nearest.join(", ")
     ))
@@ -184,7 +196,8 @@ fn nearest_saddle(
     let peak = map.vibration().peak_acceleration();
     let mut nearest: Option<(usize, u64, f64)> = None;
     for orbit in map.periodic_orbits(&search)?.orbits {
-        let saddle = matches!(orbit.multipliers(), bouncing_disk::core::Multipliers::Real(large, _) if large > 1.0);
+        let saddle =
+            matches!(orbit.multipliers(), bouncing_disk::core::Multipliers::Real(large, _) if large > 1.0);
         if !saddle {
             continue;
         }

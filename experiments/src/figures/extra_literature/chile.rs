@@ -9,12 +9,11 @@ use bouncing_disk::core::{
     orbit_diagram,
 };
 
-use super::behaviour::{
-    Behaviour, forcing_of_frequency, frequency_of_forcing, impacts, map_at, own_speed,
-};
+use super::behaviour::{Behaviour, forcing_of_frequency, frequency_of_forcing, impacts, map_at, own_speed};
 use super::catalogue::Entry;
 use super::data::{Answer, rounded};
 use super::{Answers, rounds_to_printed, rounds_within};
+use crate::claim::Agreement;
 use crate::experiment::ExperimentError;
 
 const SETTINGS: VerdictSettings =
@@ -35,7 +34,12 @@ fn launch(frequency: f64) -> Result<Launch, ExperimentError> {
 }
 
 /// Their speeds after the impacts that follow the first `skipped`.
-fn speeds(entry: &Entry, frequency: f64, skipped: usize, recorded: usize) -> Result<Vec<f64>, ExperimentError> {
+fn speeds(
+    entry: &Entry,
+    frequency: f64,
+    skipped: usize,
+    recorded: usize,
+) -> Result<Vec<f64>, ExperimentError> {
     let map = map_of(entry, frequency)?;
     let orbit = map.orbit_from_launch(launch(frequency)?, ChatterPolicy::Complete);
     let diagram = orbit_diagram(&[orbit], skipped, recorded)?;
@@ -93,14 +97,18 @@ pub(super) fn diagram(entry: &Entry) -> Answers {
         .map(|(word, from, to)| format!("{word} from {} to {}", rounded(*from, 4), rounded(*to, 4)))
         .collect();
     let behind = runs.iter().skip_while(|run| run.0 != "chaos").filter(|run| run.0 != "chaos");
-    let windows: Vec<String> = behind.map(|(word, from, _)| format!("{word} at {}", rounded(*from, 4))).collect();
+    let windows: Vec<String> =
+        behind.map(|(word, from, _)| format!("{word} at {}", rounded(*from, 4))).collect();
     let text = format!(
         "speeds of the orbit from their start: {}; behind it chaos in {} parts, with windows: {}",
         listed.join(", "),
         count("chaos"),
         if windows.is_empty() { "none".to_owned() } else { windows.join(", ") }
     );
-    Ok(vec![("diagram", Answer::nothing_printed(text).because(format!("{} frequencies in steps of 0.001", STEPS + 1)))])
+    Ok(vec![(
+        "diagram",
+        Answer::nothing_printed(text).because(format!("{} frequencies in steps of 0.001", STEPS + 1)),
+    )])
 }
 
 /// The frequency of a doubling of the cascade, the accumulation for none.
@@ -121,7 +129,9 @@ fn band_merging(entry: &Entry) -> Result<f64, ExperimentError> {
         let speeds = speeds(entry, frequency, 2_000, IMPACTS)?;
         let range = |parity: usize| {
             let own = speeds.iter().skip(parity).step_by(2);
-            own.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &speed| (low.min(speed), high.max(speed)))
+            own.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &speed| {
+                (low.min(speed), high.max(speed))
+            })
         };
         let ((low, high), (other_low, other_high)) = (range(0), range(1));
         Ok(high < other_low || other_high < low)
@@ -136,10 +146,21 @@ pub(super) fn bands(entry: &Entry) -> Answers {
         Ok((name, rounds_within(entry, name, computed, grid)?.because(reason)))
     };
     let read = "read off a grid of 0.003";
+    let before = entry.printed("doubling_2")?.value - grid;
+    let between = orbit_speeds(entry, before)?;
+    let late = format!(
+        "behind a doubling the speeds are hard to tell apart: those at {} are {}",
+        rounded(before, 4),
+        between.iter().map(|speed| rounded(*speed, 4)).collect::<Vec<_>>().join(", ")
+    );
     Ok(vec![
         answer("doubling_1", doubling(entry, Some(1))?, read)?,
-        answer("doubling_2", doubling(entry, Some(2))?, read)?,
-        answer("two_bands", doubling(entry, None)?, "the accumulation of the doublings; what \"without a pattern\" is, is not defined")?,
+        answer("doubling_2", doubling(entry, Some(2))?, &late)?,
+        answer(
+            "two_bands",
+            doubling(entry, None)?,
+            "the accumulation of the doublings; what \"without a pattern\" is, is not defined",
+        )?,
         answer("one_band", merging, "every other impact is in the same range of speeds from there on")?,
     ])
 }
@@ -157,14 +178,15 @@ pub(super) fn third_report(entry: &Entry) -> Answers {
     let mut answers = doublings(entry)?;
     let frequency = |name: &str| entry.input_of(name, "frequency").map(|number| number.value);
     let last = frequency("periods")?;
-    let seen = |frequency: f64| -> Result<String, ExperimentError> { Ok(word(&verdict(entry, frequency)?.1)) };
-    let (before, until) = (seen(1.66)?, seen(last)?);
+    let seen =
+        |frequency: f64| -> Result<String, ExperimentError> { Ok(word(&verdict(entry, frequency)?.1)) };
+    let (before, until) = (seen(frequency("relaxation")?)?, seen(last)?);
     let third = doubling(entry, Some(3))?;
     answers.push((
         "periods",
         Answer::statement(
             third > last && before == "1" && until == "4",
-            format!("period {until} at 1.74; the third doubling is at {}", rounded(third, 6)),
+            format!("period {until} at {last}; the third doubling is at {}", rounded(third, 6)),
         ),
     ));
     let accumulation = doubling(entry, None)?;
@@ -172,20 +194,33 @@ pub(super) fn third_report(entry: &Entry) -> Answers {
     let holds = (accumulation - chaos.value).abs() <= chaos.half_unit;
     answers.push((
         "chaos",
-        Answer::number(accumulation, 6, holds).because(format!("the accumulation of the doublings; at 1.75 itself: {}", seen(1.75)?)),
+        Answer::number(accumulation, 6, holds).because(format!(
+            "the accumulation of the doublings; at {} itself: {}",
+            chaos.value,
+            seen(chaos.value)?
+        )),
     ));
     let edge = frequency("gap")?;
-    let (inside, beyond) = (outer_share(entry, edge - 0.01)?, outer_share(entry, edge + 0.005)?);
+    let before = outer_share(entry, edge - 0.01)?;
+    let beyond = (1..=10)
+        .map(|step| outer_share(entry, edge + 0.001 * f64::from(step)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let (least, most) =
+        beyond.iter().fold((1.0_f64, 0.0_f64), |(least, most), &share| (least.min(share), most.max(share)));
     answers.push((
         "gap",
-        Answer::not_comparable(format!(
-            "{:.0} % of the speeds in the outer thirds of their range at {}, {:.0} % at {}",
-            100.0 * inside,
-            rounded(edge - 0.01, 4),
-            100.0 * beyond,
-            rounded(edge + 0.005, 4)
-        ))
-        .because("an impression of the diagram, without a number"),
+        Answer::share(
+            Agreement::of(beyond.iter().map(|share| *share > before)),
+            format!(
+                "{:.0} % of the speeds in the outer thirds of their range at {}, {:.0} to {:.0} % from {} to 1.79",
+                100.0 * before,
+                rounded(edge - 0.01, 4),
+                100.0 * least,
+                100.0 * most,
+                rounded(edge + 0.001, 4)
+            ),
+        )
+        .because("an orbit of three impacts attracts at 1.783 and doubles"),
     ));
     let text = relaxation_words(entry, frequency("relaxation")?)?;
     answers.push(("relaxation", Answer::not_comparable(text).because(CRITERION)));
@@ -199,7 +234,8 @@ fn outer_share(entry: &Entry, frequency: f64) -> Result<f64, ExperimentError> {
     let speeds = speeds(entry, frequency, 2_000, 20_000)?;
     let low = speeds.iter().copied().fold(f64::INFINITY, f64::min);
     let high = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let outer = speeds.iter().filter(|&&speed| (3.0 * (speed - low) / (high - low) - 1.5).abs() > 0.5).count();
+    let outer =
+        speeds.iter().filter(|&&speed| (3.0 * (speed - low) / (high - low) - 1.5).abs() > 0.5).count();
     Ok(outer as f64 / speeds.len() as f64)
 }
 
@@ -221,20 +257,44 @@ fn relaxation_words(entry: &Entry, frequency: f64) -> Result<String, ExperimentE
 
 /// Both speeds of the period-2 orbit.
 pub(super) fn two_speeds(entry: &Entry) -> Answers {
-    let speeds = orbit_speeds(entry, entry.input("frequency")?)?;
+    const STEP: f64 = 0.0002;
+    let frequency = entry.input("frequency")?;
+    let speeds = orbit_speeds(entry, frequency)?;
     let [fast, slow] = speeds[..] else { return Err(super::paper::lost("period-2 orbit")) };
-    Ok(vec![("fast", rounds_to_printed(entry, "fast", fast)?), ("slow", rounds_to_printed(entry, "slow", slow)?)])
+    let (printed_fast, printed_slow) = (entry.printed("fast")?, entry.printed("slow")?);
+    let mut legal = Vec::new();
+    for step in -50..=50 {
+        let near = frequency + STEP * f64::from(step);
+        if let [fast, slow] = orbit_speeds(entry, near)?[..]
+            && (fast - printed_fast.value).abs() <= printed_fast.half_unit
+            && (slow - printed_slow.value).abs() <= printed_slow.half_unit
+        {
+            legal.push(near);
+        }
+    }
+    let reason = legal.first().zip(legal.last()).map_or_else(
+        || "no frequency within 0.01 has both printed speeds".to_owned(),
+        |(from, to)| {
+            format!("both printed speeds are those of ω from {} to {}", rounded(*from, 5), rounded(*to, 5))
+        },
+    );
+    Ok(vec![
+        ("fast", rounds_to_printed(entry, "fast", fast)?.because(reason.as_str())),
+        ("slow", rounds_to_printed(entry, "slow", slow)?.because(reason.as_str())),
+    ])
 }
 
 /// The speed of the period-1 orbit, as three reports read it.
 pub(super) fn one_speed(entry: &Entry) -> Answers {
-    let exact = |name: &str| -> Result<f64, ExperimentError> { Ok(PI / entry.input_of(name, "frequency")?.value) };
+    let exact =
+        |name: &str| -> Result<f64, ExperimentError> { Ok(PI / entry.input_of(name, "frequency")?.value) };
     let input = |name: &str, input: &str| entry.input_of(name, input);
     let (fast, slow) = (input("toledo", "fast")?, input("toledo", "slow")?);
     let speed = exact("toledo")?;
-    let settled = orbit_speeds(entry, 1.66)?;
+    let frequency = input("toledo", "frequency")?.value;
+    let settled = orbit_speeds(entry, frequency)?;
     let both = [fast, slow].iter().all(|number| (speed - number.value).abs() <= number.half_unit);
-    let transient = speeds(entry, 1.66, 14, 2)?;
+    let transient = speeds(entry, frequency, 14, 2)?;
     let toledo = Answer::number(speed, 6, both && settled.len() == 1).because(format!(
         "a single speed, π/ω: no orbit of period 2 attracts yet. Both numbers are a transient; from their start impacts 15 and 16 \
          leave with {}",
@@ -252,7 +312,8 @@ pub(super) fn one_speed(entry: &Entry) -> Answers {
 /// One speed before the doubling, two behind it.
 pub(super) fn slowing(entry: &Entry) -> Answers {
     let frequency = |name: &str, input: &str| entry.input_of(name, input).map(|number| number.value);
-    let listed = |speeds: &[f64]| speeds.iter().map(|speed| rounded(*speed, 5)).collect::<Vec<_>>().join(" and ");
+    let listed =
+        |speeds: &[f64]| speeds.iter().map(|speed| rounded(*speed, 5)).collect::<Vec<_>>().join(" and ");
     let multiplier = |frequency: f64| -> Result<String, ExperimentError> {
         Ok(match verdict(entry, frequency)?.1 {
             Verdict::Periodic { multipliers, .. } => format!("multipliers {multipliers:.4}"),
@@ -263,7 +324,8 @@ pub(super) fn slowing(entry: &Entry) -> Answers {
     for (name, count) in [("one_value", 1), ("two_values", 2)] {
         let at = frequency(name, "frequency")?;
         let speeds = orbit_speeds(entry, at)?;
-        answers.push((name, Answer::statement(speeds.len() == count, listed(&speeds)).because(multiplier(at)?)));
+        answers
+            .push((name, Answer::statement(speeds.len() == count, listed(&speeds)).because(multiplier(at)?)));
     }
     let texts = ["first", "second", "third"]
         .map(|input| relaxation_words(entry, frequency("relaxation", input)?))

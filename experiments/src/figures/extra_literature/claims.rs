@@ -15,7 +15,9 @@ pub(super) fn claims(data: &ExtraLiteratureData) -> Vec<Claim> {
             evidence.push_str("; ");
             evidence.push_str(&answer.reason);
         }
-        let claim = |holds: bool| Claim::statement(ID, source.id.as_str(), quantity.as_str(), holds, evidence.as_str());
+        let claim = |holds: bool| {
+            Claim::statement(ID, source.id.as_str(), quantity.as_str(), holds, evidence.as_str())
+        };
         match (answer.judgement, answer.agreement) {
             (Judgement::NotComparable | Judgement::NothingPrinted, _) => None,
             (_, Some(agreement)) => Some(claim(true).judged_over(agreement)),

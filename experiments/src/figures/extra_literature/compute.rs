@@ -72,7 +72,7 @@ pub(super) fn compute(progress: &dyn Progress) -> Result<ExtraLiteratureData, Ex
 }
 
 /// An entry with its answers: one for each of its statements, in their order.
-pub(super) fn compared(entry: Entry) -> Result<Compared, ExperimentError> {
+fn compared(entry: Entry) -> Result<Compared, ExperimentError> {
     let none = || ExperimentError::NoData { quantity: entry.id.clone() };
     let (_, computation) = COMPUTATIONS.iter().find(|(id, _)| *id == entry.id).ok_or_else(none)?;
     let answers = computation(&entry)

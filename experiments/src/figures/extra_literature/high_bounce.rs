@@ -5,8 +5,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::elementary::{cos, sin_cos, wrapped_angle};
 use bouncing_disk::core::TangentGrowth;
+use bouncing_disk::core::elementary::{cos, sin_cos, wrapped_angle};
 use glam::DMat2;
 
 /// Impacts before an orbit is judged, and those that it is judged by.
@@ -95,8 +95,10 @@ impl HighBounceMap {
         periods.sort_unstable();
         periods.dedup();
         let of = |period: usize| orbits.iter().filter(|orbit| orbit.period == Some(period)).count();
-        let mut parts: Vec<String> =
-            periods.iter().map(|&period| format!("period {period} ({} of {})", of(period), orbits.len())).collect();
+        let mut parts: Vec<String> = periods
+            .iter()
+            .map(|&period| format!("period {period} ({} of {})", of(period), orbits.len()))
+            .collect();
         let others: Vec<f64> =
             orbits.iter().filter(|orbit| orbit.period.is_none()).filter_map(|orbit| orbit.exponent).collect();
         if let Some(largest) = others.iter().copied().reduce(f64::max) {
@@ -104,7 +106,10 @@ impl HighBounceMap {
         }
         let impossible = orbits.iter().map(|orbit| orbit.impossible_share).fold(0.0, f64::max);
         if impossible > 0.0 {
-            parts.push(format!("up to {:.0} % of the impacts leave it below the platform", 100.0 * impossible));
+            parts.push(format!(
+                "up to {:.0} % of the impacts leave it below the platform",
+                100.0 * impossible
+            ));
         }
         parts.join("; ")
     }
@@ -151,7 +156,8 @@ mod tests {
         assert!((derivative.determinant() - 0.6).abs() < 1e-14);
         let by_phase = map.step((start.0 + small, start.1));
         let by_speed = map.step((start.0, start.1 + small));
-        let slopes = [by_phase, by_speed].map(|(phase, speed)| [(phase - next.0) / small, (speed - next.1) / small]);
+        let slopes =
+            [by_phase, by_speed].map(|(phase, speed)| [(phase - next.0) / small, (speed - next.1) / small]);
         for (slope, expected) in slopes.concat().iter().zip(derivative.to_cols_array()) {
             assert!((slope - expected).abs() < 1e-4, "{slope} {expected}");
         }

@@ -45,7 +45,8 @@ pub(super) fn page(data: &ExtraLiteratureData) -> String {
 fn push_counts(text: &mut String, data: &ExtraLiteratureData) {
     text.push_str("\n| verdict | statements | meaning |\n| --- | --- | --- |\n");
     for judgement in Judgement::ALL {
-        let _ = writeln!(text, "| {} | {} | {} |", judgement.words(), data.count(judgement), meaning(judgement));
+        let _ =
+            writeln!(text, "| {} | {} | {} |", judgement.words(), data.count(judgement), meaning(judgement));
     }
 }
 
@@ -56,7 +57,9 @@ fn meaning(judgement: Judgement) -> &'static str {
         }
         Judgement::Differs => "it does not, or for 5 % at most; the reason is given",
         Judgement::DependsOnUnprintedDigits => "it does for some of the inputs that print alike",
-        Judgement::NotComparable => "the text that could be read lacks what would be needed; what can be said is given",
+        Judgement::NotComparable => {
+            "the text that could be read lacks what would be needed; what can be said is given"
+        }
         Judgement::NothingPrinted => "the source gives no number; what is given is the exact map's",
     }
 }
@@ -86,8 +89,10 @@ fn push_row(text: &mut String, row: &Row) {
         Judgement::Differs => "**differs**",
         judgement => judgement.words(),
     };
-    let share = answer.agreement.filter(|agreement| agreement.holding < agreement.tried && agreement.holding > 0);
-    let share = share.map_or_else(String::new, |share| format!(" ({} of {} inputs)", share.holding, share.tried));
+    let share =
+        answer.agreement.filter(|agreement| agreement.holding < agreement.tried && agreement.holding > 0);
+    let share =
+        share.map_or_else(String::new, |share| format!(" ({} of {} inputs)", share.holding, share.tried));
     let reason = if answer.reason.is_empty() { String::new() } else { format!("; {}", answer.reason) };
     let _ = writeln!(
         text,

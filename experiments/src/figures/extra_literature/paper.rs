@@ -8,7 +8,7 @@ use bouncing_disk::core::{
 
 use super::behaviour::map_at;
 use super::catalogue::Entry;
-use super::data::{Answer, rounded};
+use super::data::{Answer, Judgement, rounded};
 use super::{Answers, rounds_to_printed};
 use crate::experiment::ExperimentError;
 
@@ -16,8 +16,21 @@ use crate::experiment::ExperimentError;
 pub(super) fn doublings(entry: &Entry) -> Answers {
     const NAMES: [&str; 5] = ["doubling_1", "doubling_2", "doubling_3", "doubling_4", "doubling_5"];
     let cascade = doubling_cascade(entry.input("restitution")?, NAMES.len())?;
-    let answers = NAMES.into_iter().zip(cascade);
-    answers.map(|(name, found)| Ok((name, rounds_to_printed(entry, name, found.axial_forcing)?))).collect()
+    let answers = NAMES.into_iter().zip(cascade).map(|(name, found)| {
+        let answer = rounds_to_printed(entry, name, found.axial_forcing)?;
+        let distance = found.axial_forcing - entry.printed(name)?.value;
+        Ok((
+            name,
+            match answer.judgement {
+                Judgement::Agrees => answer,
+                _ => answer.because(format!(
+                    "by {distance:.0e}, while rounding moves it by {:.0e} at most: see the errata on Fig. 6",
+                    found.forcing_error
+                )),
+            },
+        ))
+    });
+    answers.collect()
 }
 
 /// Birth and end of the period-1 orbit, from its branch.

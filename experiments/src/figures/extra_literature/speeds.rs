@@ -31,8 +31,10 @@ pub(super) fn fastest() -> Result<Vec<Fastest>, ExperimentError> {
     for restitution in RESTITUTIONS {
         for peak_acceleration in PEAKS {
             let map = map(peak_acceleration, restitution)?;
-            let orbits: Vec<Orbit> =
-                starts(&map, 6)?.iter().map(|(map, start)| map.orbit(*start, ChatterPolicy::Complete)).collect();
+            let orbits: Vec<Orbit> = starts(&map, 6)?
+                .iter()
+                .map(|(map, start)| map.orbit(*start, ChatterPolicy::Complete))
+                .collect();
             let impacts = orbit_diagram(&orbits, TRANSIENT, RECORDED)?;
             let speeds = impacts.iter().flatten().map(|state| own_speed(&map, state).abs());
             all.push(Fastest {

@@ -3,12 +3,11 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{
-    BifurcationKind, Continuation, ContinuationParameter, ImpactMap, LyapunovOutcome, Verdict,
-    VerdictSettings, lyapunov_spectra,
+    BifurcationKind, Continuation, ContinuationParameter, CycleTrust, ImpactMap, Verdict, VerdictSettings,
 };
 
 use super::Answers;
-use super::behaviour::{Behaviour, Behaviours, behaviours, behaviours_of, map, verdicts_after_rest};
+use super::behaviour::{Behaviour, Behaviours, behaviours, behaviours_of, counted, map, verdicts_after_rest};
 use super::catalogue::Entry;
 use super::data::{Answer, rounded};
 use super::windows::{Window, cosine_at_doubling};
@@ -38,8 +37,9 @@ pub(super) fn one_impact(_: &Entry) -> Answers {
             (largest, branches) = (largest.max((at_birth - 1.0).abs()), branches + 1);
         }
     }
-    let birth = Answer::statement(branches > 0 && largest < 1e-9, format!("K = 1 at the fold, to {largest:.0e}"))
-        .because(format!("{branches} branches, r from 0.1 to 0.9 and k up to 3; also their birth of every k with k A_c"));
+    let birth =
+        Answer::statement(branches > 0 && largest < 1e-9, format!("K = 1 at the fold, to {largest:.0e}"))
+            .because(format!("{branches} branches, r from 0.1 to 0.9 and k up to 3"));
     let bounds: Vec<String> = [0.2, 0.3, 0.6, 0.95]
         .iter()
         .map(|&restitution| format!("{} at r = {restitution}", rounded(cosine_at_doubling(restitution), 4)))
@@ -55,7 +55,8 @@ fn peaks(amplitude_m: f64, frequency_hz: f64, gravity_m_per_s2: f64) -> Vec<f64>
     let angular = TAU * frequency_hz;
     let peak = |index: u32| {
         let share = f64::from(index) / f64::from(GRAVITIES - 1);
-        amplitude_m * angular * angular / (gravity_m_per_s2 + (OTHER_GRAVITY_M_PER_S2 - gravity_m_per_s2) * share)
+        amplitude_m * angular * angular
+            / (gravity_m_per_s2 + (OTHER_GRAVITY_M_PER_S2 - gravity_m_per_s2) * share)
     };
     (0..GRAVITIES).map(peak).collect()
 }
@@ -79,8 +80,10 @@ pub(super) fn stable_orbit(entry: &Entry) -> Answers {
         Some(pair) => format!("multipliers {:.3}", pair.node.multipliers()),
         None => "no such orbit".to_owned(),
     };
-    let text = format!("{multipliers} at P = {}, K = {}", rounded(peaks[0], 5), rounded(window.birth / peaks[0], 4));
-    let mut reason = format!("it attracts for P from {} to {}", rounded(window.birth, 5), rounded(window.doubling, 5));
+    let text =
+        format!("{multipliers} at P = {}, K = {}", rounded(peaks[0], 5), rounded(window.birth / peaks[0], 4));
+    let mut reason =
+        format!("it attracts for P from {} to {}", rounded(window.birth, 5), rounded(window.doubling, 5));
     if !window.holds(peaks[0]) {
         reason.push_str(&format!("; found there instead: {}", behaviours(&here, 10)?.words()));
     }
@@ -102,14 +105,21 @@ fn sticking_at(entry: &Entry, name: &'static str) -> Result<Answer, ExperimentEr
     let agreement = Agreement::of(again);
     let text = verdicts.first().map_or_else(String::new, cycle_words);
     let from_everywhere = behaviours(&maps[0], 8)?;
-    Ok(Answer::share(agreement, text)
-        .because(format!("P = {}; all starts: {}", rounded(peaks[0], 5), from_everywhere.words())))
+    Ok(Answer::share(agreement, text).because(format!(
+        "P = {}; all starts: {}",
+        rounded(peaks[0], 5),
+        from_everywhere.words()
+    )))
 }
 
-/// The maps, and what a disk does that leaves a rest.
+/// Impacts that a ball is followed for after a rest.
+const IMPACTS_AFTER_REST: u64 = 6_000;
+
+/// The maps, and what a ball does that leaves a rest.
 fn after_rests(peaks: &[f64], restitution: f64) -> Result<(Vec<ImpactMap>, Vec<Verdict>), ExperimentError> {
     let maps = peaks.iter().map(|peak| map(*peak, restitution)).collect::<Result<Vec<_>, _>>()?;
-    let settings = VerdictSettings { transient: 500, impacts: 5_000, ..VerdictSettings::default() };
+    let settings =
+        VerdictSettings { transient: 500, impacts: IMPACTS_AFTER_REST - 500, ..VerdictSettings::default() };
     let verdicts = verdicts_after_rest(&maps, settings)?;
     Ok((maps, verdicts))
 }
@@ -117,9 +127,9 @@ fn after_rests(peaks: &[f64], restitution: f64) -> Result<(Vec<ImpactMap>, Vec<V
 fn cycle_words(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Chattering { cycle, .. } => format!(
-            "thrown and caught with {} long flights in {} periods{}",
-            cycle.long_flights,
-            cycle.platform_periods,
+            "thrown and caught with {} in {}{}",
+            counted(cycle.long_flights, "long flight"),
+            counted(cycle.platform_periods, "period"),
             if cycle.is_exact() { "" } else { ", chosen by rounding" }
         ),
         other => format!("no second rest: {}", Behaviours::of([other]).words()),
@@ -133,54 +143,71 @@ pub(super) fn restitutions(entry: &Entry) -> Answers {
     let restitution = |name: &str| entry.input_of(name, "restitution").map(|number| number.value);
     let mut answers = Vec::new();
     for (name, modes) in [("bimodal", 2), ("trimodal", 3)] {
-        let maps =
-            peaks.iter().map(|peak| map(*peak, restitution(name)?).map_err(Into::into)).collect::<Result<Vec<_>, ExperimentError>>()?;
+        let maps = peaks
+            .iter()
+            .map(|peak| map(*peak, restitution(name)?).map_err(Into::into))
+            .collect::<Result<Vec<_>, ExperimentError>>()?;
         let found = behaviours_of(&maps, 8)?;
         let agreement = Agreement::of(found.iter().map(|at| at.iter().any(|one| one.modes() == Some(modes))));
         let words = found.first().map(Behaviours::words).unwrap_or_default();
-        let answer = Answer::share(agreement, words)
-            .because(format!("holds where an attractor has {modes} different flights, the short ones of a chatter not counted"));
+        let answer = Answer::share(agreement, words).because(format!(
+            "holds where an attractor has {modes} different flights, the short ones of a chatter not counted"
+        ));
         answers.push((name, answer));
     }
-    let (some, more) = (exponent(peaks[0], restitution("chaotic")?)?, exponent(peaks[0], restitution("more_chaotic")?)?);
-    let words = |found: &Growth| match found.exponent {
-        Some((exponent, error)) => format!(
-            "exponent {exponent:.3} ± {error:.3} per impact, on {} of {STARTS_OF_EXPONENT} starts without rest in {IMPACTS_OF_EXPONENT} impacts",
-            found.without_rest
-        ),
-        None => format!("every one of {STARTS_OF_EXPONENT} starts comes to rest within {IMPACTS_OF_EXPONENT} impacts"),
-    };
-    let positive = |found: &Growth| found.exponent.is_some_and(|(exponent, error)| exponent > 3.0 * error);
-    let larger = some.exponent.zip(more.exponent).is_some_and(|(some, more)| more.0 > some.0);
-    answers.push(("chaotic", Answer::statement(positive(&some), words(&some)).because(some.after_rest)));
-    answers.push(("more_chaotic", Answer::statement(positive(&more) && larger, words(&more)).because(more.after_rest)));
+    let some = growths(&peaks, restitution("chaotic")?)?;
+    let more = growths(&peaks, restitution("more_chaotic")?)?;
+    let positive = |found: &Growth| found.exponent > 3.0 * found.standard_error;
+    let chaotic = Agreement::of(some.iter().map(positive));
+    let larger = some.iter().zip(&more).map(|(some, more)| positive(more) && more.exponent > some.exponent);
+    answers.push(("chaotic", Answer::share(chaotic, growth_words(&some)).because(ROUND_OR_CHAOS)));
+    answers.push((
+        "more_chaotic",
+        Answer::share(Agreement::of(larger), growth_words(&more)).because(ROUND_OR_CHAOS),
+    ));
     Ok(answers)
 }
 
-const IMPACTS_OF_EXPONENT: u64 = 20_000;
-const STARTS_OF_EXPONENT: usize = 16;
+const ROUND_OR_CHAOS: &str = "judged by the growth of small differences from impact to impact of a ball that leaves a rest; their runs of \
+     20 periods cannot tell a long round from chaos";
 
-/// How fast orbits that do not rest come apart.
+/// How fast orbits that leave a rest come apart.
 struct Growth {
-    /// The mean exponent and its standard error; none where every orbit rests.
-    exponent: Option<(f64, f64)>,
-    without_rest: usize,
-    after_rest: String,
+    /// Logarithmic, per flight.
+    exponent: f64,
+    standard_error: f64,
+    verdict: Verdict,
 }
 
-fn exponent(peak_acceleration: f64, restitution: f64) -> Result<Growth, ExperimentError> {
-    let map = map(peak_acceleration, restitution)?;
-    let starts = super::behaviour::starts(&map, 4)?;
-    let outcomes = lyapunov_spectra(&starts, 500, IMPACTS_OF_EXPONENT)?;
-    let spectra: Vec<_> = outcomes.iter().filter_map(LyapunovOutcome::spectrum).collect();
-    let count = spectra.len() as f64;
-    let mean = spectra.iter().map(|spectrum| spectrum.largest).sum::<f64>() / count;
-    let variance = spectra.iter().map(|spectrum| spectrum.standard_error * spectrum.standard_error).sum::<f64>();
-    let (_, verdicts) = after_rests(&[peak_acceleration], restitution)?;
-    let after_rest = verdicts.first().map_or_else(String::new, |verdict| format!("after a rest: {}", cycle_words(verdict)));
-    Ok(Growth {
-        exponent: (!spectra.is_empty()).then(|| (mean, variance.sqrt() / count)),
-        without_rest: spectra.len(),
-        after_rest,
+fn growths(peaks: &[f64], restitution: f64) -> Result<Vec<Growth>, ExperimentError> {
+    let (_, verdicts) = after_rests(peaks, restitution)?;
+    let growth = |verdict: Verdict| {
+        let (exponent, standard_error) = match verdict {
+            Verdict::Chaotic { exponent, standard_error, .. } => (exponent, standard_error),
+            Verdict::Chattering { cycle, .. } => match cycle.trust {
+                CycleTrust::ChosenByRounding { exponent: Some(exponent), standard_error: Some(error) } => {
+                    (exponent, error)
+                }
+                // An exact round is none that comes apart.
+                _ => (0.0, 0.0),
+            },
+            _ => (0.0, 0.0),
+        };
+        Growth { exponent, standard_error, verdict }
+    };
+    Ok(verdicts.into_iter().map(growth).collect())
+}
+
+fn growth_words(growths: &[Growth]) -> String {
+    growths.first().map_or_else(String::new, |first| {
+        format!(
+            "exponent {:.2} ± {:.2} per flight; {}",
+            first.exponent,
+            first.standard_error,
+            match first.verdict {
+                Verdict::Chaotic { .. } => format!("no second rest in {IMPACTS_AFTER_REST} impacts"),
+                ref other => cycle_words(other),
+            }
+        )
     })
 }

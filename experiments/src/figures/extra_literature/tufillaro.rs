@@ -8,9 +8,7 @@ use bouncing_disk::core::{
 };
 
 use super::Answers;
-use super::behaviour::{
-    Behaviour, behaviours, behaviours_of, map, map_at, starts, verdicts_after_rest,
-};
+use super::behaviour::{Behaviour, behaviours, behaviours_of, map, map_at, starts, verdicts_after_rest};
 use super::catalogue::Entry;
 use super::data::{Answer, rounded};
 use super::high_bounce::birth;
@@ -21,6 +19,10 @@ use crate::experiment::ExperimentError;
 fn drive(entry: &Entry) -> Result<f64, ExperimentError> {
     let angular = TAU * entry.input("frequency_hz")?;
     Ok(angular * angular / entry.input("gravity_cm_per_s2")?)
+}
+
+fn drive_words(entry: &Entry) -> Result<String, ExperimentError> {
+    Ok(format!("{} Hz, {} cm/s²", entry.input("frequency_hz")?, entry.input("gravity_cm_per_s2")?))
 }
 
 /// The amplitudes of the first two doublings.
@@ -54,10 +56,11 @@ pub(super) fn amplitudes(entry: &Entry) -> Answers {
         rounded(most, 5)
     );
     let reason = format!(
-        "drive and restitution are in a table that is an image; the ratio fits for r from {} to {}. With 60 Hz, 981 cm/s² and r = \
-         {restitution}, which one reads elsewhere, {} cm",
+        "drive and restitution are in a table that is an image; the ratio fits for r from {} to {}. With {} and r = \
+         {restitution}, which is inferred, {} cm",
         legal.first().copied().unwrap_or(f64::NAN),
         legal.last().copied().unwrap_or(f64::NAN),
+        drive_words(entry)?,
         amplitudes.join(" and "),
     );
     Ok(vec![(NAME, Answer::not_comparable(text).with_value(ratio(restitution)?).because(reason))])
@@ -105,9 +108,10 @@ pub(super) fn contraction(entry: &Entry) -> Answers {
         extent(&on_orbit),
     );
     let reason = format!(
-        "start values and drive are in images. With 60 Hz, 981 cm/s² and r = {}: multipliers {:.4}; counted until the phases, \
+        "start values and drive are in images. With {} and r = {}, which is inferred: multipliers {:.4}; counted until the phases, \
          a hundred-thousandth of a period apart at first, differ by less than half of that, and until the orbit is a millionth \
          away",
+        drive_words(entry)?,
         map.restitution(),
         orbit.multipliers()
     );
@@ -158,7 +162,10 @@ pub(super) fn sticking(_: &Entry) -> Answers {
             None => released = false,
         }
     }
-    let release = Answer::statement(still.is_none() && released && largest < 1e-12, "at P = 1 never, above it where P sin τ = 1");
+    let release = Answer::statement(
+        still.is_none() && released && largest < 1e-12,
+        "at P = 1 never, above it where P sin τ = 1",
+    );
     let maps = (0..COLUMNS)
         .map(|column| {
             let share = (f64::from(column) + 0.5) / f64::from(COLUMNS);
@@ -167,22 +174,29 @@ pub(super) fn sticking(_: &Entry) -> Answers {
         .collect::<Result<Vec<_>, _>>()?;
     let settings = VerdictSettings { transient: 1_000, impacts: 20_000, ..VerdictSettings::default() };
     let verdicts = verdicts_after_rest(&maps, settings)?;
-    let (mut again, mut exactly, mut never, mut unknown) = (0_u32, 0_u32, 0_u32, 0_u32);
+    let (mut again, mut exactly, mut unknown) = (0_u32, 0_u32, 0_u32);
+    let mut never = Vec::new();
     for (map, verdict) in maps.iter().zip(&verdicts) {
         match Behaviour::of(verdict) {
             behaviour if behaviour.rests_again() => {
                 again += 1;
                 exactly += u32::from(repeats_exactly(map)?);
             }
-            Behaviour::Periodic { .. } | Behaviour::Chaotic => never += 1,
+            Behaviour::Periodic { .. } | Behaviour::Chaotic => never.push(map.vibration().axial_forcing()),
             _ => unknown += 1,
         }
     }
     let text = format!(
         "{again} of {COLUMNS} forcings from 1/π to {LAST} at r = {RESTITUTION} rest again, {exactly} of these in a round that \
-         repeats to the last bit; {never} never rest again"
+         repeats to the last bit; {} never rest again{}",
+        never.len(),
+        never.first().zip(never.last()).map_or_else(String::new, |(first, last)| format!(
+            ", between Γ = {} and {}",
+            rounded(*first, 4),
+            rounded(*last, 4)
+        ))
     );
-    let repetition = Answer::statement(again == exactly && never == 0, text).because(format!(
+    let repetition = Answer::statement(again == exactly && never.is_empty(), text).because(format!(
         "where the disk rests again the round repeats for ever, as it always leaves with the same phase and speed; but the \
          flight from a rest may end on an attractor without rest{}",
         if unknown > 0 { format!("; {unknown} undecided") } else { String::new() }
@@ -246,7 +260,9 @@ pub(super) fn both_attract(_: &Entry) -> Answers {
     let (high, low) = (0.75, 0.65);
     let peak = 0.5 * (birth(high, 2) + Window::of(high, 1).doubling);
     let found = behaviours(&map(peak, high)?, 12)?;
-    let has = |periods: u64| found.iter().any(|one| one == Behaviour::Periodic { impacts: 1, platform_periods: periods });
+    let has = |periods: u64| {
+        found.iter().any(|one| one == Behaviour::Periodic { impacts: 1, platform_periods: periods })
+    };
     let missing = birth(low, 2) - Window::of(low, 1).doubling;
     let text = format!("possible only for r > {}", rounded(threshold, 7));
     let answer = Answer::nothing_printed(text).with_value(threshold).because(format!(
@@ -266,7 +282,8 @@ pub(super) fn coexistence(_: &Entry) -> Answers {
     const RESTITUTION: f64 = 0.5;
     const STARTS: u32 = 6;
     let forcing = |column: u32| 0.3 + 0.7 * (f64::from(column) + 0.5) / f64::from(COLUMNS);
-    let maps = (0..COLUMNS).map(|column| map_at(forcing(column), RESTITUTION)).collect::<Result<Vec<_>, _>>()?;
+    let maps =
+        (0..COLUMNS).map(|column| map_at(forcing(column), RESTITUTION)).collect::<Result<Vec<_>, _>>()?;
     let found = behaviours_of(&maps, STARTS)?;
     let of = |attractors: usize| found.iter().filter(|column| column.decided() == attractors).count();
     let more = found.iter().filter(|column| column.decided() > 2).count();
@@ -304,8 +321,10 @@ pub(super) fn high_bounce(_: &Entry) -> Answers {
         "and a doubling after each; it knows no earlier impact, no rest and therefore no chatter, and its area shrinks by r and not \
          by r² in an impact",
     );
-    let listed: Vec<String> =
-        errors.iter().map(|(restitution, error)| format!("{:.1} % at {restitution}", 100.0 * error)).collect();
+    let listed: Vec<String> = errors
+        .iter()
+        .map(|(restitution, error)| format!("{:.1} % at {restitution}", 100.0 * error))
+        .collect();
     let doubling = Answer::nothing_printed(format!("P too small by {}", listed.join(", ").replace('-', "")))
         .because("k = 1; P sin τ = 1 in place of 2(1 + r²)/(1 + r)², docs/numerics/dynamics.md");
     Ok(vec![("births", births), ("doubling_error", doubling)])
