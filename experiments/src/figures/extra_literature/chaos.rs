@@ -1,8 +1,8 @@
 //! Chaos under a constant restitution, its end, and orbits of three impacts.
 
 use bouncing_disk::core::{
-    BifurcationKind, Branch, ChatterPolicy, Continuation, ContinuationParameter, ImpactMap, LyapunovOutcome,
-    Orbit, OrbitSearch, Verdict, lyapunov_spectra, orbit_diagram, verdicts,
+    BifurcationKind, Branch, ChatterPolicy, Continuation, ContinuationParameter, ImpactMap, ImpactState,
+    LyapunovOutcome, Multipliers, Orbit, OrbitSearch, Verdict, lyapunov_spectra, orbit_diagram, verdicts,
 };
 
 use super::Answers;
@@ -159,45 +159,62 @@ pub(super) fn mechanism(_: &Entry) -> Answers {
     const IMPACTS: usize = 20_000;
     let (survived, _) = crisis_bracket(RESTITUTION, 20_000)?;
     let states = on_attractor(RESTITUTION)?;
-    let mut listed = Vec::new();
+    let mut touched = Vec::new();
     for below in BELOW {
         let map = map_at(survived - below, RESTITUTION)?;
         let orbits: Vec<Orbit> =
             states.iter().map(|state| map.orbit(*state, ChatterPolicy::Complete)).collect();
         let impacts = orbit_diagram(&orbits, SKIPPED, IMPACTS)?.concat();
         let slowest = impacts.iter().map(|state| -state.velocity()).fold(f64::INFINITY, f64::min);
-        listed.push((below, slowest, nearest_saddle(&map, &impacts)?));
+        touched.push(Touched {
+            slowest,
+            margin: graze_margin(&map, &impacts)?,
+            saddle: nearest_saddle(&map, &impacts)?,
+        });
     }
-    let slowest: Vec<String> = listed.iter().map(|(_, slowest, _)| rounded(*slowest, 3)).collect();
-    let nearest: Vec<String> = listed
-        .iter()
-        .map(|(below, _, (impacts, periods, distance))| {
-            format!("of {impacts} in {periods}, {} away at {below:.0e}", rounded(*distance, 2))
-        })
-        .collect();
+    let listed = |of: fn(&Touched) -> String| touched.iter().map(of).collect::<Vec<_>>().join(", ");
     let answer = Answer::nothing_printed(format!(
-        "no graze: the slowest impact of the attractor has the speed {} g/ω at 1e-3, 1e-4 and 1e-5 below the crisis. The nearest saddle with positive multipliers is one of three impacts at most: {}",
-        slowest.join(", "),
-        nearest.join(", ")
+        "1e-3, 1e-4 and 1e-5 below the crisis: slowest impact {} g/ω, smallest gap on the way of a flight {} g/ω²; the nearest saddle with positive \
+         multipliers and at most three impacts is {} away",
+        listed(|of| rounded(of.slowest, 3)),
+        listed(|of| of.margin.map_or_else(|| "none".to_owned(), |margin| rounded(margin, 2))),
+        listed(|of| format!("{} ({} in {})", rounded(of.saddle.2, 2), of.saddle.0, of.saddle.1)),
     ))
     .because(
-        "so it is no contact with the sticking set; a saddle that the attractor comes ever nearer to is what a boundary crisis \
-         needs. extra-crisis has the mechanism itself",
+        "an attractor that comes ever nearer to a saddle is what a boundary crisis needs, one that comes to an impact without speed or a gap of \
+         zero would graze; extra-crisis has the mechanism itself",
     );
     Ok(vec![("mechanism", answer)])
 }
 
+/// What an attractor is near to.
+struct Touched {
+    /// Units of g/omega.
+    slowest: f64,
+    /// The smallest minimum of the gap on the way of a flight (g/omega^2); none where no gap has one.
+    margin: Option<f64>,
+    /// Impacts and periods of the nearest saddle, and its distance.
+    saddle: (usize, u64, f64),
+}
+
+/// The smallest minimum of the gap on the way of the flights after some of the impacts.
+fn graze_margin(map: &ImpactMap, impacts: &[ImpactState]) -> Result<Option<f64>, ExperimentError> {
+    const EVERY: usize = 8;
+    let mut least = f64::INFINITY;
+    for state in impacts.iter().step_by(EVERY) {
+        let impact = map.step(*state)?;
+        least = least.min(map.vibration().graze_margin(map.rebound(*state), &impact));
+    }
+    Ok(least.is_finite().then_some(least))
+}
+
 /// The nearest saddle with positive multipliers that the attractor does not visit: impacts, periods, and its distance.
-fn nearest_saddle(
-    map: &ImpactMap,
-    impacts: &[bouncing_disk::core::ImpactState],
-) -> Result<(usize, u64, f64), ExperimentError> {
+fn nearest_saddle(map: &ImpactMap, impacts: &[ImpactState]) -> Result<(usize, u64, f64), ExperimentError> {
     let search = OrbitSearch::new(3, 4)?.with_starts(32, 32)?;
     let peak = map.vibration().peak_acceleration();
     let mut nearest: Option<(usize, u64, f64)> = None;
     for orbit in map.periodic_orbits(&search)?.orbits {
-        let saddle =
-            matches!(orbit.multipliers(), bouncing_disk::core::Multipliers::Real(large, _) if large > 1.0);
+        let saddle = matches!(orbit.multipliers(), Multipliers::Real(large, _) if large > 1.0);
         if !saddle {
             continue;
         }

@@ -165,7 +165,7 @@ pub(super) fn periods(entry: &Entry) -> Answers {
             "periods",
             Answer::statement(all, text).because(format!(
                 "their frequencies are not in the text: {COLUMNS} values of P from 0.05 to 1.2 with 144 starts, followed for {} impacts each, in \
-                 which orbits shrink by {:.0e}",
+                 which distances from a focus shrink to {:.0e} of themselves",
                 SETTINGS.transient + SETTINGS.impacts,
                 bouncing_disk::core::elementary::pow(restitution, (SETTINGS.transient + SETTINGS.impacts) as f64)
             )),
