@@ -20,7 +20,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let root = package.parent().ok_or("the package lies in the workspace")?.to_owned();
     let figures = package.join("src/figures");
     let mut shared = Vec::new();
-    for part in ["Cargo.toml", "Cargo.lock", "crates", "data/cases", "data/paper", "experiments"] {
+    for part in
+        ["Cargo.toml", "Cargo.lock", "crates", "data/cases", "data/literature", "data/paper", "experiments"]
+    {
         let path = root.join(part);
         println!("cargo:rerun-if-changed={}", path.display());
         collect(&path, &mut shared)?;

@@ -137,6 +137,12 @@ impl From<bouncing_disk::Error> for ExperimentError {
     }
 }
 
+impl From<bouncing_disk::core::Error> for ExperimentError {
+    fn from(error: bouncing_disk::core::Error) -> Self {
+        Self::model(error)
+    }
+}
+
 impl ExperimentError {
     /// Wraps an error of the model: `model.run(..).map_err(ExperimentError::model)?`.
     pub fn model(error: impl std::error::Error + Send + Sync + 'static) -> Self {

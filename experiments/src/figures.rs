@@ -14,6 +14,7 @@ pub mod extra_cascade;
 pub mod extra_design;
 pub mod extra_efficiency;
 pub mod extra_fit;
+pub mod extra_literature;
 pub mod extra_lyapunov;
 pub mod extra_regimes;
 pub mod extra_restitution_law;

@@ -24,6 +24,7 @@ pub mod experiment;
 pub mod figures;
 mod finite;
 pub mod json;
+pub mod literature;
 pub mod measured;
 pub mod output;
 pub mod page;

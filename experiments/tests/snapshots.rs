@@ -58,6 +58,7 @@ snapshots![
     extra_regimes,
     extra_branches,
     extra_cascade,
+    extra_literature,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

@@ -10,6 +10,7 @@ use bouncing_disk_experiments::cache_key::Stale;
 use bouncing_disk_experiments::count::Counts;
 use bouncing_disk_experiments::errata;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
+use bouncing_disk_experiments::literature;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::results;
@@ -29,6 +30,8 @@ const DEFAULT_FOLDER: &str = "target/figures";
 const DRAFTS_FOLDER: &str = "draft";
 /// What repairs the documentation.
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
+/// What repairs the page of the literature.
+const LITERATURE_COMMAND: &str = "cargo xtask figures --extras --docs";
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
 /// The most computing threads: more than any machine has that this runs on, and few enough to be started at
@@ -58,11 +61,13 @@ pub(crate) struct Options {
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
-    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures is missing or out of date
+    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with --extras
+    /// docs/literature.md, is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
-    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it
-    #[arg(long, conflicts_with_all = ["ids", "extras", "list", "check", "quality"])]
+    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it; with
+    /// --extras make extra-literature and write docs/literature.md
+    #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date
     #[arg(long)]
@@ -162,6 +167,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     }
     start_threads(options)?;
     let folder = OutputFolder::create(options.folder())?;
+    if options.docs && options.extras {
+        let selected: Vec<&dyn RegisteredExperiment> =
+            selected.into_iter().filter(|entry| literature::is_source(entry.id())).collect();
+        return write_literature(&Run { options, entries: &entries, selected: &selected }, &folder);
+    }
     let run = Run { options, entries: &entries, selected: &selected };
     if options.docs {
         return write_docs(&run, &folder);
@@ -195,6 +205,21 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     results::write(errata::TEMPLATE, &registry::paper(), folder, &drafts, &docs)
         .context("the documentation cannot be written")?;
     say!("{} is up to date", visible_path(&docs.path().join(results::RESULTS_FILE)))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Makes the comparison with the literature, and its page.
+fn write_literature(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
+    let code = make(run, Quality::Paper, &Measurements::none(), folder)?;
+    if code != ExitCode::SUCCESS {
+        say!("the documentation is left as it was")?;
+        return Ok(code);
+    }
+    let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
+    for entry in run.selected {
+        literature::write(*entry, folder, &docs).context("the documentation cannot be written")?;
+    }
+    say!("{} is up to date", visible_path(&docs.path().join(literature::LITERATURE_FILE)))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -299,12 +324,19 @@ fn check(
         .filter(|entry| !registry::is_extra(entry.id()))
         .filter(|entry| measurements.digest(entry.measurements()) == none.digest(entry.measurements()))
         .collect();
-    let committed = results::outdated(errata::TEMPLATE, &comparable, options.quality, &folder, &docs)?;
+    let mut committed = results::outdated(errata::TEMPLATE, &comparable, options.quality, &folder, &docs)?;
     for name in &committed {
         say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
     }
     if !committed.is_empty() {
         say!("to repair: {DOCS_COMMAND}")?;
+    }
+    for entry in selected.iter().filter(|entry| literature::is_source(entry.id())) {
+        if literature::is_outdated(*entry, &folder, &docs)? {
+            say!("{DOCS_FOLDER}/{}: missing or out of date", literature::LITERATURE_FILE)?;
+            say!("to repair: {LITERATURE_COMMAND}")?;
+            committed.push(literature::LITERATURE_FILE.to_owned());
+        }
     }
     if outdated.is_empty() && common.is_empty() {
         if !committed.is_empty() || !faults.is_empty() {
@@ -447,6 +479,23 @@ mod tests {
                 format!("cargo xtask figures --out={word}")
             );
         }
+    }
+
+    /// The options as a whole command line.
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    #[test]
+    fn the_documentation_is_written_of_all_or_of_the_extras() {
+        use clap::Parser as _;
+        let parse = |arguments: &[&str]| Line::try_parse_from([&["figures"], arguments].concat());
+        let both = parse(&["--docs", "--extras"]).map(|line| (line.options.docs, line.options.extras));
+        assert_eq!(both.ok(), Some((true, true)));
+        assert!(parse(&["--docs"]).is_ok() && parse(&["--extras", "--check"]).is_ok());
+        assert!(parse(&["--docs", "fig01"]).is_err() && parse(&["--docs", "--check"]).is_err());
     }
 
     #[test]
