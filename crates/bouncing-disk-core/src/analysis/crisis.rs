@@ -17,7 +17,6 @@ mod tangency;
 
 use tangency::{Failure, Tangency};
 
-
 /// Where a crisis is sought, and how closely.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -189,7 +188,9 @@ pub enum NoCrisis {
     },
     /// The unstable manifold has no fold next to the stable one: the attractor touches another saddle, or its edge
     /// is no fold.
-    #[error("where samples come to rest, Gamma = {forcing}, no fold is next to the saddle: the nearest is {nearest:e} off")]
+    #[error(
+        "where samples come to rest, Gamma = {forcing}, no fold is next to the saddle: the nearest is {nearest:e} off"
+    )]
     NoFold {
         /// Gamma at which samples come to rest.
         forcing: f64,

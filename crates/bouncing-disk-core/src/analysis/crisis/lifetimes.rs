@@ -107,14 +107,21 @@ impl Crisis {
             let lived = survival_times_observed(&batch, impacts, observer)?;
             let ended = lived.iter().filter(|own| **own < impacts).count() as u64;
             let total = lived.iter().fold(0.0, |sum, own| sum + *own as f64);
-            let (mean, relative_error) =
-                if ended > 0 { (total / ended as f64, 1.0 / (ended as f64).sqrt()) } else { (f64::MAX, f64::MAX) };
+            let (mean, relative_error) = if ended > 0 {
+                (total / ended as f64, 1.0 / (ended as f64).sqrt())
+            } else {
+                (f64::MAX, f64::MAX)
+            };
             lives.push(MeanLife { beyond, impacts: mean, relative_error, ended, orbits: orbits as u64 });
         }
         let points: Vec<_> = lives
             .iter()
             .filter(|life| life.ended >= FEWEST_ENDED && life.impacts > 0.0)
-            .map(|life| PowerLawPoint { x: life.beyond, y: life.impacts, relative_error: life.relative_error })
+            .map(|life| PowerLawPoint {
+                x: life.beyond,
+                y: life.impacts,
+                relative_error: life.relative_error,
+            })
             .collect();
         let scaling = fit_power_law(&points)?;
         Ok(CrisisLives { lives, scaling })
@@ -130,12 +137,17 @@ impl Crisis {
         let map = search.map(self.forcing * (1.0 - BELOW))?;
         let inside = map.refine(&self.inside.states)?;
         let piece = search.first_piece(&map, &inside)?;
-        let none = Error::NotSettled { what: "an orbit on the attractor below a crisis", iterations: 0, residual: 0.0 };
+        let none = Error::NotSettled {
+            what: "an orbit on the attractor below a crisis",
+            iterations: 0,
+            residual: 0.0,
+        };
         let Some((mut state, _)) = piece.first_piece(0.5)? else { return Err(none) };
         let mut starts = Vec::with_capacity(count as usize);
         let mut between = TRANSIENT;
         while (starts.len() as u64) < count {
-            let next = map.state_after_observed(state, between as usize, ChatterPolicy::Complete, observer)?;
+            let next =
+                map.state_after_observed(state, between as usize, ChatterPolicy::Complete, observer)?;
             state = next.ok_or(none)?;
             starts.push(state);
             between = BETWEEN_STARTS;

@@ -255,7 +255,11 @@ impl Setting<'_> {
 
 impl Tangency<'_> {
     /// The fold that comes first to lie on the stable manifold, of those that lie next to it at `start`.
-    pub(super) fn first(&self, start: f64, work: &mut WorkCount<'_>) -> Result<Result<Solution, Failure>, Error> {
+    pub(super) fn first(
+        &self,
+        start: f64,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Result<Solution, Failure>, Error> {
         let (tips, nearest) = self.setting(start)?.tips(work)?;
         let mut failure = Failure::NoFold { nearest };
         let mut first: Option<Solution> = None;
@@ -294,7 +298,9 @@ impl Tangency<'_> {
     /// distance with Gamma.
     fn crossing(&self, start: f64, step: f64, tip: &Tip) -> Result<Result<Crossing, Failure>, Error> {
         let mut tip = *tip;
-        let Some(mut fold) = self.distance(start, &tip)? else { return Ok(Err(Failure::NoFold { nearest: f64::MAX })) };
+        let Some(mut fold) = self.distance(start, &tip)? else {
+            return Ok(Err(Failure::NoFold { nearest: f64::MAX }));
+        };
         let (mut last, mut forcing, mut change) = (start, start + step, step);
         let mut shortened = 0;
         for _ in 0..MAX_STEPS {
@@ -344,7 +350,9 @@ impl Tangency<'_> {
             // So far that the fold stays next to the saddle after one round more.
             let round = self.setting(forcing)?;
             tip.flights += round.saddle.flights as u32;
-            step = (change.abs() * 1.0e-3).max(1.0e-13 * forcing).min(1.0e-4 / (rate * round.saddle.unstable).abs());
+            step = (change.abs() * 1.0e-3)
+                .max(1.0e-13 * forcing)
+                .min(1.0e-4 / (rate * round.saddle.unstable).abs());
         }
         Ok(Err(Failure::NotSettled { forcing, change }))
     }

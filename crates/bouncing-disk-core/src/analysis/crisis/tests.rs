@@ -40,7 +40,9 @@ fn the_attractor_of_fig_6_touches_a_saddle_of_three_impacts() {
     // One saddle: its own manifolds touch.
     let Multipliers::Real(large, small) = crisis.inside.multipliers() else { panic!("a saddle") };
     let expected = ln(small) / (2.0 * ln(large * small));
-    assert!((crisis.life_exponent().expect("known") - expected).abs() < 1e-12 && (0.7..0.8).contains(&expected));
+    assert!(
+        (crisis.life_exponent().expect("known") - expected).abs() < 1e-12 && (0.7..0.8).contains(&expected)
+    );
     // The orbit begins and ends next to the saddle, and is an orbit.
     let map = map(crisis.forcing);
     for pair in crisis.orbit.windows(2) {
@@ -141,7 +143,10 @@ fn illegal_searches_are_refused() {
         assert!(CrisisSearch::new(restitution, (low, high)).is_err(), "{restitution} {low} {high}");
     }
     let search = stored(&search());
-    assert!(search.with_samples(Side::Later, 63, 100).is_err() && search.with_samples(Side::Later, 64, 9).is_err());
+    assert!(
+        search.with_samples(Side::Later, 63, 100).is_err()
+            && search.with_samples(Side::Later, 64, 9).is_err()
+    );
 }
 
 #[test]

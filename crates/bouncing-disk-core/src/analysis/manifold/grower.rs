@@ -4,9 +4,7 @@
 use glam::DVec2;
 
 use super::saddle::Saddle;
-use super::{
-    ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
-};
+use super::{ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side};
 use crate::analysis::periodic::phase_difference;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
