@@ -56,6 +56,8 @@ snapshots![
     extra_design,
     extra_lyapunov,
     extra_regimes,
+    extra_crisis,
+    extra_manifolds,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

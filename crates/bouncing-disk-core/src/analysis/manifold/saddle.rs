@@ -42,7 +42,7 @@ impl Saddle {
             worst = worst.max(phase).max(speed);
             state = target;
         }
-        if !(worst <= CLOSES) {
+        if worst.is_nan() || worst > CLOSES {
             return Err(Error::NotSettled { what: "the orbit of a saddle", iterations: 1, residual: worst });
         }
         // The speeds cancel around the orbit: r^(2 n) exactly.
