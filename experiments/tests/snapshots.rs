@@ -59,6 +59,8 @@ snapshots![
     extra_branches,
     extra_cascade,
     extra_literature,
+    extra_crisis,
+    extra_manifolds,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

@@ -74,12 +74,17 @@ pub use analysis::closing::ContinuationParameter;
 pub use analysis::continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchTip, Continuation,
 };
+pub use analysis::crisis::lifetimes::{CrisisLives, MeanLife};
+pub use analysis::crisis::{Crisis, CrisisSearch, NoCrisis};
 pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::spectrum::{
     LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,
 };
 pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
+pub use analysis::manifold::{
+    Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
+};
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::pair::{PeriodOneOrbit, PeriodOnePair};
 pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};

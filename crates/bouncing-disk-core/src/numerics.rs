@@ -10,6 +10,7 @@ pub mod digest;
 pub(crate) mod double_double;
 pub mod elementary;
 pub mod minimum;
+pub mod power_law;
 pub mod random;
 pub(crate) mod real;
 pub mod roots;

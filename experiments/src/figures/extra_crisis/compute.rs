@@ -1,0 +1,121 @@
+//! The computation of the figure.
+
+use bouncing_disk::core::{
+    ChatterPolicy, CrisisSearch, Error, ImpactMap, ImpactState, Manifold, ManifoldKind, ManifoldSettings,
+    PeriodicOrbit, Vibration, orbit_diagram,
+};
+
+use super::data::{ExtraCrisisData, Spot};
+use crate::experiment::{ExperimentError, Quality};
+use crate::paper;
+use crate::progress::Progress;
+
+/// Γ between which the crisis is sought.
+const RANGE: (f64, f64) = (0.5595, 0.5615);
+/// The saddle at its edge, roughly: phase in periods and normalised speed of its impacts.
+const SADDLE: [(f64, f64); 3] = [(0.120_64, 1.498_95), (0.252_71, 1.097_92), (0.954_82, 1.403_15)];
+/// The largest distance in Γ at which lives are counted, and how many distances there are in each factor of two.
+const FARTHEST: f64 = 1.0e-3;
+const IN_A_FACTOR_OF_TWO: u32 = 2;
+
+pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraCrisisData, ExperimentError> {
+    let restitution = paper::section_four()?.restitution;
+    progress.start(4, "parts");
+    let model = ExperimentError::model;
+    let search = CrisisSearch::new(restitution, RANGE).map_err(model)?;
+    let below = map(0.5 * (RANGE.0 + RANGE.1), restitution)?;
+    let saddle = below.refine(&guess().map_err(model)?).map_err(model)?;
+    let none = || ExperimentError::NoData { quantity: "a crisis".to_owned() };
+    let crisis = search.crisis(&saddle, &saddle).map_err(model)?.map_err(|_| none())?;
+    let node = below.period_one(1).ok_or_else(none)?;
+    let node = below.refine(&[node]).map_err(model)?;
+    let midst = search.crisis(&node, &saddle).map_err(model)?.map_err(|_| none())?;
+    progress.advance(1);
+    let at = map(crisis.forcing, restitution)?;
+    let recorded = quality.choose(4_000, 40_000);
+    let middle = crisis.orbit.len() / 2;
+    let start = *crisis.orbit.get(middle).ok_or_else(none)?;
+    let attractor =
+        orbit_diagram(&[at.orbit(start, ChatterPolicy::Complete)], 200, recorded).map_err(model)?;
+    progress.advance(1);
+    let grown = |kind: ManifoldKind, arclength: f64| {
+        let settings = ManifoldSettings::new(arclength, 100_000)?.with_resolution(0.03, 0.1)?;
+        at.manifold(&crisis.touched, kind, &settings)
+    };
+    let (stable, unstable) = quality.choose((30.0, 6.0), (120.0, 16.0));
+    let stable = pieces(&grown(ManifoldKind::Stable, stable).map_err(model)?);
+    let unstable = pieces(&grown(ManifoldKind::Unstable, unstable).map_err(model)?);
+    progress.advance(1);
+    let (orbits, most_impacts, factors) = quality.choose((60, 300_000, 8), (1_000, 20_000_000, 14));
+    let ratio = 0.5_f64.sqrt();
+    let mut beyond = vec![FARTHEST];
+    for _ in 0..IN_A_FACTOR_OF_TWO * factors {
+        beyond.extend(beyond.last().map(|last| ratio * last));
+    }
+    let lives = crisis.lives(&beyond, orbits, most_impacts).map_err(model)?;
+    progress.advance(1);
+    Ok(ExtraCrisisData {
+        midst_forcing: midst.forcing,
+        attractor: attractor.iter().flatten().map(|state| spot(*state)).collect(),
+        stable,
+        unstable,
+        saddle: crisis.touched.states.iter().map(|state| spot(*state)).collect(),
+        tangency: crisis.orbit.iter().map(|state| spot(*state)).collect(),
+        magnified: magnified(&crisis.orbit, &crisis.touched).ok_or_else(none)?,
+        lives,
+        orbits,
+        most_impacts,
+        expected_exponent: crisis.life_exponent(),
+        crisis,
+    })
+}
+
+fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
+    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
+    ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
+}
+
+fn guess() -> Result<Vec<ImpactState>, Error> {
+    SADDLE
+        .iter()
+        .map(|&(cycles, speed)| ImpactState::from_normalised(cycles * std::f64::consts::TAU, speed))
+        .collect()
+}
+
+fn spot(state: ImpactState) -> Spot {
+    let cycles = state.phase().cycles();
+    (if cycles < 0.5 { cycles } else { cycles - 1.0 }, state.normalised_speed())
+}
+
+/// The impact of the tangency that lies farthest from the saddle: where the manifold folds.
+fn magnified(orbit: &[ImpactState], saddle: &PeriodicOrbit) -> Option<Spot> {
+    let distance = |state: &ImpactState| {
+        let (phase, speed) = spot(*state);
+        saddle
+            .states
+            .iter()
+            .map(|own| spot(*own))
+            .fold(f64::INFINITY, |least, own| least.min((phase - own.0).abs().max((speed - own.1).abs())))
+    };
+    let farthest = (0..orbit.len()).max_by(|&i, &j| distance(&orbit[i]).total_cmp(&distance(&orbit[j])))?;
+    // The first impact after it that is back at the edge.
+    orbit[farthest..].iter().find(|state| distance(state) < 0.02).map(|state| spot(*state))
+}
+
+/// The pieces of a manifold, cut where the phase passes half a period.
+fn pieces(manifold: &Manifold) -> Vec<Vec<Spot>> {
+    let mut pieces = Vec::new();
+    for piece in manifold.pieces() {
+        let mut current: Vec<Spot> = Vec::new();
+        for state in &piece.states {
+            let next = spot(*state);
+            if current.last().is_some_and(|last| (last.0 - next.0).abs() > 0.5) {
+                pieces.push(std::mem::take(&mut current));
+            }
+            current.push(next);
+        }
+        pieces.push(current);
+    }
+    pieces.retain(|piece| piece.len() > 1);
+    pieces
+}
