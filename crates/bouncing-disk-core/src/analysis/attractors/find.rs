@@ -12,7 +12,7 @@ use crate::analysis::verdict::Verdict;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::fraction::Fraction;
-use crate::observer::{Observer, Progress, Watch};
+use crate::observer::{Observer, Progress};
 use crate::platform::phase::Phase;
 
 use core::f64::consts::PI;
@@ -298,10 +298,8 @@ impl<'a> Finder<'a> {
             |kind, count| Ok::<_, Error>(Attractor { kind, starts: Fraction::new(count, starts)? });
         let mut all = vec![attractor(AttractorKind::Rest(after), self.rests)?];
         let part = self.part();
-        let watch = part.whole(Watch::begin(&part, 0, 1))?;
-        let mut work = watch.work();
         for Periodic { orbit, starts } in self.periodic {
-            let radius = catching_radius(self.map, &orbit, &mut |flights| work.spend(flights));
+            let radius = catching_radius(self.map, &orbit, &part);
             let known = KnownOrbit::new(orbit, part.whole(radius)?.unwrap_or(0.0))?;
             all.push(attractor(AttractorKind::Periodic(known), starts)?);
         }

@@ -1,7 +1,5 @@
 //! Attractors and the shares of their basins from one forcing to the next.
 
-use core::f64::consts::PI;
-
 use super::settings::AttractorSearch;
 use super::{Attractor, AttractorKind, Attractors};
 use crate::analysis::periodic::phase_difference;
@@ -38,7 +36,7 @@ pub struct AttractorsAt {
     /// Which of [`BasinFractions::followed`] each of them is.
     pub followed: Vec<usize>,
     /// How far each of them is from where it was at the forcing before (rad; a radian counts as much as the
-    /// speed P): the mean distance of an impact of one from the nearest of the other, the larger of both ways.
+    /// speed P at this one): the mean distance of an impact of one from the nearest of the other, the larger of both ways.
     /// `None` of one that appears, and of the disk at rest.
     pub moved: Vec<Option<f64>>,
 }
@@ -96,29 +94,28 @@ impl BasinFractions {
     }
 }
 
-/// Where an attractor is: phase (rad) and velocity in units of the speed P.
+/// Where an attractor is: phase (rad) and velocity (units of g/omega).
 type Places = Vec<(f64, f64)>;
 
 /// The places of an attractor that moves; none of the disk at rest.
-fn places(attractor: &Attractor, peak: f64) -> Option<Places> {
+fn places(attractor: &Attractor) -> Option<Places> {
     match &attractor.kind {
         AttractorKind::Rest(_) => None,
         AttractorKind::Periodic(known) => {
             let states = known.orbit().states.iter();
-            Some(states.map(|state| (state.phase().angle(), state.velocity() / peak)).collect())
+            Some(states.map(|state| (state.phase().angle(), state.velocity())).collect())
         }
         AttractorKind::Chaotic { recurrence, .. } | AttractorKind::Unclassified { recurrence, .. } => {
-            let centres = recurrence.cells.centres();
-            Some(centres.map(|(angle, velocity)| (angle, velocity / peak)).collect())
+            Some(recurrence.cells.centres().collect())
         }
     }
 }
 
-/// The mean distance of a place of `one` from the nearest of `other`.
-fn one_way(one: &Places, other: &Places) -> f64 {
+/// The mean distance of a place of `one` from the nearest of `other` (rad; a radian counts as much as the speed P).
+fn one_way(one: &Places, other: &Places, peak: f64) -> f64 {
     let nearest = |from: &(f64, f64)| {
         let square = other.iter().fold(f64::INFINITY, |least, to| {
-            let (phase, velocity) = (phase_difference(to.0, from.0), to.1 - from.1);
+            let (phase, velocity) = (phase_difference(to.0, from.0), (to.1 - from.1) / peak);
             least.min(phase * phase + velocity * velocity)
         });
         square.sqrt()
@@ -128,12 +125,16 @@ fn one_way(one: &Places, other: &Places) -> f64 {
 
 /// For each of `new` the number of the one of `old` that it was, and the distance: the nearest pairs within
 /// `reach` first, each once.
-fn matched(old: &[Option<Places>], new: &[Option<Places>], reach: f64) -> Vec<Option<(usize, f64)>> {
+fn matched(
+    old: &[Option<Places>],
+    new: &[Option<Places>],
+    (reach, peak): (f64, f64),
+) -> Vec<Option<(usize, f64)>> {
     let mut pairs = Vec::new();
     for (i, from) in old.iter().enumerate() {
         for (j, to) in new.iter().enumerate() {
             if let (Some(from), Some(to)) = (from, to) {
-                let distance = one_way(from, to).max(one_way(to, from));
+                let distance = one_way(from, to, peak).max(one_way(to, from, peak));
                 if distance <= reach {
                     pairs.push((distance, i, j));
                 }
@@ -210,8 +211,8 @@ pub fn basin_fractions_over_observed(
             Error::Stopped { .. } => Error::Stopped { done: index as u64, total },
             other => other,
         })?;
-        let now: Vec<_> = attractors.all().iter().map(|own| places(own, PI * forcing)).collect();
-        let matches = matched(&before, &now, reach);
+        let now: Vec<_> = attractors.all().iter().map(places).collect();
+        let matches = matched(&before, &now, (reach, map.vibration().peak_acceleration()));
         before = now;
         fractions.add(index, *forcing, attractors, &matches);
     }

@@ -1,7 +1,9 @@
 //! How the share of uncertain cells falls with their distance: the uncertainty exponent of a basin boundary and
 //! its dimension (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125 (1985)).
 
-use super::Basins;
+use std::collections::VecDeque;
+
+use super::{Basins, Label};
 use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
 use crate::numerics::fraction::Fraction;
@@ -20,7 +22,7 @@ const LARGEST_SPREAD: f64 = 0.25;
 pub struct UncertainShare {
     /// The distance, in cells.
     pub distance: usize,
-    /// The cells with another label than one of the four at this distance along the axes.
+    /// The cells with another label than their own in the square up to this distance along both axes.
     pub uncertain: Fraction,
 }
 
@@ -96,7 +98,8 @@ impl Basins {
     /// The share of cells that are uncertain when a start is known up to so many cells, and the power law that
     /// it follows: its exponent and the dimension of the boundary.
     ///
-    /// The cells that count are those farther from the edges of the grid than the largest of the `distances`
+    /// A cell is uncertain if there is another label than its own in the square up to that distance along both
+    /// axes. The cells that count are those farther from the edges of the grid than the largest of the `distances`
     /// (1, 2, 4, 8, ... or 1, 3, 9, ...), the same for each of them. Undecided cells count as a basin of their
     /// own.
     ///
@@ -138,18 +141,32 @@ impl Basins {
         Ok(BoundaryScaling { fit: fit(&points), shares })
     }
 
-    /// The cells farther than `margin` from the edges that have another label than one of the four at this
-    /// distance.
+    /// The cells farther than `margin` from the edges with another label than their own in the square of cells
+    /// up to this distance along both axes.
     fn uncertain(&self, distance: usize, margin: usize) -> Result<Fraction, Error> {
+        let inner = margin..self.columns() - margin;
+        // The least and the largest label along each row first: the square has one label where both agree.
+        let extent = |labels: &[Label]| {
+            labels
+                .iter()
+                .fold((Label::MAX, Label::MIN), |(least, most), own| (least.min(*own), most.max(*own)))
+        };
+        let along = |row: usize| -> Vec<(Label, Label)> {
+            let row = self.row(row);
+            inner.clone().map(|column| extent(&row[column - distance..=column + distance])).collect()
+        };
         let (mut uncertain, mut all) = (0, 0);
+        let mut rows: VecDeque<_> = (margin - distance..margin + distance).map(along).collect();
         for row in margin..self.rows() - margin {
-            let [below, own, above] = [row - distance, row, row + distance].map(|row| self.row(row));
-            for column in margin..self.columns() - margin {
-                let label = own[column];
-                let others = [below[column], above[column], own[column - distance], own[column + distance]];
+            rows.push_back(along(row + distance));
+            for column in 0..inner.len() {
+                let (least, most) = rows.iter().fold((Label::MAX, Label::MIN), |(least, most), own| {
+                    (least.min(own[column].0), most.max(own[column].1))
+                });
                 all += 1;
-                uncertain += u64::from(others.iter().any(|other| *other != label));
+                uncertain += u64::from(least != most);
             }
+            rows.pop_front();
         }
         Fraction::new(uncertain, all)
     }
@@ -181,7 +198,6 @@ fn fit(points: &[(f64, f64)]) -> BoundaryFit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::basin::Label;
     use crate::numerics::random::SplitMix64;
     use crate::testing::stored;
 
@@ -233,8 +249,8 @@ mod tests {
 
     #[test]
     fn what_is_no_power_law_says_so() {
-        // Stripes: at the distance of their period nothing is uncertain, in between everything may be.
-        let stripes = basins(200, 200, |_, column| Label::from(column / 6 % 2 == 0));
+        // Stripes: from half their width on everything is uncertain.
+        let stripes = basins(200, 200, |_, column| Label::from(column / 8 % 2 == 0));
         let scaling = stored(&stripes.boundary_scaling(&[1, 2, 4, 8, 16]).expect("fits"));
         assert!(matches!(scaling.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.1 - slopes.0 > 0.25));
         let one = stored(&basins(50, 50, |_, _| 1).boundary_scaling(&[1, 2, 4, 8]).expect("fits"));
@@ -245,6 +261,10 @@ mod tests {
         let two = basins(50, 50, |row, _| Label::from(row > 20)).boundary_scaling(&[1, 2]).expect("fits");
         assert_eq!(two.fit, BoundaryFit::TooFew { distances: 2 });
         assert_eq!(two.shares[1].uncertain.count(), 4 * 46);
+        // A single cell of another kind makes the square about it uncertain.
+        let one = basins(50, 50, |row, column| Label::from((row, column) == (20, 30)));
+        let one = one.boundary_scaling(&[1, 2, 5]).expect("fits");
+        assert_eq!(one.shares.iter().map(|share| share.uncertain.count()).collect::<Vec<_>>(), [9, 25, 121]);
     }
 
     #[test]
