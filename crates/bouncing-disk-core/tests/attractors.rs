@@ -156,7 +156,8 @@ fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool
     hits.into_iter().any(|hits| hits > 100)
 }
 
-/// The most starts of one map that end on no attractor which was found, and what was found.
+/// The most starts of one map that end on no attractor which was found, and what was found. One that is on none of
+/// them after `transient` impacts is followed for a hundred times as many: a long transient is no attractor.
 fn brute_force(maps: u64, starts: u32, transient: usize) {
     let mut random = SplitMix64::new(2_009);
     let (mut several, mut most_missed, mut undecided, mut lasting) = (0, 0, 0, 0);
@@ -164,8 +165,12 @@ fn brute_force(maps: u64, starts: u32, transient: usize) {
         let map = map(0.1 + 2.9 * random.unit(), 0.1 + 0.8 * random.unit());
         let found = map.attractors(&AttractorSearch::default()).expect("no failure");
         let mut own = SplitMix64::new(SplitMix64::seed_of_stream(18, number));
-        let missed =
-            (0..starts).filter(|_| !ends_on_one(&found, random_start(&map, &mut own), transient)).count();
+        let missed = (0..starts)
+            .map(|_| random_start(&map, &mut own))
+            .filter(|start| {
+                !ends_on_one(&found, *start, transient) && !ends_on_one(&found, *start, 100 * transient)
+            })
+            .count();
         if missed > 0 {
             println!("{map}: {missed} of {starts}; {} attractors", found.all().len());
         }
@@ -190,5 +195,5 @@ fn no_attractor_of_some_size_is_missed() {
 #[test]
 #[ignore = "minutes: 200 maps"]
 fn no_attractor_of_some_size_is_missed_on_200_maps() {
-    brute_force(200, 1_000, 20_000);
+    brute_force(200, 1_000, 5_000);
 }
