@@ -142,7 +142,7 @@ pub(super) fn come_back(
         observer,
     )?;
     let compared = |(impacts, hits)| {
-        (impacts >= transient + COMPARED).then(|| hits as f64 >= SHARE_IN_CELLS * COMPARED as f64)
+        (impacts >= transient + COMPARED).then_some(hits as f64 >= SHARE_IN_CELLS * COMPARED as f64)
     };
     Ok(seen.into_iter().map(compared).collect())
 }

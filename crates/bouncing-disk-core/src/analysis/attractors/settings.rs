@@ -46,7 +46,7 @@ impl Default for AttractorSearch {
             impacts: 100_000,
             longest_period: 256,
             side: 256,
-            orbits: OrbitSearch::new(2, 16).and_then(|search| search.with_starts(32, 32)).ok(),
+            orbits: OrbitSearch::new(2, 64).and_then(|search| search.with_starts(48, 48)).ok(),
         }
     }
 }
@@ -101,7 +101,7 @@ impl AttractorSearch {
 
     /// The same with this search for periodic orbits, the attracting ones of which are candidates however
     /// small their basins; `None` for those of one impact alone, whose closed form costs nothing. Default:
-    /// two impacts and 16 periods of the platform, from 32 x 32 starts.
+    /// two impacts and 64 periods of the platform, from 48 x 48 starts.
     #[must_use]
     pub const fn with_orbits(self, orbits: Option<OrbitSearch>) -> Self {
         Self { orbits, ..self }
