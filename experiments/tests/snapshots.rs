@@ -56,6 +56,7 @@ snapshots![
     extra_design,
     extra_lyapunov,
     extra_regimes,
+    extra_attractors,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.
