@@ -9,6 +9,7 @@ pub mod braking_record;
 mod circular;
 mod cylinder;
 pub mod dough_record;
+pub mod extra_attractors;
 pub mod extra_branches;
 pub mod extra_cascade;
 pub mod extra_crisis;

@@ -1,6 +1,7 @@
 //! What is done with orbits: periodic ones, bifurcations, basins, many at a time.
 
 pub(crate) mod attraction;
+pub(crate) mod attractors;
 pub(crate) mod basin;
 pub(crate) mod cascade;
 pub(crate) mod closing;

@@ -30,11 +30,12 @@
 //! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`period_doublings`], [`follow_attractor`] |
 //! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
-//! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::flight_duration_bound`] |
+//! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::impact_speed_bound_at`], [`ImpactMap::flight_duration_bound`] |
 //! | the doubling cascade | [`doubling_cascade`], [`CascadeDoubling`], [`feigenbaum_estimates`], [`FeigenbaumEstimate`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`lyapunov_spectra`], [`sweep`] |
 //! | what an orbit does for good | [`Verdict`], [`verdicts`], [`VerdictSettings`] |
-//! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`] |
+//! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`]; their measures [`BasinEntropy`], [`BoundaryScaling`] |
+//! | attractors without being told | [`AttractorSearch`] and [`ImpactMap::attractors`], [`Attractors`] and their [basins](Attractors::basins), [`basin_fractions_over`] |
 //! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
 //! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
 //!
@@ -64,6 +65,15 @@ pub mod stored;
 #[cfg(test)]
 mod testing;
 
+pub use analysis::attractors::cells::VisitedCells;
+pub use analysis::attractors::over_forcing::{
+    AttractorsAt, BasinFractions, FollowedAttractor, MAX_FORCINGS, basin_fractions_over,
+    basin_fractions_over_observed,
+};
+pub use analysis::attractors::settings::AttractorSearch;
+pub use analysis::attractors::{AfterRest, Attractor, AttractorKind, Attractors, Recurrence};
+pub use analysis::basin::boundary::{BoundaryFit, BoundaryScaling, UncertainShare};
+pub use analysis::basin::entropy::BasinEntropy;
 pub use analysis::basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,

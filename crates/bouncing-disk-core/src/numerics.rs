@@ -9,6 +9,7 @@ pub mod digest;
 #[cfg(feature = "extended")]
 pub(crate) mod double_double;
 pub mod elementary;
+pub mod fraction;
 pub mod minimum;
 pub mod power_law;
 pub mod random;

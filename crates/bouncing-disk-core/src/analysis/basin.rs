@@ -1,5 +1,7 @@
 //! Basins of attraction of the impact map on a grid of impact phases and speeds.
 
+pub(crate) mod boundary;
+pub(crate) mod entropy;
 mod lockstep;
 mod run;
 mod screen;
@@ -11,6 +13,7 @@ use crate::analysis::periodic::PeriodicOrbit;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::fraction::Fraction;
 use crate::observer::{Observer, Unobserved, Watch};
 use crate::read_checked;
 
@@ -77,6 +80,28 @@ impl Axis {
         self.cells
     }
 
+    /// The same axis with each cell cut into `factor` equal ones. An odd factor keeps the centres of the old
+    /// cells, to the last bit: cell i becomes the cells from `factor` i on, and its centre is that of the middle
+    /// one.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::Axis;
+    /// let axis = Axis::new(0.0, 0.7, 10)?;
+    /// let finer = axis.refined(3)?;
+    /// assert_eq!(finer.centre(3 * 4 + 1).to_bits(), axis.centre(4).to_bits());
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an even factor or one above 999, or where there would be more than 100 000 cells.
+    pub fn refined(&self, factor: u32) -> Result<Self, Error> {
+        if factor.is_multiple_of(2) || factor > 999 {
+            let (value, legal) = (factor.into(), "odd, in [1, 999]");
+            return Err(Error::OutOfRange { field: "factor of a refinement", value, legal });
+        }
+        Self::new(self.low, self.high, self.cells.saturating_mul(factor as usize))
+    }
+
     /// Centre of cell `index`; of the last cell for an index beyond it.
     #[must_use]
     pub fn centre(&self, index: usize) -> f64 {
@@ -121,6 +146,14 @@ impl Grid {
         within("lowest normalised speed", speed.low(), 0.0, Self::MAX_SPEED, "[0, 1e100]")?;
         within("highest normalised speed", speed.high(), 0.0, Self::MAX_SPEED, "[0, 1e100]")?;
         Ok(Self { phase, speed })
+    }
+
+    /// The same grid with each cell cut into `factor` x `factor` equal ones: see [`Axis::refined`].
+    ///
+    /// # Errors
+    /// Those of [`Axis::refined`].
+    pub fn refined(&self, factor: u32) -> Result<Self, Error> {
+        Self::new(self.phase.refined(factor)?, self.speed.refined(factor)?)
     }
 
     /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: of whole periods nothing is left to round.
@@ -183,7 +216,7 @@ impl KnownOrbit {
 }
 
 /// Refuses more known orbits than a label can count.
-fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
+pub(crate) fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
     within("number of known orbits", known.len() as f64, 0.0, MAX_KNOWN, "[0, 250]").map(|_| ())
 }
 
@@ -234,6 +267,29 @@ impl Basins {
         Ok(())
     }
 
+    /// The labels of whole rows that were found in another way, one row at least.
+    pub(crate) fn of_labels(labels: Vec<Label>, columns: usize) -> Result<Self, Error> {
+        let basins = Self { labels, columns };
+        basins.check().map(|()| basins)
+    }
+
+    /// The labels themselves.
+    pub(crate) fn into_labels(self) -> Vec<Label> {
+        self.labels
+    }
+
+    /// Number of columns: cells along the phase.
+    #[must_use]
+    pub const fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Number of rows: cells along the speed.
+    #[must_use]
+    pub const fn rows(&self) -> usize {
+        self.labels.len() / self.columns
+    }
+
     /// All labels: `phase.cells()` per row, rows by rising speed.
     #[must_use]
     pub fn labels(&self) -> &[Label] {
@@ -252,6 +308,18 @@ impl Basins {
     #[must_use]
     pub fn fraction(&self, label: Label) -> f64 {
         self.labels.iter().filter(|&&own| own == label).count() as f64 / self.labels.len() as f64
+    }
+
+    /// How many cells have this label, with the interval that a sample of as many starts leaves for the share.
+    /// Of [`UNDECIDED`] these are the cells that nothing is known of.
+    ///
+    /// The cells of a grid are more even than a random sample: the error of the grid is about half the share of
+    /// the cells at a boundary at most, and mostly far less.
+    #[must_use]
+    pub fn share(&self, label: Label) -> Fraction {
+        let count = self.labels.iter().filter(|&&own| own == label).count() as u64;
+        let of = self.labels.len() as u64;
+        Fraction::new(count, of).unwrap_or_default()
     }
 }
 

@@ -14,7 +14,7 @@ use crate::platform::phase::Phase;
 use crate::read_checked;
 
 mod catalogue;
-mod newton;
+pub(in crate::analysis) mod newton;
 pub(crate) mod pair;
 pub(crate) mod search;
 

@@ -2,6 +2,7 @@
 //! docs/numerics/dynamics.md, "Bounded speeds".
 
 use crate::map::impact_map::ImpactMap;
+use crate::platform::phase::Phase;
 
 /// What the roundings of a bound, ten at most and all of positive numbers, may take from it.
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
@@ -50,6 +51,29 @@ impl ImpactMap {
     pub fn impact_speed_bound(&self) -> f64 {
         let p = self.vibration().peak_acceleration();
         ROUNDINGS * (landing_speed_bound(self.launch_speed_bound(), p) + p)
+    }
+
+    /// The bound on the impact speed at this phase: sqrt(M^2 + 2 P (1 - sin tau)) + P cos tau with the
+    /// [`Self::launch_speed_bound`] M, or 0 where that is negative (a platform that falls faster than any disk
+    /// is not hit), as the disk lands at the platform's height there. Rounded upwards.
+    ///
+    /// The impacts within it are the trapping region: whatever starts there stays, every periodic orbit and
+    /// every attractor lies in it, and every other orbit enters it up to an excess that dies out.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{ImpactMap, Phase, Vibration};
+    /// let map = ImpactMap::new(Vibration::new(2.0)?, 0.5)?;
+    /// // A platform that rises at its fastest is hit hardest.
+    /// assert!(map.impact_speed_bound_at(Phase::new(0.0)?) > map.impact_speed_bound_at(Phase::new(3.14)?));
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn impact_speed_bound_at(&self, phase: Phase) -> f64 {
+        let p = self.vibration().peak_acceleration();
+        let launch = self.launch_speed_bound();
+        let landing = (launch * launch + 2.0 * p * (1.0 - phase.sin()).max(0.0)).sqrt();
+        // Where the platform falls the difference is rounded as its larger part is.
+        (landing + p * phase.cos() + (ROUNDINGS - 1.0) * (landing + p)).max(0.0)
     }
 
     /// The bound on the duration of a flight (rad) of every periodic orbit and every attractor: it is u - V,
@@ -103,6 +127,30 @@ mod tests {
         }
         assert!((map(2.0, 0.0).launch_speed_bound() - 2.0).abs() < 1e-14, "restitution 0 leaves P");
         assert!(map(0.0, 0.5).launch_speed_bound() <= 0.0, "a platform at rest");
+    }
+
+    /// The region is never left, and is no larger than the bound over all phases.
+    #[test]
+    fn what_starts_in_the_trapping_region_stays_there() {
+        let mut random = SplitMix64::new(5);
+        let mut nearest: f64 = 0.0;
+        for case in 0..2_000 {
+            let map = map(if case % 10 == 0 { 0.0 } else { 12.0 * random.unit() }, 0.95 * random.unit());
+            let phase = Phase::new(TAU * random.unit()).expect("finite");
+            // The boundary itself among them.
+            let share = if case % 3 == 0 { 1.0 } else { random.unit() };
+            let mut state =
+                ImpactState::new(phase, -share * map.impact_speed_bound_at(phase)).expect("legal");
+            for _ in 0..40 {
+                let Ok(impact) = map.step(state) else { break };
+                state = impact.into();
+                let bound = map.impact_speed_bound_at(state.phase());
+                assert!(-state.velocity() <= bound, "{map}: {state} beyond {bound}");
+                assert!(bound <= map.impact_speed_bound());
+                nearest = nearest.max(-state.velocity() / bound);
+            }
+        }
+        assert!(nearest > 0.9, "the bound means something: {nearest}");
     }
 
     /// The excess over the bound shrinks by r at every impact, and below the bound nothing escapes.

@@ -5,7 +5,7 @@ mod display;
 mod proof;
 mod returns;
 mod settings;
-mod witness;
+pub(in crate::analysis) mod witness;
 
 use crate::analysis::periodic::Multipliers;
 use crate::analysis::sweep::SweepRun;

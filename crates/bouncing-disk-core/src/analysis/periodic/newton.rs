@@ -17,7 +17,7 @@ const NEAR: f64 = 1.0e-5;
 const LONGEST_STEP: f64 = 0.7;
 
 /// Two orbits whose impacts agree within this much (rad, and relative speed) count as one.
-pub(super) const SAME: f64 = 1.0e-6;
+pub(in crate::analysis) const SAME: f64 = 1.0e-6;
 
 /// What became of a guess.
 pub(super) enum Attempt {
@@ -36,7 +36,7 @@ fn near(a: ImpactState, b: ImpactState) -> bool {
 }
 
 /// Whether two orbits count as one, wherever they begin.
-pub(super) fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
+pub(in crate::analysis) fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
     let n = a.period();
     if n != b.period() || a.platform_periods != b.platform_periods {
         return false;
@@ -53,7 +53,7 @@ pub(super) fn prime_period(states: &[ImpactState]) -> usize {
 
 impl ImpactMap {
     /// Whether an impact is proven to be followed by rest.
-    pub(super) fn rests_after(&self, state: ImpactState) -> bool {
+    pub(in crate::analysis) fn rests_after(&self, state: ImpactState) -> bool {
         let speed = 0.0 - self.restitution() * state.velocity();
         self.vibration().accumulation(state.phase(), speed, self.restitution()).is_some()
     }

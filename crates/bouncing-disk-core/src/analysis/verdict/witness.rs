@@ -60,7 +60,7 @@ impl Round {
 
 /// An orbit under way to its verdict.
 #[derive(Debug, Clone)]
-pub(super) struct Witness {
+pub(in crate::analysis) struct Witness {
     map: ImpactMap,
     settings: VerdictSettings,
     state: ImpactState,
@@ -79,7 +79,10 @@ pub(super) struct Witness {
 }
 
 impl Witness {
-    pub(super) fn new((map, state): (ImpactMap, ImpactState), settings: VerdictSettings) -> Self {
+    pub(in crate::analysis) fn new(
+        (map, state): (ImpactMap, ImpactState),
+        settings: VerdictSettings,
+    ) -> Self {
         Self {
             map,
             settings,
@@ -97,7 +100,7 @@ impl Witness {
     }
 
     /// Takes the next event of the orbit.
-    pub(super) fn see(&mut self, event: &SweepEvent) -> ControlFlow<()> {
+    pub(in crate::analysis) fn see(&mut self, event: &SweepEvent) -> ControlFlow<()> {
         match event {
             SweepEvent::Impact(impact) => self.impact(impact),
             SweepEvent::Attachment(rest) => self.rest(rest),
@@ -106,7 +109,7 @@ impl Witness {
     }
 
     /// The verdict, once the orbit has been followed to it.
-    pub(super) fn verdict(self) -> Verdict {
+    pub(in crate::analysis) fn verdict(self) -> Verdict {
         // An orbit ends without a verdict where the disk stays on the platform without an impact or a
         // chatter.
         self.verdict

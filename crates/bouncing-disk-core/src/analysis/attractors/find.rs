@@ -1,0 +1,319 @@
+//! The search for attractors.
+
+use super::catching::catching_radius;
+use super::follow::{Seen, come_back, first_look, long_look, overlap};
+use super::settings::AttractorSearch;
+use super::starts::starts;
+use super::{AfterRest, Attractor, AttractorKind, Attractors, MOST_ATTRACTORS, Recurrence};
+use crate::analysis::basin::KnownOrbit;
+use crate::analysis::periodic::PeriodicOrbit;
+use crate::analysis::periodic::newton::{SAME, same_orbit};
+use crate::analysis::verdict::Verdict;
+use crate::error::Error;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::fraction::Fraction;
+use crate::observer::{Observer, Progress};
+use crate::platform::phase::Phase;
+
+use core::f64::consts::PI;
+use core::ops::ControlFlow;
+
+/// Orbits of one impact that are tried as candidates, from those with the longest flights down.
+const MOST_PERIOD_ONE: u64 = 10_000;
+
+/// Tells the observer of the whole search of the progress of a part: the items of the part, or none of them,
+/// after those that are done.
+struct Part<'o> {
+    observer: &'o dyn Observer,
+    done: u64,
+    total: u64,
+    counts: bool,
+}
+
+impl Observer for Part<'_> {
+    fn observe(&self, progress: Progress) -> ControlFlow<()> {
+        let own = if self.counts { progress.done } else { 0 };
+        self.observer.observe(Progress { done: self.done + own, total: self.total })
+    }
+}
+
+impl Part<'_> {
+    /// The error of a part that was stopped, with the numbers of the whole.
+    fn whole<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
+        result.map_err(|error| match error {
+            Error::Stopped { done, .. } => {
+                let own = if self.counts { done } else { 0 };
+                Error::Stopped { done: self.done + own, total: self.total }
+            }
+            other => other,
+        })
+    }
+}
+
+/// An attractor that repeats itself, and the starts that ended on it.
+struct Periodic {
+    orbit: PeriodicOrbit,
+    starts: u64,
+}
+
+/// An attractor that is known by its cells.
+struct Recurrent {
+    verdict: Verdict,
+    recurrence: Recurrence,
+    starts: u64,
+}
+
+/// Where a disk ends that has come to rest.
+enum RestLeadsTo {
+    Periodic(PeriodicOrbit),
+    Recurrent(usize),
+    Nothing(AfterRest),
+}
+
+struct Finder<'a> {
+    map: &'a ImpactMap,
+    search: &'a AttractorSearch,
+    observer: &'a dyn Observer,
+    rests: u64,
+    periodic: Vec<Periodic>,
+    recurrent: Vec<Recurrent>,
+    /// Starts that have been looked at, and of which the attractor is known.
+    done: u64,
+}
+
+pub(super) fn find(
+    map: &ImpactMap,
+    search: &AttractorSearch,
+    observer: &dyn Observer,
+) -> Result<Attractors, Error> {
+    let mut finder =
+        Finder { map, search, observer, rests: 0, periodic: Vec::new(), recurrent: Vec::new(), done: 0 };
+    let starts = starts(map, search.starts());
+    let part = Part { counts: true, ..finder.part() };
+    let seen = part.whole(first_look(map, &starts, search.first_look(), &part))?;
+    finder.done = starts.len() as u64;
+    let mut open = Vec::new();
+    for (start, seen) in starts.iter().zip(seen) {
+        match seen {
+            Seen::Rest => finder.rests += 1,
+            Seen::Verdict(Verdict::Periodic { impacts, platform_periods, state, .. }) => {
+                finder.repeats(state, impacts, platform_periods, 1);
+            }
+            Seen::Verdict(_) => {
+                open.push(*start);
+                continue;
+            }
+        }
+        finder.done += 1;
+    }
+    finder.settle(open)?;
+    finder.add_candidates()?;
+    let after = finder.after_rest()?;
+    let found = finder.into_attractors(after)?;
+    let total = 2 * u64::from(search.starts());
+    // Whatever it says, there is nothing left to stop.
+    let _ = observer.observe(Progress { done: total, total });
+    Ok(found)
+}
+
+impl<'a> Finder<'a> {
+    /// A part whose items do not count.
+    fn part(&self) -> Part<'a> {
+        let total = 2 * u64::from(self.search.starts());
+        Part { observer: self.observer, done: self.done, total, counts: false }
+    }
+
+    /// Counts starts that come ever nearer to an attracting orbit through this impact; where it is none, the start stays undecided.
+    fn repeats(&mut self, state: ImpactState, impacts: u64, platform_periods: u64, starts: u64) {
+        let scale = self.map.vibration().peak_acceleration();
+        let known = self.periodic.iter_mut().find(|known| {
+            known.orbit.period() as u64 == impacts
+                && known.orbit.platform_periods == platform_periods
+                && known.orbit.distance(state, scale) <= SAME
+        });
+        if let Some(known) = known {
+            known.starts += starts;
+        } else if let Ok(orbit) = self.orbit_through(state, impacts) {
+            self.add(orbit, starts);
+        }
+    }
+
+    /// The orbit of so many impacts through this one, its fastest impact first.
+    fn orbit_through(&self, state: ImpactState, impacts: u64) -> Result<PeriodicOrbit, Error> {
+        let mut states = vec![state];
+        for _ in 1..impacts {
+            states.push(self.map.step(states[states.len() - 1])?.into());
+        }
+        let fastest = (1..states.len()).fold(0, |fastest, i| {
+            if states[i].velocity() < states[fastest].velocity() { i } else { fastest }
+        });
+        states.rotate_left(fastest);
+        self.map.refine(&states)
+    }
+
+    /// Adds an orbit unless it is known.
+    fn add(&mut self, orbit: PeriodicOrbit, starts: u64) {
+        match self.periodic.iter_mut().find(|known| same_orbit(&known.orbit, &orbit)) {
+            Some(known) => known.starts += starts,
+            None => self.periodic.push(Periodic { orbit, starts }),
+        }
+    }
+
+    /// Finds the attractors of the starts that have neither rested nor repeated themselves.
+    fn settle(&mut self, mut open: Vec<ImpactState>) -> Result<(), Error> {
+        let looks = (self.search.long_look(), self.search.cells());
+        while let Some(start) = open.first().copied() {
+            open.remove(0);
+            self.done += 1;
+            let part = self.part();
+            let (seen, recurrence) = part.whole(long_look(self.map, start, false, looks, &part))?;
+            let verdict = match seen {
+                Seen::Rest => {
+                    self.rests += 1;
+                    continue;
+                }
+                Seen::Verdict(Verdict::Periodic { impacts, platform_periods, state, .. }) => {
+                    self.repeats(state, impacts, platform_periods, 1);
+                    continue;
+                }
+                Seen::Verdict(verdict) => verdict,
+            };
+            let (number, new) = self.recurs(verdict, recurrence);
+            self.recurrent[number].starts += 1;
+            if new {
+                open = self.compare(number, &open)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of the attractor known by these cells, and whether it is new.
+    fn recurs(&mut self, verdict: Verdict, recurrence: Recurrence) -> (usize, bool) {
+        let same = |known: &Recurrent| overlap(&known.recurrence.cells, &recurrence.cells);
+        if let Some(number) = self.recurrent.iter().position(same) {
+            return (number, false);
+        }
+        self.recurrent.push(Recurrent { verdict, recurrence, starts: 0 });
+        (self.recurrent.len() - 1, true)
+    }
+
+    /// Takes the starts that rest, or are on this attractor, from those whose attractor is not known.
+    fn compare(&mut self, number: usize, open: &[ImpactState]) -> Result<Vec<ImpactState>, Error> {
+        let part = self.part();
+        let cells = &self.recurrent[number].recurrence.cells;
+        let back = part.whole(come_back(self.map, open, cells, self.search.transient(), &part))?;
+        let mut left = Vec::new();
+        for (start, back) in open.iter().zip(back) {
+            match back {
+                None => self.rests += 1,
+                Some(true) => self.recurrent[number].starts += 1,
+                Some(false) => {
+                    left.push(*start);
+                    continue;
+                }
+            }
+            self.done += 1;
+        }
+        Ok(left)
+    }
+
+    /// Adds attracting orbits that need no start.
+    fn add_candidates(&mut self) -> Result<(), Error> {
+        let map = self.map;
+        let (r, forcing) = (map.restitution(), map.vibration().axial_forcing());
+        // A node attracts from its birth to its doubling: the longest flights do, down to some number of periods.
+        let longest = ((1.0 + r) * forcing / (1.0 - r)) as u64;
+        let longest = longest.saturating_add(1);
+        for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
+            let Some(pair) = map.period_one_pair(k) else { continue };
+            if pair.node.multipliers().spectral_radius() >= 1.0 {
+                // At the fold rounding may have it so; all below have doubled.
+                if k < longest { break } else { continue }
+            }
+            if let Some(orbit) = pair.node.orbit(map)? {
+                self.add_candidate(orbit);
+            }
+        }
+        if let Some(orbits) = self.search.orbits() {
+            let part = self.part();
+            for orbit in part.whole(map.periodic_orbits_observed(&orbits, &part))?.orbits {
+                self.add_candidate(orbit);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_candidate(&mut self, orbit: PeriodicOrbit) {
+        let attracts = orbit.multipliers().spectral_radius() < 1.0;
+        if attracts && !orbit.states.iter().any(|at| self.map.rests_after(*at)) {
+            self.add(orbit, 0);
+        }
+    }
+
+    /// What a disk at rest does next: one that is put on the platform at its lowest point.
+    fn after_rest(&mut self) -> Result<RestLeadsTo, Error> {
+        let lowest = ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0);
+        let looks = (self.search.long_look(), self.search.cells());
+        let part = self.part();
+        let (seen, recurrence) = part.whole(long_look(self.map, lowest, true, looks, &part))?;
+        Ok(match seen {
+            Seen::Verdict(Verdict::Chattering { cycle, .. }) => {
+                RestLeadsTo::Nothing(AfterRest::RestsAgain(cycle))
+            }
+            Seen::Verdict(Verdict::Periodic { impacts, state, .. }) => {
+                let orbit = self.orbit_through(state, impacts)?;
+                self.add(orbit.clone(), 0);
+                RestLeadsTo::Periodic(orbit)
+            }
+            Seen::Rest | Seen::Verdict(Verdict::AtRest { .. }) => {
+                RestLeadsTo::Nothing(AfterRest::StaysForEver)
+            }
+            Seen::Verdict(verdict) => RestLeadsTo::Recurrent(self.recurs(verdict, recurrence).0),
+        })
+    }
+
+    fn into_attractors(mut self, after: RestLeadsTo) -> Result<Attractors, Error> {
+        let count = self.periodic.len() + self.recurrent.len();
+        if count > MOST_ATTRACTORS {
+            let (count, limit) = (count as u64, MOST_ATTRACTORS as u64);
+            return Err(Error::TooLarge { what: "attractors", count, limit });
+        }
+        self.periodic.sort_by(|a, b| {
+            let (first, second) = (a.orbit.states[0], b.orbit.states[0]);
+            (a.orbit.period(), a.orbit.platform_periods)
+                .cmp(&(b.orbit.period(), b.orbit.platform_periods))
+                .then(first.velocity().total_cmp(&second.velocity()))
+                .then(first.phase().angle().total_cmp(&second.phase().angle()))
+        });
+        let after = match after {
+            RestLeadsTo::Nothing(after) => after,
+            RestLeadsTo::Recurrent(number) => AfterRest::LeadsTo(1 + self.periodic.len() + number),
+            RestLeadsTo::Periodic(orbit) => {
+                let number = self.periodic.iter().position(|known| same_orbit(&known.orbit, &orbit));
+                AfterRest::LeadsTo(1 + number.unwrap_or(0))
+            }
+        };
+        let starts = u64::from(self.search.starts());
+        let attractor =
+            |kind, count| Ok::<_, Error>(Attractor { kind, starts: Fraction::new(count, starts)? });
+        let mut all = vec![attractor(AttractorKind::Rest(after), self.rests)?];
+        let part = self.part();
+        for Periodic { orbit, starts } in self.periodic {
+            let radius = catching_radius(self.map, &orbit, &part);
+            let known = KnownOrbit::new(orbit, part.whole(radius)?.unwrap_or(0.0))?;
+            all.push(attractor(AttractorKind::Periodic(known), starts)?);
+        }
+        for Recurrent { verdict, recurrence, starts } in self.recurrent {
+            let kind = match verdict {
+                Verdict::Chaotic { exponent, standard_error, .. } => {
+                    AttractorKind::Chaotic { exponent, standard_error, recurrence }
+                }
+                Verdict::Undecided { reason, .. } => AttractorKind::Unclassified { reason, recurrence },
+                // None of the others is known by its cells.
+                _ => continue,
+            };
+            all.push(attractor(kind, starts)?);
+        }
+        Ok(Attractors { map: *self.map, search: *self.search, all })
+    }
+}

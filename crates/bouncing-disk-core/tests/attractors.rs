@@ -1,0 +1,196 @@
+//! Attractors that are found without being told, against those that are known and against brute force.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::{
+    ATTACHED, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, ChatterPolicy, FIRST_ORBIT,
+    Grid, ImpactMap, ImpactState, KnownOrbit, Label, Phase, UNDECIDED, Vibration,
+};
+
+fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    let vibration = Vibration::from_axial_forcing(axial_forcing).expect("legal forcing");
+    ImpactMap::new(vibration, restitution).expect("legal restitution")
+}
+
+/// The known orbits of a panel of Fig. 7 as they are given there, and what its other starts are on.
+struct Panel {
+    known: Vec<KnownOrbit>,
+    chaotic: bool,
+    max_impacts: u32,
+}
+
+fn grid(cells: usize) -> Grid {
+    let axis = |high| Axis::new(0.0, high, cells).expect("legal");
+    Grid::new(axis(1.0), axis(5.0)).expect("legal")
+}
+
+/// The orbit that the route from period 1 has led to, and what undecided cells of a coarse grid settle on.
+fn panel(map: &ImpactMap) -> Panel {
+    let state = map.period_one(1).expect("exists");
+    let orbit = map.refine(&[state]).expect("refines");
+    let mut known = Vec::new();
+    let mut chaotic = false;
+    let add = |known: &mut Vec<KnownOrbit>, orbit, radius| {
+        known.push(KnownOrbit::new(orbit, radius).expect("legal"));
+    };
+    if let Some(radius) =
+        orbit.trapping_radius(map, 64).filter(|_| orbit.multipliers().spectral_radius() < 1.0)
+    {
+        add(&mut known, orbit, radius);
+    } else {
+        let beside = Phase::new(state.phase().angle() + 1e-3).expect("finite");
+        let beside = ImpactState::new(beside, state.velocity()).expect("legal");
+        if let Some(after) = map.state_after(beside, 20_000, ChatterPolicy::Complete).expect("no failure") {
+            let settled = map.settled_orbit(after, 0, 64, 1e-8).expect("no failure");
+            match settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64)?, orbit))) {
+                Some((radius, orbit)) => add(&mut known, orbit, radius),
+                None => chaotic = true,
+            }
+        }
+    }
+    let settings = BasinSettings { max_impacts: 500, ..BasinSettings::default() };
+    'search: while !known.is_empty() && known.len() < 4 {
+        let basins = map.basins(grid(60), &known, settings).expect("no failure");
+        for (index, _) in basins.labels().iter().enumerate().filter(|(_, label)| **label == UNDECIDED) {
+            let (angle, speed) = (grid(60).impact_angle(index % 60), grid(60).speed().centre(index / 60));
+            let start = ImpactState::from_normalised(angle, speed).expect("legal");
+            let settled = map.settled_orbit(start, 4_000, 64, 1e-8).expect("no failure");
+            if let Some((radius, orbit)) =
+                settled.and_then(|orbit| Some((orbit.attraction_radius(map)?, orbit)))
+            {
+                add(&mut known, orbit, radius);
+                continue 'search;
+            }
+        }
+        break;
+    }
+    Panel { known, chaotic, max_impacts: if chaotic { 400 } else { 20_000 } }
+}
+
+/// The label by the attractors that were found of what a panel labels so.
+fn label_of(found: &Attractors, panel: &Panel, label: Label) -> Label {
+    let number = match label {
+        ATTACHED => 0,
+        UNDECIDED if panel.chaotic => found
+            .all()
+            .iter()
+            .position(|own| matches!(own.kind, AttractorKind::Chaotic { .. }))
+            .expect("found"),
+        UNDECIDED => return UNDECIDED,
+        label => {
+            let known = &panel.known[usize::from(label - FIRST_ORBIT)];
+            let peak = found.map().vibration().peak_acceleration();
+            let same = |own: &KnownOrbit| {
+                own.orbit().period() == known.orbit().period()
+                    && own.orbit().distance(known.orbit().states[0], peak) < 1e-8
+            };
+            1 + found.known().position(same).expect("found")
+        }
+    };
+    found.label(number).expect("exists")
+}
+
+fn all_panels_agree(cells: usize) {
+    let mut attractors = Vec::new();
+    for forcing in [0.34, 0.486, 0.5, 0.55, 0.6] {
+        let map = map(forcing, 0.5);
+        let panel = panel(&map);
+        let found = map.attractors(&AttractorSearch::default()).expect("no failure");
+        assert_eq!(found.all().len(), 1 + panel.known.len() + usize::from(panel.chaotic), "Gamma {forcing}");
+        attractors.push(found.all().len());
+        let settings = BasinSettings { max_impacts: panel.max_impacts, ..BasinSettings::default() };
+        let known = map.basins(grid(cells), &panel.known, settings).expect("no failure");
+        let own = found.basins(grid(cells), settings).expect("no failure");
+        let differing = known.labels().iter().zip(own.labels());
+        let differing = differing.filter(|(known, own)| label_of(&found, &panel, **known) != **own).count();
+        assert_eq!(differing, 0, "Gamma {forcing}: of {} cells", cells * cells);
+    }
+    assert_eq!(attractors, [2, 3, 2, 2, 1]);
+}
+
+#[test]
+fn what_is_found_labels_fig_7_as_what_is_known_does() {
+    all_panels_agree(60);
+}
+
+#[test]
+#[ignore = "minutes: the whole grid of the figure"]
+fn what_is_found_labels_all_of_fig_7_as_what_is_known_does() {
+    all_panels_agree(1_000);
+}
+
+/// A random impact of the trapping region.
+fn random_start(map: &ImpactMap, random: &mut SplitMix64) -> ImpactState {
+    loop {
+        let phase = Phase::new(TAU * random.unit()).expect("finite");
+        let speed = map.impact_speed_bound() * random.unit();
+        if speed <= map.impact_speed_bound_at(phase) {
+            return ImpactState::new(phase, -speed).expect("legal");
+        }
+    }
+}
+
+/// Whether a start, followed by single steps, ends on one of the attractors: it rests, comes to within 1e-4 rad of a
+/// periodic one, or is in the cells of another for most of the last 200 impacts.
+fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool {
+    let map = found.map();
+    let peak = map.vibration().peak_acceleration();
+    let Some(mut state) = map.state_after(start, transient, ChatterPolicy::Complete).expect("no failure")
+    else {
+        return true;
+    };
+    if found.known().any(|known| known.orbit().distance(state, peak) < 1e-4) {
+        return true;
+    }
+    let mut hits = vec![0; found.all().len()];
+    for _ in 0..200 {
+        match map.state_after(state, 1, ChatterPolicy::Complete).expect("no failure") {
+            Some(next) => state = next,
+            None => return true,
+        }
+        for (hits, own) in hits.iter_mut().zip(found.all()) {
+            *hits += usize::from(own.kind.recurrence().is_some_and(|own| own.cells.contains(state)));
+        }
+    }
+    hits.into_iter().any(|hits| hits > 100)
+}
+
+/// What is found for random maps: attractors that last, maps with several of them, starts of the searches that
+/// are undecided, and the most random starts of one map that end on none.
+///
+/// A start that is on none of them after `transient` impacts is followed for a hundred times as many: a long
+/// transient is no attractor.
+fn brute_force(maps: u64, starts: u32, transient: usize) -> [u64; 4] {
+    let mut random = SplitMix64::new(2_009);
+    let mut totals = [0; 4];
+    for number in 0..maps {
+        let map = map(0.1 + 2.9 * random.unit(), 0.1 + 0.8 * random.unit());
+        let found = map.attractors(&AttractorSearch::default()).expect("no failure");
+        let mut own = SplitMix64::new(SplitMix64::seed_of_stream(18, number));
+        let missed = (0..starts)
+            .map(|_| random_start(&map, &mut own))
+            .filter(|start| {
+                !ends_on_one(&found, *start, transient) && !ends_on_one(&found, *start, 100 * transient)
+            })
+            .count();
+        assert!(missed as f64 <= 0.01 * f64::from(starts), "{map}: {missed} of {starts} end elsewhere");
+        let lasting = found.lasting().count() as u64;
+        totals[0] += lasting;
+        totals[1] += u64::from(lasting > 1);
+        totals[2] += found.undecided().count();
+        totals[3] = totals[3].max(missed as u64);
+    }
+    totals
+}
+
+#[test]
+fn no_attractor_of_some_size_is_missed() {
+    assert_eq!(brute_force(20, 200, 3_000), [26, 6, 0, 0]);
+}
+
+#[test]
+#[ignore = "minutes: 200 maps"]
+fn no_attractor_of_some_size_is_missed_on_200_maps() {
+    assert_eq!(brute_force(200, 1_000, 5_000), [296, 71, 0, 1]);
+}
