@@ -104,7 +104,8 @@ mod tests {
 
     /// All that a source says, as one text.
     fn text(entry: &Entry) -> String {
-        let rest = [&entry.quotation, &entry._parameters, &entry._to_be_computed, &entry.address];
+        let rest =
+            [&entry._quantity, &entry.quotation, &entry._parameters, &entry._to_be_computed, &entry.address];
         format!("{}\n{}", rest.map(String::as_str).join("\n"), entry._printed)
     }
 

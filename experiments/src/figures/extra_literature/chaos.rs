@@ -173,11 +173,16 @@ pub(super) fn mechanism(_: &Entry) -> Answers {
         });
     }
     let listed = |of: fn(&Touched) -> String| touched.iter().map(of).collect::<Vec<_>>().join(", ");
+    let margins = if touched.iter().all(|of| of.margin.is_none()) {
+        "no gap has a minimum on the way of a flight".to_owned()
+    } else {
+        let margin = |of: &Touched| of.margin.map_or_else(|| "none".to_owned(), |margin| rounded(margin, 2));
+        format!("smallest gap on the way of a flight {} g/ω²", listed(margin))
+    };
     let answer = Answer::nothing_printed(format!(
-        "1e-3, 1e-4 and 1e-5 below the crisis: slowest impact {} g/ω, smallest gap on the way of a flight {} g/ω²; the nearest saddle with positive \
-         multipliers and at most three impacts is {} away",
+        "1e-3, 1e-4 and 1e-5 below the crisis: slowest impact {} g/ω; {margins}; the nearest saddle with positive multipliers and at most three \
+         impacts is {} away",
         listed(|of| rounded(of.slowest, 3)),
-        listed(|of| of.margin.map_or_else(|| "none".to_owned(), |margin| rounded(margin, 2))),
         listed(|of| format!("{} ({} in {})", rounded(of.saddle.2, 2), of.saddle.0, of.saddle.1)),
     ))
     .because(
