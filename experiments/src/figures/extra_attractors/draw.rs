@@ -41,7 +41,7 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
     let mut panel = Panel::new(area)
         .x(Axis::linear(low, high).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
         .y(Axis::log(LEAST, 1.5).label("share of the starts"))
-        .letter_in(letter, Corner::BottomLeft);
+        .letter_in(letter, Corner::BottomRight);
     let markers = sweep.axial_forcings.len() < 100;
     for (kind, name, colour) in KINDS {
         let points = sweep.found.iter().zip(&sweep.axial_forcings).flat_map(|(found, forcing)| {
@@ -116,8 +116,11 @@ pub(super) fn draw(data: &ExtraAttractorsData) -> Figure {
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
     for ((sweep, area), letter) in data.sweeps.iter().zip(areas).zip(["a", "b"]) {
         let panel = shares(sweep, area, letter);
-        figure =
-            figure.panel(if letter == "b" { panel.legend(Legend::at(Corner::BottomRight)) } else { panel });
+        figure = figure.panel(if letter == "a" {
+            panel.legend(Legend::at(Corner::BottomLeft).without_frame())
+        } else {
+            panel
+        });
     }
     figure
         .panel(basins(&data.basins, Rect::new(46.0, 206.0, 220.0, 158.0)))
