@@ -1,11 +1,13 @@
 //! The computation of the figure.
 
+use std::f64::consts::PI;
+
 use bouncing_disk::core::{
-    AfterRest, Attractor, AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, ImpactMap, Phase,
-    UNDECIDED, Vibration, basin_fractions_over_observed,
+    AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Basins, Grid,
+    ImpactMap, Phase, UNDECIDED, Vibration, basin_fractions_over_observed,
 };
 
-use super::data::{BasinsAt, ExtraAttractorsData, Found, Kind, Sweep};
+use super::data::{BasinsAt, Boundary, ExtraAttractorsData, Found, Kind, Sweep};
 use crate::experiment::{ExperimentError, Quality};
 use crate::paper;
 use crate::progress::{Progress, advancing};
@@ -14,8 +16,8 @@ use crate::progress::{Progress, advancing};
 const FORCINGS: [[f64; 2]; 2] = [[0.3, 1.2], [0.1, 1.0]];
 const RESTITUTION: f64 = 0.8;
 
-/// Γ of the basins.
-const FORCING: f64 = 0.35;
+/// Γ and restitution of the basins, and the impacts after which a cell is undecided.
+const BASINS: (f64, f64, u32) = (0.35, RESTITUTION, 20_000);
 
 /// The farthest that an attractor may move from one Γ to the next (rad).
 const REACH: f64 = 0.3;
@@ -31,16 +33,23 @@ pub(super) fn compute(
     progress: &dyn Progress,
 ) -> Result<ExtraAttractorsData, ExperimentError> {
     let search = search(quality).map_err(ExperimentError::model)?;
-    let forcings = quality.choose(37, 181);
+    let forcings = quality.choose(36, 180);
     let cells = quality.choose(150, 600);
-    progress.start(2 * forcings as u64 + cells as u64, "forcings and rows");
+    progress.start(2 * forcings as u64 + 4 * cells as u64, "forcings and rows");
     let restitutions = [paper::section_four()?.restitution, RESTITUTION];
     let sweeps = FORCINGS
         .into_iter()
         .zip(restitutions)
-        .map(|(range, restitution)| sweep(restitution, even(range, forcings), &search, progress))
+        .map(|(range, restitution)| sweep(restitution, middles(range, forcings), &search, progress))
         .collect::<Result<_, _>>()?;
-    Ok(ExtraAttractorsData { basins: basins(&search, cells, progress)?, search, reach: REACH, sweeps })
+    // Before the basin of the paper's restitution has a fractal boundary, and after.
+    let [before, _, _, after, _] = paper::section_four()?.axial_forcings_of_fig7;
+    let boundaries = [(before, restitutions[0], 20_000), (after, restitutions[0], 1_000), BASINS]
+        .into_iter()
+        .map(|case| boundary(case, &search, cells, progress))
+        .collect::<Result<_, _>>()?;
+    let basins = basins(&search, cells, progress)?;
+    Ok(ExtraAttractorsData { basins, boundaries, search, reach: REACH, sweeps })
 }
 
 fn search(quality: Quality) -> Result<AttractorSearch, bouncing_disk::core::Error> {
@@ -48,9 +57,9 @@ fn search(quality: Quality) -> Result<AttractorSearch, bouncing_disk::core::Erro
     AttractorSearch::default().with_starts(starts)?.with_impacts(impacts.0, impacts.1)
 }
 
-/// Numbers at equal distances, both ends among them.
-fn even([from, to]: [f64; 2], count: usize) -> Vec<f64> {
-    (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect()
+/// The middles of equal parts of a range: its round ends are births of orbits.
+fn middles([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    (0..count).map(|k| from + (to - from) * (k as f64 + 0.5) / count as f64).collect()
 }
 
 fn sweep(
@@ -101,24 +110,50 @@ fn found(attractor: &Attractor, followed: usize) -> Found {
     Found { kind, period, followed, starts, interval: attractor.starts.interval() }
 }
 
+/// The basins of a case up to the bound of the impact speed: attractors, grid, labels.
+fn labelled(
+    (forcing, restitution, max_impacts): (f64, f64, u32),
+    search: &AttractorSearch,
+    cells: usize,
+    progress: &dyn Progress,
+) -> Result<(Attractors, Grid, Basins), ExperimentError> {
+    let vibration = Vibration::from_axial_forcing(forcing).map_err(ExperimentError::model)?;
+    let map = ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)?;
+    let attractors = map.attractors(search).map_err(ExperimentError::model)?;
+    let axis = |high| Axis::new(0.0, high, cells).map_err(ExperimentError::model);
+    let grid = Grid::new(axis(1.0)?, axis(map.impact_speed_bound() / PI)?).map_err(ExperimentError::model)?;
+    let settings = BasinSettings { max_impacts, ..BasinSettings::default() };
+    let basins = attractors.basins_observed(grid, settings, &advancing(progress));
+    Ok((attractors, grid, basins.map_err(ExperimentError::model)?))
+}
+
+fn boundary(
+    case: (f64, f64, u32),
+    search: &AttractorSearch,
+    cells: usize,
+    progress: &dyn Progress,
+) -> Result<Boundary, ExperimentError> {
+    let (_, _, basins) = labelled(case, search, cells, progress)?;
+    Ok(Boundary {
+        axial_forcing: case.0,
+        restitution: case.1,
+        undecided_cells: basins.share(UNDECIDED).count(),
+        entropy: basins.entropy(BOX).map_err(ExperimentError::model)?,
+        scaling: basins.boundary_scaling(&DISTANCES).map_err(ExperimentError::model)?,
+    })
+}
+
 fn basins(
     search: &AttractorSearch,
     cells: usize,
     progress: &dyn Progress,
 ) -> Result<BasinsAt, ExperimentError> {
-    let vibration = Vibration::from_axial_forcing(FORCING).map_err(ExperimentError::model)?;
-    let map = ImpactMap::new(vibration, RESTITUTION).map_err(ExperimentError::model)?;
-    let attractors = map.attractors(search).map_err(ExperimentError::model)?;
-    let top = map.impact_speed_bound() / std::f64::consts::PI;
-    let axis = |high| Axis::new(0.0, high, cells).map_err(ExperimentError::model);
-    let grid = Grid::new(axis(1.0)?, axis(top)?).map_err(ExperimentError::model)?;
-    let settings = BasinSettings { max_impacts: 20_000, ..BasinSettings::default() };
-    let basins =
-        attractors.basins_observed(grid, settings, &advancing(progress)).map_err(ExperimentError::model)?;
+    let (attractors, grid, basins) = labelled(BASINS, search, cells, progress)?;
+    let map = attractors.map();
     let (mut cells_in_region, mut region) = (vec![0; attractors.all().len()], 0);
     for column in 0..cells {
         let phase = Phase::new(grid.impact_angle(column)).map_err(ExperimentError::model)?;
-        let bound = map.impact_speed_bound_at(phase) / std::f64::consts::PI;
+        let bound = map.impact_speed_bound_at(phase) / PI;
         for row in (0..cells).filter(|row| grid.speed().centre(*row) <= bound) {
             region += 1;
             if let Some(number) = usize::from(basins.row(row)[column]).checked_sub(1) {
@@ -128,17 +163,15 @@ fn basins(
     }
     let letter = |label: &u8| char::from(b'a' + (*label).min(25));
     Ok(BasinsAt {
-        restitution: RESTITUTION,
-        axial_forcing: FORCING,
-        top,
+        restitution: BASINS.1,
+        axial_forcing: BASINS.0,
+        top: grid.speed().high(),
         cells,
-        max_impacts: settings.max_impacts,
+        max_impacts: BASINS.2,
         found: attractors.all().iter().enumerate().map(|(number, own)| found(own, number)).collect(),
         rows: (0..cells).map(|row| basins.row(row).iter().map(letter).collect()).collect(),
         undecided_cells: basins.share(UNDECIDED).count(),
         cells_in_region,
         region,
-        entropy: basins.entropy(BOX).map_err(ExperimentError::model)?,
-        scaling: basins.boundary_scaling(&DISTANCES).map_err(ExperimentError::model)?,
     })
 }

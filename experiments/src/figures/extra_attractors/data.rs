@@ -13,6 +13,45 @@ pub struct ExtraAttractorsData {
     /// One restitution each.
     pub(super) sweeps: Vec<Sweep>,
     pub(super) basins: BasinsAt,
+    /// Boundaries at three pairs of Γ and restitution, the last one that of the basins.
+    pub(super) boundaries: Vec<Boundary>,
+}
+
+/// How fractal the boundaries of basins are, up to the bound of the impact speed.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Boundary {
+    pub(super) axial_forcing: f64,
+    pub(super) restitution: f64,
+    pub(super) undecided_cells: u64,
+    pub(super) entropy: BasinEntropy,
+    pub(super) scaling: BoundaryScaling,
+}
+
+impl Boundary {
+    /// What the power law is, in words.
+    pub(super) fn fit(&self) -> String {
+        match self.scaling.fit {
+            BoundaryFit::PowerLaw { dimension, standard_error, .. } => {
+                format!("dimension {dimension:.2} ± {standard_error:.2}")
+            }
+            BoundaryFit::NoPowerLaw { slopes } => {
+                format!("no power law, with slopes from {:.2} to {:.2}", slopes.0, slopes.1)
+            }
+            _ => "too few uncertain cells".to_owned(),
+        }
+    }
+
+    /// Γ, restitution, power law and entropies, in words.
+    pub(super) fn words(&self) -> String {
+        format!(
+            "Γ = {}, restitution {}: {}, S_b = {:.3}, S_bb = {}",
+            self.axial_forcing,
+            self.restitution,
+            self.fit(),
+            self.entropy.entropy,
+            self.entropy.boundary_entropy.map_or("none".to_owned(), |own| format!("{own:.3}")),
+        )
+    }
 }
 
 /// The attractors over the forcing for one restitution.
@@ -74,8 +113,6 @@ pub(super) struct BasinsAt {
     /// Cells of each attractor inside the trapping region, and all there are.
     pub(super) cells_in_region: Vec<u64>,
     pub(super) region: u64,
-    pub(super) entropy: BasinEntropy,
-    pub(super) scaling: BoundaryScaling,
 }
 
 impl Found {
@@ -112,30 +149,22 @@ impl Sweep {
 impl ExtraAttractorsData {
     pub(super) fn caption(&self) -> String {
         let basins = &self.basins;
-        let dimension = match basins.scaling.fit {
-            BoundaryFit::PowerLaw { dimension, standard_error, .. } => {
-                format!("the boundary has the dimension {dimension:.2} ± {standard_error:.2}")
-            }
-            BoundaryFit::NoPowerLaw { slopes } => {
-                format!("no power law: the slope falls from {:.2} to {:.2}", slopes.1, slopes.0)
-            }
-            _ => "there are too few uncertain cells".to_owned(),
-        };
+        let boundaries: Vec<String> = self.boundaries.iter().map(Boundary::words).collect();
         let (first, second) = (self.sweeps.first(), self.sweeps.get(1));
         let restitution = |sweep: Option<&Sweep>| sweep.map_or(0.0, |sweep| sweep.restitution);
         format!(
             "All attractors of a disk, found without being told, for the restitutions (a) {} and (b) {}: the share of the \
              starts that end on each, with its 95 % interval, {} starts spread evenly over the region of impacts that no attractor can leave. Colours: \
              platform periods for each impact. (c) Basins at Γ = {} and restitution {}, up to the proven bound of the impact speed; the key \
-             gives impacts and platform periods of each attractor. (d) Share of the cells of (c) with another label than their own \
-             within a distance: {dimension}. Entropy of the basins S_b = {:.3}, at the boundaries S_bb = {}.",
+             gives impacts and platform periods of each attractor. (d) Share of the cells with another label than their own \
+             within a distance, lines where it is a power of it: {}. The entropies S_b, and S_bb at the boundaries, are over boxes of {} cells a side.",
             restitution(first),
             restitution(second),
             self.search.starts(),
             basins.axial_forcing,
             basins.restitution,
-            basins.entropy.entropy,
-            basins.entropy.boundary_entropy.map_or("none".to_owned(), |own| format!("{own:.3}")),
+            boundaries.join("; "),
+            self.boundaries.first().map_or(0, |own| own.entropy.box_side),
         )
     }
 

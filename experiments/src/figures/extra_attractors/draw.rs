@@ -1,11 +1,11 @@
 //! The drawing of the figure.
 
-use bouncing_disk::core::BoundaryFit;
+use bouncing_disk::core::{BoundaryFit, elementary};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Figure, Legend, Line, Marker, Panel, Raster, Rect, Scatter, Ticks,
 };
 
-use super::data::{BasinsAt, ExtraAttractorsData, Kind, Sweep};
+use super::data::{BasinsAt, Boundary, ExtraAttractorsData, Kind, Sweep};
 
 /// What each kind is called and drawn in.
 const KINDS: [(Kind, &str, Colour); 8] = [
@@ -41,7 +41,7 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
     let mut panel = Panel::new(area)
         .x(Axis::linear(low, high).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
         .y(Axis::log(LEAST, 1.5).label("share of the starts"))
-        .letter_in(letter, Corner::TopLeft);
+        .letter_in(letter, Corner::BottomRight);
     let markers = sweep.axial_forcings.len() < 100;
     for (kind, name, colour) in KINDS {
         let points = sweep.found.iter().zip(&sweep.axial_forcings).flat_map(|(found, forcing)| {
@@ -82,37 +82,32 @@ fn key(data: &BasinsAt, area: Rect) -> Panel {
         .layer(Raster::new(1, count, (1..=count as u8).rev().collect(), &BASINS, (0.0, 1.0), ends))
 }
 
-fn uncertain(data: &BasinsAt, area: Rect) -> Panel {
-    let points: Vec<_> = data
-        .scaling
-        .shares
-        .iter()
-        .filter(|share| share.uncertain.count() > 0)
-        .map(|share| (share.distance as f64, share.uncertain.value()))
-        .collect();
-    let least = points.iter().fold(1.0_f64, |least, point| least.min(point.1));
-    let panel = Panel::new(area)
-        .x(Axis::log(0.8, 20.0).label("distance (cells)").ticks(Ticks::at([
-            (1.0, "1"),
-            (2.0, "2"),
-            (4.0, "4"),
-            (8.0, "8"),
-            (16.0, "16"),
-        ])))
-        .y(Axis::log(0.6 * least, 1.2).label("uncertain share"))
+/// The boundaries, in their order.
+const BOUNDARIES: [Colour; 3] = [Colour::BLUE, Colour::VERMILION, Colour::BLACK];
+
+fn uncertain(boundaries: &[Boundary], area: Rect) -> Panel {
+    let ticks = [(1.0, "1"), (2.0, "2"), (4.0, "4"), (8.0, "8"), (16.0, "16")];
+    let mut panel = Panel::new(area)
+        .x(Axis::log(0.8, 20.0).label("distance (cells)").ticks(Ticks::at(ticks)))
+        .y(Axis::log(4.0e-3, 1.4).label("uncertain share"))
         .letter_in("d", Corner::TopLeft);
-    let fitted = match (data.scaling.fit, points.first()) {
-        (BoundaryFit::PowerLaw { exponent, .. }, Some((first, share))) => {
-            let at = |distance: f64| {
-                (distance, share * bouncing_disk::core::elementary::pow(distance / first, exponent))
+    for (boundary, colour) in boundaries.iter().zip(BOUNDARIES) {
+        let shares = boundary.scaling.shares.iter().filter(|share| share.uncertain.count() > 0);
+        let points: Vec<_> = shares.map(|share| (share.distance as f64, share.uncertain.value())).collect();
+        if let BoundaryFit::PowerLaw { exponent, .. } = boundary.scaling.fit {
+            // Through the mean of the logarithms, as the fit goes.
+            let log = |of: fn(&(f64, f64)) -> f64| {
+                points.iter().map(|point| elementary::ln(of(point))).sum::<f64>() / points.len() as f64
             };
-            vec![at(1.0), at(16.0)]
+            let (x, y) = (log(|point| point.0), log(|point| point.1));
+            let at =
+                |point: &(f64, f64)| (point.0, elementary::exp(y + exponent * (elementary::ln(point.0) - x)));
+            panel = panel.layer(Line::new(points.iter().map(at)).width(0.7).colour(colour));
         }
-        _ => Vec::new(),
-    };
-    panel
-        .layer(Line::new(fitted).width(0.7).colour(Colour::GREY))
-        .layer(Scatter::new(points).marker(Marker::Dot).size(3.0).colour(Colour::BLACK))
+        let name = format!(r"$\Gamma = {}$, $\epsilon = {}$", boundary.axial_forcing, boundary.restitution);
+        panel = panel.layer(Scatter::new(points).marker(Marker::Dot).size(3.0).colour(colour).name(name));
+    }
+    panel.legend(Legend::at(Corner::BottomRight).without_frame())
 }
 
 pub(super) fn draw(data: &ExtraAttractorsData) -> Figure {
@@ -121,11 +116,14 @@ pub(super) fn draw(data: &ExtraAttractorsData) -> Figure {
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
     for ((sweep, area), letter) in data.sweeps.iter().zip(areas).zip(["a", "b"]) {
         let panel = shares(sweep, area, letter);
-        figure =
-            figure.panel(if letter == "b" { panel.legend(Legend::at(Corner::BottomRight)) } else { panel });
+        figure = figure.panel(if letter == "a" {
+            panel.legend(Legend::at(Corner::BottomLeft).without_frame())
+        } else {
+            panel
+        });
     }
     figure
         .panel(basins(&data.basins, Rect::new(46.0, 206.0, 220.0, 158.0)))
         .panel(key(&data.basins, Rect::new(274.0, 220.0, 10.0, 130.0)))
-        .panel(uncertain(&data.basins, Rect::new(362.0, 206.0, 130.0, 158.0)))
+        .panel(uncertain(&data.boundaries, Rect::new(362.0, 206.0, 130.0, 158.0)))
 }

@@ -12,8 +12,10 @@ use crate::read_checked;
 /// The fewest distances that a power law is fitted to.
 const FEWEST: usize = 3;
 
-/// How far the slopes from one distance to the next may differ from each other along a power law.
-const LARGEST_SPREAD: f64 = 0.25;
+/// How far the slopes from one distance to the next may differ from each other along a power law: this much, and
+/// this share of their mean. Near saturation, where most cells are uncertain, they fall to zero and differ by more.
+const SPREAD: f64 = 0.05;
+const SPREAD_OF_SLOPE: f64 = 0.2;
 
 /// The share of cells that are uncertain at some distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +45,8 @@ pub enum BoundaryFit {
         /// The smallest slope from one distance to the next, and the largest.
         slopes: (f64, f64),
     },
-    /// The slopes from one distance to the next differ by more than 0.25.
+    /// The slopes from one distance to the next differ by more than 0.05 and a fifth of their mean: of a grid that
+    /// is too coarse, too, where most cells are uncertain.
     NoPowerLaw {
         /// The smallest and the largest of them.
         slopes: (f64, f64),
@@ -180,7 +183,9 @@ fn fit(points: &[(f64, f64)]) -> BoundaryFit {
     let slopes = points.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0));
     let slopes =
         slopes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), own| (low.min(own), high.max(own)));
-    if slopes.1 - slopes.0 > LARGEST_SPREAD {
+    let ends = (points[0], points[points.len() - 1]);
+    let mean = (ends.1.1 - ends.0.1) / (ends.1.0 - ends.0.0);
+    if slopes.1 - slopes.0 > SPREAD + SPREAD_OF_SLOPE * mean.abs() {
         return BoundaryFit::NoPowerLaw { slopes };
     }
     let count = points.len() as f64;
@@ -252,7 +257,13 @@ mod tests {
         // Stripes: from half their width on everything is uncertain.
         let stripes = basins(200, 200, |_, column| Label::from(column / 8 % 2 == 0));
         let scaling = stored(&stripes.boundary_scaling(&[1, 2, 4, 8, 16]).expect("fits"));
-        assert!(matches!(scaling.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.1 - slopes.0 > 0.25));
+        assert!(matches!(scaling.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.1 - slopes.0 > 0.3));
+        // Nearly all cells are uncertain: 0.5, 0.75, 0.94 and 1 of them.
+        let mut random = SplitMix64::new(2);
+        let sparse = (0..300 * 300).map(|_| Label::from(random.unit() < 0.08)).collect();
+        let sparse = Basins::of_labels(sparse, 300).expect("legal");
+        let sparse = sparse.boundary_scaling(&[1, 2, 4, 8]).expect("fits");
+        assert!(matches!(sparse.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.0 < 0.01), "{sparse:?}");
         let one = stored(&basins(50, 50, |_, _| 1).boundary_scaling(&[1, 2, 4, 8]).expect("fits"));
         assert_eq!(one.fit, BoundaryFit::TooFew { distances: 0 });
         assert!(
