@@ -170,7 +170,8 @@ fn examples() -> Vec<String> {
 }
 
 /// The pages that show programs and what they print.
-const TUTORIALS: [&str; 2] = ["docs/tutorial.md", "docs/designing-a-motor.md"];
+const TUTORIALS: [&str; 3] =
+    ["docs/tutorial.md", "docs/designing-a-motor.md", "docs/studying-the-dynamics.md"];
 
 /// The blocks of the tutorials in this language.
 fn blocks(language: &str) -> Vec<String> {
