@@ -1,5 +1,5 @@
-//! The crisis in which an attractor is lost to rest: where the unstable manifold of a saddle inside of it first
-//! touches the stable manifold of another one (docs/numerics/dynamics.md, "Crises").
+//! The crisis in which an attractor is lost to rest: where the unstable manifold of a saddle inside of it
+//! first touches the stable manifold of another one (docs/numerics/dynamics.md, "Crises").
 
 use crate::analysis::manifold::Side;
 use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
@@ -40,9 +40,9 @@ read_checked!(CrisisSearch as UncheckedSearch {
 });
 
 impl CrisisSearch {
-    /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: below the crisis and
-    /// beyond it. The unstable manifold is that on the later side of the saddle's first impact (a negative
-    /// multiplier makes both sides one), sampled at 2,048 points that are followed for 200 impacts.
+    /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: below the crisis
+    /// and beyond it. The unstable manifold is that on the later side of the saddle's first impact (a
+    /// negative multiplier makes both sides one), sampled at 2,048 points that are followed for 200 impacts.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for any of them.
@@ -95,7 +95,8 @@ impl CrisisSearch {
     }
 }
 
-/// A crisis: the unstable manifold of a saddle on an attractor touches the stable manifold of a saddle beside it.
+/// A crisis: the unstable manifold of a saddle on an attractor touches the stable manifold of a saddle beside
+/// it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCrisis"))]
@@ -106,8 +107,8 @@ pub struct Crisis {
     pub forcing: f64,
     /// An estimate of its error: what the last flights along the saddle changed, and the rounding.
     pub forcing_error: f64,
-    /// The last two values of Gamma of the search by rest: at the first no sample came to rest, at the second some
-    /// did, so that the crisis lies below the second.
+    /// The last two values of Gamma of the search by rest: at the first no sample came to rest, at the second
+    /// some did, so that the crisis lies below the second.
     pub bracket: (f64, f64),
     /// The saddle on the attractor, at the crisis.
     pub inside: PeriodicOrbit,
@@ -119,9 +120,9 @@ pub struct Crisis {
     pub share: f64,
     /// The side of the first impact of the saddle on which this piece begins.
     pub side: Side,
-    /// Second derivative by the share of the distance from the stable manifold, in the units of manifolds next to
-    /// the second saddle, over its rate of change with Gamma: how the escaping share of the first piece opens,
-    /// which is sqrt(8 (Gamma - Gamma_c) / |this|). It is not 0 at a quadratic tangency.
+    /// Second derivative by the share of the distance from the stable manifold, in the units of manifolds
+    /// next to the second saddle, over its rate of change with Gamma: how the escaping share of the first
+    /// piece opens, which is sqrt(8 (Gamma - Gamma_c) / |this|). It is not 0 at a quadratic tangency.
     pub curvature: f64,
 }
 
@@ -152,9 +153,9 @@ impl Crisis {
     }
 
     /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi, Ott and
-    /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on the
-    /// attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one. `None`
-    /// where a multiplier does not tell.
+    /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on
+    /// the attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one.
+    /// `None` where a multiplier does not tell.
     #[must_use]
     pub fn life_exponent(&self) -> Option<f64> {
         let one = self.inside.states == self.touched.states;
@@ -186,16 +187,16 @@ pub enum NoCrisis {
         /// The impacts of the first sample that comes to rest.
         life: u32,
     },
-    /// The unstable manifold has no fold next to the stable one: the attractor touches another saddle, or its edge
-    /// is no fold.
+    /// The unstable manifold has no fold next to the stable one: the attractor touches another saddle, or its
+    /// edge is no fold.
     #[error(
         "where samples come to rest, Gamma = {forcing}, no fold is next to the saddle: the nearest is {nearest:e} off"
     )]
     NoFold {
         /// Gamma at which samples come to rest.
         forcing: f64,
-        /// The smallest distance of a fold from the stable direction of the saddle, in the units of manifolds;
-        /// the largest double if there is none.
+        /// The smallest distance of a fold from the stable direction of the saddle, in the units of
+        /// manifolds; the largest double if there is none.
         nearest: f64,
     },
     /// The tangency was not found to the rounding.
@@ -212,14 +213,14 @@ pub enum NoCrisis {
 const BRACKET: f64 = 1.0e-7;
 
 impl CrisisSearch {
-    /// The crisis in which the unstable manifold of `inside`, a saddle on the attractor or at its edge, touches the
-    /// stable manifold of `touched`, which may be the same saddle. Both are orbits of maps within the range;
-    /// at other values of Gamma they are sought next to these.
+    /// The crisis in which the unstable manifold of `inside`, a saddle on the attractor or at its edge,
+    /// touches the stable manifold of `touched`, which may be the same saddle. Both are orbits of maps within
+    /// the range; at other values of Gamma they are sought next to these.
     ///
-    /// First Gamma is halved on whether any sample of the unstable manifold comes to rest: what does bounds the
-    /// crisis from above. There the folds of the unstable manifold next to the second saddle are looked for, and
-    /// of those that come first the Gamma at which they lie on the stable manifold, by the secant method. The
-    /// smallest of these is the crisis.
+    /// First Gamma is halved on whether any sample of the unstable manifold comes to rest: what does bounds
+    /// the crisis from above. There the folds of the unstable manifold next to the second saddle are looked
+    /// for, and of those that come first the Gamma at which they lie on the stable manifold, by the secant
+    /// method. The smallest of these is the crisis.
     ///
     /// ```
     /// # use bouncing_disk_core::{CrisisSearch, ImpactMap, ImpactState, Vibration};
@@ -234,8 +235,8 @@ impl CrisisSearch {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if `inside` is no saddle; [`Error::NotSettled`] where one of the orbits is not found
-    /// again; those of [`Vibration::first_impact`].
+    /// [`Error::OutOfRange`] if `inside` is no saddle; [`Error::NotSettled`] where one of the orbits is not
+    /// found again; those of [`Vibration::first_impact`].
     pub fn crisis(
         &self,
         inside: &PeriodicOrbit,

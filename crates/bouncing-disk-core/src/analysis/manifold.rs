@@ -8,6 +8,7 @@ use crate::observer::{Observer, Unobserved, Watch};
 use crate::read_checked;
 
 pub(super) mod grower;
+mod record;
 pub(super) mod saddle;
 
 use grower::Grower;
@@ -236,13 +237,13 @@ impl Manifold {
 }
 
 impl ImpactMap {
-    /// The stable or the unstable manifold of a saddle, `orbit` of this map: an orbit with one real multiplier
-    /// inside of the unit circle and one outside.
+    /// The stable or the unstable manifold of a saddle, `orbit` of this map: an orbit with one real
+    /// multiplier inside of the unit circle and one outside.
     ///
-    /// Every branch grows from a short straight piece next to the saddle, which is mapped again and again. Points
-    /// are inserted where neighbours part or the polygon turns; the curve is broken where the map jumps
-    /// ([`PieceEnd`]). A point that is inserted is mapped all the way from the first piece, so that no error of
-    /// interpolation grows.
+    /// Every branch grows from a short straight piece next to the saddle, which is mapped again and again.
+    /// Points are inserted where neighbours part or the polygon turns; the curve is broken where the map
+    /// jumps ([`PieceEnd`]). A point that is inserted is mapped all the way from the first piece, so that no
+    /// error of interpolation grows.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ManifoldKind, ManifoldSettings, Vibration};

@@ -36,9 +36,9 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for restitution 0, which forgets the speed of an impact, and where the speed before
-    /// is more than a double holds; [`Error::NoLiftOff`] for an impact without speed on a platform that does
-    /// not fall away; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
+    /// [`Error::OutOfRange`] for restitution 0, which forgets the speed of an impact, and where the speed
+    /// before is more than a double holds; [`Error::NoLiftOff`] for an impact without speed on a platform
+    /// that does not fall away; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn step_back(&self, state: ImpactState) -> Result<ImpactState, Error> {
         let restitution = self.restitution();
         within("restitution of an inverse", restitution, f64::MIN_POSITIVE, 1.0, "(0, 1), a normal number")?;

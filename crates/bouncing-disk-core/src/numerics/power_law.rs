@@ -39,8 +39,8 @@ impl PowerLawPoint {
 pub struct PowerLaw {
     /// The exponent.
     pub exponent: f64,
-    /// Its standard error: that of the errors of the points, or that of their scatter about the law where it is
-    /// larger.
+    /// Its standard error: that of the errors of the points, or that of their scatter about the law where it
+    /// is larger.
     pub standard_error: f64,
     /// ln c.
     pub log_factor: f64,
@@ -134,8 +134,8 @@ const MOST_SIGMAS: f64 = 3.5;
 /// The root mean square scatter that is allowed, in units of the errors, unless it is within [`MOST_FACTOR`].
 const MOST_SCATTER: f64 = 3.0;
 
-/// The root mean square scatter (of ln y) that is allowed whatever the errors, a factor of two: what oscillates
-/// about a law, as lives beyond a crisis do, has an exponent all the same, with the larger error.
+/// The root mean square scatter (of ln y) that is allowed whatever the errors, a factor of two: what
+/// oscillates about a law, as lives beyond a crisis do, has an exponent all the same, with the larger error.
 const MOST_FACTOR: f64 = core::f64::consts::LN_2;
 
 /// A straight line through (ln x, ln y).
@@ -170,7 +170,8 @@ fn straight_line(points: &[PowerLawPoint]) -> StraightLine {
     StraightLine { slope, error: (1.0 / width).sqrt(), at_zero: y - slope * x, squares }
 }
 
-/// The power law through points, by least squares in the logarithms, each with its error; or why there is none.
+/// The power law through points, by least squares in the logarithms, each with its error; or why there is
+/// none.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::power_law::{NoPowerLaw, PowerLawPoint, fit_power_law};
@@ -223,9 +224,9 @@ pub fn fit_power_law(points: &[PowerLawPoint]) -> Result<Result<PowerLaw, NoPowe
     }))
 }
 
-/// The coefficient of the square in a parabola through (ln x, ln y), in units of its standard error: that of the
-/// errors of the points, or that of their scatter about the parabola where it is larger. Zero where the points do
-/// not tell.
+/// The coefficient of the square in a parabola through (ln x, ln y), in units of its standard error: that of
+/// the errors of the points, or that of their scatter about the parabola where it is larger. Zero where the
+/// points do not tell.
 fn curvature(points: &[PowerLawPoint]) -> f64 {
     let weight = |point: &PowerLawPoint| 1.0 / (point.relative_error * point.relative_error);
     let sum = |of: &dyn Fn(&PowerLawPoint) -> f64| {

@@ -14,9 +14,8 @@ use crate::progress::Progress;
 const RANGE: (f64, f64) = (0.5595, 0.5615);
 /// The saddle at its edge, roughly: phase in periods and normalised speed of its impacts.
 const SADDLE: [(f64, f64); 3] = [(0.120_64, 1.498_95), (0.252_71, 1.097_92), (0.954_82, 1.403_15)];
-/// The largest distance in Γ at which lives are counted, and how many distances there are in each factor of two.
+/// The largest distance in Γ at which lives are counted; each next one is half of it.
 const FARTHEST: f64 = 1.0e-3;
-const IN_A_FACTOR_OF_TWO: u32 = 2;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraCrisisData, ExperimentError> {
     let restitution = paper::section_four()?.restitution;
@@ -46,11 +45,10 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
     let stable = pieces(&grown(ManifoldKind::Stable, stable).map_err(model)?);
     let unstable = pieces(&grown(ManifoldKind::Unstable, unstable).map_err(model)?);
     progress.advance(1);
-    let (orbits, most_impacts, factors) = quality.choose((60, 300_000, 8), (1_000, 20_000_000, 14));
-    let ratio = 0.5_f64.sqrt();
+    let (orbits, most_impacts, halvings) = quality.choose((60, 2_000_000, 12), (300, 20_000_000, 14));
     let mut beyond = vec![FARTHEST];
-    for _ in 0..IN_A_FACTOR_OF_TWO * factors {
-        beyond.extend(beyond.last().map(|last| ratio * last));
+    for _ in 0..halvings {
+        beyond.extend(beyond.last().map(|last| 0.5 * last));
     }
     let lives = crisis.lives(&beyond, orbits, most_impacts).map_err(model)?;
     progress.advance(1);

@@ -67,7 +67,9 @@ fn panel(
     let orbits = orbits(&map)?;
     let mut known = Vec::new();
     for orbit in orbits.iter().filter(|orbit| attracts(orbit)) {
-        if let Some(radius) = orbit.trapping_radius(&map, 64) {
+        // The third attractor attracts after long excursions only.
+        let radius = orbit.trapping_radius(&map, 64).or_else(|| orbit.attraction_radius(&map));
+        if let Some(radius) = radius {
             known.push(KnownOrbit::new(orbit.clone(), radius)?);
         }
     }

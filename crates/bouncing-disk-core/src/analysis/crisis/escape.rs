@@ -20,8 +20,8 @@ impl CrisisSearch {
         Grower::new(map, &saddle, ManifoldKind::Unstable, self.side, &ManifoldSettings::new(1.0, 16)?)
     }
 
-    /// After how many impacts a sample of the first piece is proven to chatter to rest, the first one of which it is;
-    /// `None` if it is of none within the impacts that are allowed.
+    /// After how many impacts a sample of the first piece is proven to chatter to rest, the first one of
+    /// which it is; `None` if it is of none within the impacts that are allowed.
     pub(super) fn first_rest(
         &self,
         inside: &PeriodicOrbit,

@@ -70,13 +70,13 @@ pub struct CrisisLives {
 }
 
 impl Crisis {
-    /// How long orbits live at these distances above 0 beyond the crisis (in Gamma), and the power law of their
-    /// mean life. So many `orbits` in [1, 1e6] start from one orbit on the attractor just below the crisis,
-    /// and are followed for at most `impacts` >= 1.
+    /// How long orbits live at these distances above 0 beyond the crisis (in Gamma), and the power law of
+    /// their mean life. So many `orbits` in [1, 1e6] start from one orbit on the attractor just below the
+    /// crisis, and are followed for at most `impacts` >= 1.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a number out of its range; [`Error::NotSettled`] if the disk comes to rest below
-    /// the crisis: the saddle is not on an attractor; those of
+    /// [`Error::OutOfRange`] for a number out of its range; [`Error::NotSettled`] if the disk comes to rest
+    /// below the crisis: the saddle is not on an attractor; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn lives(&self, beyond: &[f64], orbits: usize, impacts: usize) -> Result<CrisisLives, Error> {
         self.lives_observed(beyond, orbits, impacts, &Unobserved)

@@ -39,8 +39,8 @@ const MAX_HALVINGS: u32 = 30;
 /// How many rounds along the second saddle are tried after the first.
 const MAX_ROUNDS: u32 = 12;
 
-/// The distance from the second saddle (in the units of manifolds) at which its stable manifold is straight within the
-/// rounding: the square of it is left.
+/// The distance from the second saddle (in the units of manifolds) at which its stable manifold is straight
+/// within the rounding: the square of it is left.
 const STRAIGHT: f64 = 1.0e-7;
 
 /// The farthest that a point may be from the second saddle for its coordinates to mean anything.
@@ -202,8 +202,8 @@ impl Setting<'_> {
         Ok(seen(&self.saddle, state, along))
     }
 
-    /// The fold in a window of the first piece: where the unstable coordinate is stationary. Of several the one
-    /// nearest to the stable manifold.
+    /// The fold in a window of the first piece: where the unstable coordinate is stationary. Of several the
+    /// one nearest to the stable manifold.
     fn fold(&self, window: (f64, f64), flights: u32) -> Result<Option<Fold>, Error> {
         let share = |part: u32| window.0 + (window.1 - window.0) * f64::from(part) / f64::from(PARTS);
         let mut best: Option<Fold> = None;
@@ -331,8 +331,8 @@ impl Tangency<'_> {
         Ok(Err(Failure::NotSettled { forcing, change }))
     }
 
-    /// The tangency from near `start`, where the orbit passes the saddle after so many flights: round by round
-    /// along the saddle, until its stable manifold is straight.
+    /// The tangency from near `start`, where the orbit passes the saddle after so many flights: round by
+    /// round along the saddle, until its stable manifold is straight.
     fn solved(&self, tip: &Tip, start: f64) -> Result<Result<Solution, Failure>, Error> {
         let (mut forcing, mut tip, mut change) = (start, *tip, f64::INFINITY);
         let mut step = 1.0e-8 * start;

@@ -81,8 +81,8 @@ fn the_crisis_does_not_depend_on_the_search() {
     panic!("one of the sides leads to the attractor");
 }
 
-/// The unstable manifold of the period-1 orbit, which lies in the midst of the attractor, is not at its edge: it
-/// touches later.
+/// The unstable manifold of the period-1 orbit, which lies in the midst of the attractor, is not at its edge:
+/// it touches later.
 #[test]
 fn what_lies_in_the_midst_of_the_attractor_touches_later() {
     let node = map(0.5607).refine(&[map(0.5607).period_one(1).expect("exists")]).expect("an orbit");

@@ -3,8 +3,9 @@
 
 use glam::DVec2;
 
+use super::record::Record;
 use super::saddle::Saddle;
-use super::{ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side};
+use super::{ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, PieceEnd, Side};
 use crate::analysis::periodic::phase_difference;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -126,8 +127,8 @@ impl<'m> Grower<'m> {
         Ok(grower)
     }
 
-    /// The state at a share of the first piece, if it is a flying disk's, and how fast it moves with the share
-    /// (phase, velocity).
+    /// The state at a share of the first piece, if it is a flying disk's, and how fast it moves with the
+    /// share (phase, velocity).
     pub(in crate::analysis) fn first_piece(&self, share: f64) -> Result<Option<(ImpactState, DVec2)>, Error> {
         let (beginning, end) = self.first;
         Ok(self.displaced(share)?.state().map(|state| (state, end - beginning)))
@@ -349,62 +350,4 @@ impl<'m> Grower<'m> {
 /// Whether two neighbours lie too near on the first piece for a point between them.
 fn is_undivided(from: &Node, to: &Node) -> bool {
     to.from - from.from <= SHORTEST_PART
-}
-
-/// The pieces as far as they are known.
-struct Record {
-    pieces: Vec<ManifoldPiece>,
-    /// The piece that grows.
-    current: Option<ManifoldPiece>,
-    /// Its last point, and how far that is from the last one that was kept.
-    last: Option<(ImpactState, f64)>,
-    finest: f64,
-    arclength: f64,
-    points: usize,
-}
-
-impl Record {
-    fn new(saddle: ImpactState, finest: f64) -> Self {
-        let current = ManifoldPiece { states: vec![saddle], start: PieceEnd::Saddle, end: PieceEnd::Cut };
-        Self { pieces: Vec::new(), current: Some(current), last: None, finest, arclength: 0.0, points: 1 }
-    }
-
-    /// Begins a piece.
-    fn begin(&mut self, state: ImpactState, start: PieceEnd) {
-        self.current = Some(ManifoldPiece { states: vec![state], start, end: PieceEnd::Cut });
-        self.last = None;
-        self.points += 1;
-    }
-
-    /// A point of the piece that grows, so far from the one before.
-    fn extend(&mut self, before: ImpactState, state: ImpactState, by: f64) {
-        let Some(current) = &mut self.current else {
-            // The generation before ended in a gap.
-            self.begin(before, PieceEnd::Graze);
-            return self.extend(before, state, by);
-        };
-        self.arclength += by;
-        let since = self.last.map_or(0.0, |(_, since)| since) + by;
-        if since >= self.finest {
-            current.states.push(state);
-            self.points += 1;
-            self.last = None;
-        } else {
-            self.last = Some((state, since));
-        }
-    }
-
-    /// Ends the piece that grows, if there is one.
-    fn interrupt(&mut self, end: PieceEnd) {
-        if let Some(mut piece) = self.current.take() {
-            piece.states.extend(self.last.take().map(|(state, _)| state));
-            piece.end = end;
-            self.pieces.push(piece);
-        }
-    }
-
-    fn finished(mut self) -> Vec<ManifoldPiece> {
-        self.interrupt(PieceEnd::Cut);
-        self.pieces
-    }
 }

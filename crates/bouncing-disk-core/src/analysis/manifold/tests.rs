@@ -44,8 +44,8 @@ fn nearest(map: &ImpactMap, start: ImpactState, target: ImpactState, kind: Manif
     nearest
 }
 
-/// What grows by one map is checked by its inverse: every point of the unstable manifold came from the saddle,
-/// and every point of the stable one goes there.
+/// What grows by one map is checked by its inverse: every point of the unstable manifold came from the
+/// saddle, and every point of the stable one goes there.
 #[test]
 fn every_point_comes_from_the_saddle_or_goes_there() {
     for (forcing, restitution) in [(0.45, 0.5), (0.40, 0.5), (0.561, 0.5), (0.50, 0.6), (0.25, 0.8)] {
@@ -57,8 +57,8 @@ fn every_point_comes_from_the_saddle_or_goes_there() {
             let (mut points, mut worst) = (0, 0.0_f64);
             for branch in &manifold.branches {
                 assert!(branch.arclength > 0.0, "{map} {kind:?}");
-                // On the way back rounding grows by 1/r^2 in every flight: these saddles repel by more than 2, so
-                // that a dozen flights are all there are, and have no small restitution.
+                // On the way back rounding grows by 1/r^2 in every flight: these saddles repel by more than
+                // 2, so that a dozen flights are all there are, and have no small restitution.
                 for state in branch.pieces.iter().flat_map(|piece| &piece.states) {
                     worst = worst.max(nearest(&map, *state, saddle.states[0], kind));
                     points += 1;
@@ -100,8 +100,8 @@ fn the_basin_changes_across_the_stable_manifold() {
     }
 }
 
-/// Beyond the doubling the period-1 node has turned into a saddle with negative multipliers; what leaves it ends
-/// on the orbit of twice the period.
+/// Beyond the doubling the period-1 node has turned into a saddle with negative multipliers; what leaves it
+/// ends on the orbit of twice the period.
 #[test]
 fn a_negative_multiplier_takes_two_rounds() {
     let map = map(0.50, 0.5);
