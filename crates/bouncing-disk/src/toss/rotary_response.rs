@@ -357,7 +357,7 @@ impl SpinMap {
             let taken = (0..self.len()).fold(0.0, |sum, index| sum + self.lost(index));
             return RotaryOutcome::Runaway { change: given * load.signum() - taken };
         }
-        if load.abs() == friction {
+        if load.abs() >= friction {
             return RotaryOutcome::Kept { limit: (friction > 0.0).then(|| self.kept_limit()) };
         }
         RotaryOutcome::Steady(self.steady(None))

@@ -13,6 +13,9 @@ const NAMED: usize = 12;
 /// The width of the bracket about the last Γ at which an orbit is admissible.
 const BRACKET: f64 = 1e-13;
 
+/// Γ, impacts and periods of a settled orbit, and its distance from the nearest one on a stable branch.
+type Judged = (f64, u64, u64, Option<f64>);
+
 /// Where orbits settle that start so, against the branches: all that settle on a periodic orbit for which
 /// `counts` (impacts, periods) holds.
 pub(super) fn settled(
@@ -22,7 +25,7 @@ pub(super) fn settled(
     counts: impl Fn(u64, u64) -> bool + Sync,
 ) -> Result<Settled, Error> {
     let verdicts = verdicts(starts, settings)?;
-    let judged: Vec<Option<(f64, u64, u64, Option<f64>)>> = starts
+    let judged: Vec<Option<Judged>> = starts
         .par_iter()
         .zip(verdicts)
         .map(|((map, _), verdict)| match verdict {
