@@ -192,10 +192,10 @@ pub(super) fn without_bounce(_: &Entry) -> Answers {
     let verdicts = verdicts_after_rest(&maps, SETTINGS)?;
     let mut first: Vec<(u64, u64, f64)> = Vec::new();
     for (column, verdict) in (0..COLUMNS).zip(&verdicts) {
-        if let Behaviour::Chattering { long_flights, platform_periods } = Behaviour::of(verdict) {
-            if !first.iter().any(|known| (known.0, known.1) == (long_flights, platform_periods)) {
-                first.push((long_flights, platform_periods, forcing(column)));
-            }
+        if let Behaviour::Chattering { long_flights, platform_periods } = Behaviour::of(verdict)
+            && !first.iter().any(|known| (known.0, known.1) == (long_flights, platform_periods))
+        {
+            first.push((long_flights, platform_periods, forcing(column)));
         }
     }
     let listed: Vec<String> = first
