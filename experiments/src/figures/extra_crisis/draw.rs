@@ -40,12 +40,12 @@ fn plane(data: &ExtraCrisisData, area: Rect, x: (f64, f64), y: (f64, f64), lette
         .letter(letter);
     let shown = |pieces: &[Vec<Spot>]| -> Vec<Vec<Spot>> { visible(pieces, x, y) };
     for piece in shown(&data.stable) {
-        panel = panel.layer(Line::new(piece.into_iter()).width(0.6).colour(Colour::BLUE));
+        panel = panel.layer(Line::new(piece).width(0.6).colour(Colour::BLUE));
     }
     panel = panel.layer(DensePoints::new(data.attractor.iter().copied()).colour(Colour::BLACK).radius(0.35));
     if letter == "b" {
         for piece in shown(&data.unstable) {
-            panel = panel.layer(Line::new(piece.into_iter()).width(0.6).colour(Colour::VERMILION));
+            panel = panel.layer(Line::new(piece).width(0.6).colour(Colour::VERMILION));
         }
     }
     panel.layer(

@@ -32,8 +32,8 @@ pub(super) fn compute(
     let [a, b, c, d, _] = printed.axial_forcings_of_fig7;
     progress.start(4 * cells as u64, "rows");
     let mut panels = Vec::new();
-    for forcing in [a, b, c, d] {
-        let made = panel(forcing, printed.restitution, forcing == b, (cells, arclength), progress);
+    for (forcing, has_third) in [(a, false), (b, true), (c, false), (d, false)] {
+        let made = panel(forcing, printed.restitution, has_third, (cells, arclength), progress);
         panels.push(made.map_err(ExperimentError::model)?);
     }
     let third = third(b, printed.restitution).map_err(ExperimentError::model)?;
