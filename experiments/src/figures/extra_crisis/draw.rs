@@ -80,7 +80,7 @@ fn lives(data: &ExtraCrisisData, area: Rect) -> Panel {
     }
     let mut panel = Panel::new(area)
         .x(Axis::log(0.5 * near, 2.0 * far).label(r"$\Gamma-\Gamma_c$"))
-        .y(Axis::log(0.5 * least, 2.0 * most).label("mean life (impacts)"))
+        .y(Axis::log(0.5 * least, 8.0 * most).label("mean life (impacts)"))
         .letter("c");
     let points = known.iter().map(|life| (life.beyond, life.impacts));
     let errors = known.iter().map(|life| life.relative_error * life.impacts);
