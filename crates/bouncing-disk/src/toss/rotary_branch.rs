@@ -92,10 +92,12 @@ impl RotaryBranch {
 /// throughout, and no step has to be chosen: the next change of stick and slip is in closed form.
 ///
 /// ```
+/// use bouncing_disk::core::ImpactState;
 /// use bouncing_disk::{ForcingParameters, RotaryParameter, rotary_branch};
 ///
 /// let system = ForcingParameters { axial_forcing: 0.5, angular_forcing: 1.0, phase_lag: 0.0, restitution: 0.5 }.build()?;
-/// let orbit = system.map().settled_orbit(system.map().period_one(1).expect("exists"), 1_000, 4, 1e-9)?.expect("two impacts");
+/// let start = ImpactState::from_normalised(1.2, 1.3)?;
+/// let orbit = system.map().settled_orbit(start, 1_000, 4, 1e-9)?.expect("two impacts");
 /// // While the twist is weak both impacts stick, and the disk turns with the platform after each of them.
 /// let branch = rotary_branch(&system, &orbit, RotaryParameter::AngularForcing, (0.0, 100.0))?;
 /// assert_eq!(branch.pieces[0].sliding, [None, None]);
