@@ -130,7 +130,7 @@ fn boundary(data: &ExtraAttractorsData) -> Claim {
     Claim::statement(
         ID,
         PLACE,
-        "the boundary of the basin is smooth at the first of the forcings of (d), and at the third of an entropy that no smooth one has: S_bb > ln 2",
+        "the boundary of the basin is smooth at the first of the forcings of (d), and at the third S_bb exceeds ln 2, the most that a box has which a smooth curve cuts",
         holds,
         data.boundaries.iter().map(Boundary::words).collect::<Vec<_>>().join(". "),
     )

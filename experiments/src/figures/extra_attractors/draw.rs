@@ -35,7 +35,7 @@ const BASINS: [Colour; 9] = [
 /// The least share that is drawn.
 const LEAST: f64 = 3.0e-4;
 
-fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
+fn shares(sweep: &Sweep, named: &[Kind], area: Rect, letter: &str) -> Panel {
     let ends = (sweep.axial_forcings.first(), sweep.axial_forcings.last());
     let (low, high) = (ends.0.copied().unwrap_or(0.0), ends.1.copied().unwrap_or(1.0));
     let mut panel = Panel::new(area)
@@ -49,7 +49,8 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
             own.map(move |own| (*forcing, own.share(), own.interval))
         });
         let points: Vec<_> = points.collect();
-        if points.is_empty() {
+        // The key of one panel serves both.
+        if points.is_empty() && !named.contains(&kind) {
             continue;
         }
         let errors = points.iter().map(|(_, _, (low, high))| 0.5 * (high - low));
@@ -89,7 +90,7 @@ fn uncertain(boundaries: &[Boundary], area: Rect) -> Panel {
     let ticks = [(1.0, "1"), (2.0, "2"), (4.0, "4"), (8.0, "8"), (16.0, "16")];
     let mut panel = Panel::new(area)
         .x(Axis::log(0.8, 20.0).label("distance (cells)").ticks(Ticks::at(ticks)))
-        .y(Axis::log(4.0e-3, 1.4).label("uncertain share"))
+        .y(Axis::log(4.0e-3, 4.0).label("uncertain share"))
         .letter_in("d", Corner::TopLeft);
     for (boundary, colour) in boundaries.iter().zip(BOUNDARIES) {
         let shares = boundary.scaling.shares.iter().filter(|share| share.uncertain.count() > 0);
@@ -114,8 +115,10 @@ pub(super) fn draw(data: &ExtraAttractorsData) -> Figure {
     const HEIGHT: f64 = 400.0;
     let areas = [Rect::new(46.0, 12.0, 196.0, 150.0), Rect::new(296.0, 12.0, 196.0, 150.0)];
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    let found = data.sweeps.iter().flat_map(|sweep| sweep.found.iter().flatten());
+    let named: Vec<Kind> = found.filter(|own| own.share() >= LEAST).map(|own| own.kind).collect();
     for ((sweep, area), letter) in data.sweeps.iter().zip(areas).zip(["a", "b"]) {
-        let panel = shares(sweep, area, letter);
+        let panel = shares(sweep, &named, area, letter);
         figure = figure.panel(if letter == "a" {
             panel.legend(Legend::at(Corner::BottomLeft).without_frame())
         } else {

@@ -24,9 +24,9 @@ pub struct BasinEntropy {
     /// S_b, the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: 0 if each box
     /// has one label, at most the logarithm of the number of labels.
     pub entropy: f64,
-    /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. Where each
-    /// boundary is a smooth curve between two basins it is ln 2 at most: more proves that it is not (for boxes
-    /// of many cells), less proves nothing.
+    /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box that a
+    /// smooth curve between two basins cuts has ln 2 at most: a larger mean over boxes that are small beside the
+    /// basins says that the boundary is not smooth, a smaller one says nothing.
     pub boundary_entropy: Option<f64>,
 }
 
