@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{
-    ATTACHED, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, ChatterPolicy, FIRST_ORBIT,
-    Grid, ImpactMap, ImpactState, KnownOrbit, Label, Phase, UNDECIDED, Vibration,
+    ATTACHED, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, BifurcationKind, Branch,
+    ChatterPolicy, Continuation, ContinuationParameter, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
+    KnownOrbit, Label, Phase, UNDECIDED, Vibration,
 };
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -193,4 +194,47 @@ fn no_attractor_of_some_size_is_missed() {
 #[ignore = "minutes: 200 maps"]
 fn no_attractor_of_some_size_is_missed_on_200_maps() {
     assert_eq!(brute_force(200, 1_000, 5_000), [296, 71, 0, 1]);
+}
+
+/// The branch of the attracting orbit of so many impacts at this forcing.
+fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
+    let map = map(axial_forcing, 0.5);
+    let found = map.attractors(&AttractorSearch::default()).expect("no failure");
+    let known = found.known().find(|known| known.orbit().period() == impacts).expect("attracts");
+    let settings = Continuation::new(ContinuationParameter::Forcing, (0.6, 0.605), rising).expect("legal");
+    map.continued(known.orbit(), &settings).expect("continued")
+}
+
+/// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and there the
+/// next one loses an impact that vanishes (docs/numerics/dynamics.md).
+#[test]
+fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
+    let first = |branch: &Branch, is_one: fn(&BifurcationKind) -> bool| {
+        branch.bifurcations.iter().find(|found| is_one(&found.kind)).map(|found| found.point.parameter)
+    };
+    let folds = |kind: &BifurcationKind| matches!(kind, BifurcationKind::Fold);
+    let doubles = |kind: &BifurcationKind| matches!(kind, BifurcationKind::Doubling);
+    let grazes = |kind: &BifurcationKind| matches!(kind, BifurcationKind::Graze { .. });
+    let vanishes = |kind: &BifurcationKind| matches!(kind, BifurcationKind::VanishingImpact { .. });
+    let near = |found: Option<f64>, told: f64| {
+        assert!(found.is_some_and(|found| (found - told).abs() < 1e-11), "{found:?} for {told}");
+    };
+    let mut graze_before = None;
+    for (impacts, inside, fold, doubling, graze) in [
+        (11, 0.601_825, 0.601_820_246_476, Some(0.601_831_742_727), 0.602_483_782_462),
+        (12, 0.602_4, 0.602_288_693_424, Some(0.602_504_733_037), 0.602_587_532_411),
+        (13, 0.602_55, 0.602_532_869_819, None, 0.602_673_914_599),
+    ] {
+        let (falling, rising) = (branch_of(impacts, inside, false), branch_of(impacts, inside, true));
+        near(first(&falling, folds), fold);
+        near(first(&rising, grazes), graze);
+        match doubling {
+            Some(doubling) => near(first(&rising, doubles), doubling),
+            None => assert_eq!(first(&rising, doubles), None),
+        }
+        if let Some(before) = graze_before {
+            near(first(&falling, vanishes), before);
+        }
+        graze_before = Some(graze);
+    }
 }

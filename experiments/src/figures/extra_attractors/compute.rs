@@ -10,7 +10,7 @@ use bouncing_disk::core::{
 use super::data::{BasinsAt, Boundary, ExtraAttractorsData, Found, Kind, Sweep};
 use crate::experiment::{ExperimentError, Quality};
 use crate::paper;
-use crate::progress::{Progress, advancing};
+use crate::progress::{Progress, advancing, sharing};
 
 /// Γ of the two sweeps, and the restitution of the second.
 const FORCINGS: [[f64; 2]; 2] = [[0.3, 1.2], [0.1, 1.0]];
@@ -123,7 +123,7 @@ fn labelled(
     let axis = |high| Axis::new(0.0, high, cells).map_err(ExperimentError::model);
     let grid = Grid::new(axis(1.0)?, axis(map.impact_speed_bound() / PI)?).map_err(ExperimentError::model)?;
     let settings = BasinSettings { max_impacts, ..BasinSettings::default() };
-    let basins = attractors.basins_observed(grid, settings, &advancing(progress));
+    let basins = attractors.basins_observed(grid, settings, &sharing(progress, cells as u64));
     Ok((attractors, grid, basins.map_err(ExperimentError::model)?))
 }
 

@@ -35,12 +35,15 @@ const BASINS: [Colour; 9] = [
 /// The least share that is drawn.
 const LEAST: f64 = 3.0e-4;
 
+/// The lower end of the axes of shares and of uncertain shares: room for a key below all that is drawn.
+const FLOORS: [f64; 2] = [1.0e-5, 3.0e-4];
+
 fn shares(sweep: &Sweep, named: &[Kind], area: Rect, letter: &str) -> Panel {
     let ends = (sweep.axial_forcings.first(), sweep.axial_forcings.last());
     let (low, high) = (ends.0.copied().unwrap_or(0.0), ends.1.copied().unwrap_or(1.0));
     let mut panel = Panel::new(area)
         .x(Axis::linear(low, high).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
-        .y(Axis::log(LEAST, 1.5).label("share of the starts"))
+        .y(Axis::log(FLOORS[0], 1.5).label("share of the starts"))
         .letter_in(letter, Corner::BottomRight);
     let markers = sweep.axial_forcings.len() < 100;
     for (kind, name, colour) in KINDS {
@@ -90,7 +93,7 @@ fn uncertain(boundaries: &[Boundary], area: Rect) -> Panel {
     let ticks = [(1.0, "1"), (2.0, "2"), (4.0, "4"), (8.0, "8"), (16.0, "16")];
     let mut panel = Panel::new(area)
         .x(Axis::log(0.8, 20.0).label("distance (cells)").ticks(Ticks::at(ticks)))
-        .y(Axis::log(4.0e-3, 4.0).label("uncertain share"))
+        .y(Axis::log(FLOORS[1], 4.0).label("uncertain share"))
         .letter_in("d", Corner::TopLeft);
     for (boundary, colour) in boundaries.iter().zip(BOUNDARIES) {
         let shares = boundary.scaling.shares.iter().filter(|share| share.uncertain.count() > 0);

@@ -16,7 +16,7 @@ use crate::progress::{Progress, advancing};
 /// Top of the window of speeds, that of Fig. 7.
 const WINDOW_TOP: f64 = 5.0;
 /// How far from a manifold a pair of starts lies to either side (rad, units of g/omega).
-const ASIDE: f64 = 1.0e-4;
+const ASIDE: f64 = 1.0e-6;
 /// Pairs of starts of a panel.
 const PAIRS: usize = 400;
 /// Impacts after which a start counts as one that does not come to rest.
