@@ -46,6 +46,8 @@ pub struct AttractorsAt {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedFractions"))]
 pub struct BasinFractions {
+    /// Coefficient of restitution, in [0, 1).
+    pub restitution: f64,
     /// The attractors at each forcing, in the order of the forcings.
     pub at: Vec<AttractorsAt>,
     /// The attractors by the forcing at which they appear; the disk at rest is number 0.
@@ -53,6 +55,7 @@ pub struct BasinFractions {
 }
 
 read_checked!(BasinFractions as UncheckedFractions {
+    restitution: f64,
     at: Vec<AttractorsAt>,
     followed: Vec<FollowedAttractor>,
 });
@@ -63,7 +66,16 @@ impl BasinFractions {
         let unfitting = |what, found: usize, expected: usize| {
             Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
         };
+        let map = |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution);
+        map(1.0)?;
         for (index, at) in self.at.iter().enumerate() {
+            if *at.attractors.map() != map(at.axial_forcing)? {
+                return unfitting(
+                    "forcings before one whose attractors are of another map",
+                    index,
+                    self.at.len(),
+                );
+            }
             let count = at.attractors.all().len();
             for (what, found) in [
                 ("attractors that are followed", at.followed.len()),
@@ -194,35 +206,73 @@ pub fn basin_fractions_over_observed(
     reach: f64,
     observer: &dyn Observer,
 ) -> Result<BasinFractions, Error> {
-    within("distance from one forcing to the next", reach, 0.0, 100.0, "[0, 100] (rad)")?;
-    if forcings.len() > MAX_FORCINGS {
-        let (count, limit) = (forcings.len() as u64, MAX_FORCINGS as u64);
-        return Err(Error::TooLarge { what: "forcings", count, limit });
-    }
-    let maps =
-        forcings.iter().map(|forcing| ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, restitution));
-    let maps = maps.collect::<Result<Vec<_>, _>>()?;
-    let total = forcings.len() as u64;
-    let watch = Watch::begin(observer, 0, total)?;
-    let (mut fractions, mut before) = (BasinFractions { at: Vec::new(), followed: Vec::new() }, Vec::new());
-    for (index, (map, forcing)) in maps.iter().zip(forcings).enumerate() {
-        let part = |_: Progress| observer.observe(Progress { done: index as u64, total });
-        let attractors = map.attractors_observed(search, &part).map_err(|error| match error {
-            Error::Stopped { .. } => Error::Stopped { done: index as u64, total },
-            other => other,
-        })?;
-        let now: Vec<_> = attractors.all().iter().map(places).collect();
-        let matches = matched(&before, &now, (reach, map.vibration().peak_acceleration()));
-        before = now;
-        fractions.add(index, *forcing, attractors, &matches);
-    }
-    watch.end();
-    Ok(fractions)
+    let none = BasinFractions { restitution, at: Vec::new(), followed: Vec::new() };
+    none.extended_observed(forcings, search, reach, observer)
 }
 
 impl BasinFractions {
+    /// These with the attractors at more forcings, which follow those that are there: the very same as if all had
+    /// been given at once, also after it has been stored.
+    ///
+    /// A long list of forcings is stopped and gone on with in this way, some forcings at a time.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{AttractorSearch, basin_fractions_over};
+    /// # let search = AttractorSearch::default().with_starts(200)?;
+    /// let begun = basin_fractions_over(0.5, &[0.32, 0.36], &search, 0.3)?;
+    /// let whole = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3)?;
+    /// assert_eq!(begun.extended(&[0.40], &search, 0.3)?, whole);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`basin_fractions_over`]; [`Error::TooLarge`] for more than [`MAX_FORCINGS`] in all.
+    pub fn extended(&self, forcings: &[f64], search: &AttractorSearch, reach: f64) -> Result<Self, Error> {
+        self.extended_observed(forcings, search, reach, &Unobserved)
+    }
+
+    /// [`Self::extended`] with an observer; the items are the forcings that are added.
+    ///
+    /// # Errors
+    /// Those of [`Self::extended`]; [`Error::Stopped`] if the observer breaks.
+    pub fn extended_observed(
+        &self,
+        forcings: &[f64],
+        search: &AttractorSearch,
+        reach: f64,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
+        within("distance from one forcing to the next", reach, 0.0, 100.0, "[0, 100] (rad)")?;
+        let count = self.at.len().saturating_add(forcings.len());
+        if count > MAX_FORCINGS {
+            let (count, limit) = (count as u64, MAX_FORCINGS as u64);
+            return Err(Error::TooLarge { what: "forcings", count, limit });
+        }
+        let map = |forcing: &f64| ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, self.restitution);
+        let maps = forcings.iter().map(map).collect::<Result<Vec<_>, _>>()?;
+        let total = forcings.len() as u64;
+        let watch = Watch::begin(observer, 0, total)?;
+        let mut extended = self.clone();
+        let mut before: Vec<_> =
+            self.at.last().map_or_else(Vec::new, |at| at.attractors.all().iter().map(places).collect());
+        for (index, (map, forcing)) in maps.iter().zip(forcings).enumerate() {
+            let part = |_: Progress| observer.observe(Progress { done: index as u64, total });
+            let attractors = map.attractors_observed(search, &part).map_err(|error| match error {
+                Error::Stopped { .. } => Error::Stopped { done: index as u64, total },
+                other => other,
+            })?;
+            let now: Vec<_> = attractors.all().iter().map(places).collect();
+            let matches = matched(&before, &now, (reach, map.vibration().peak_acceleration()));
+            before = now;
+            extended.add(*forcing, attractors, &matches);
+        }
+        watch.end();
+        Ok(extended)
+    }
+
     /// Adds the attractors at the next forcing, of which some were there at the last one.
-    fn add(&mut self, index: usize, forcing: f64, attractors: Attractors, matches: &[Option<(usize, f64)>]) {
+    fn add(&mut self, forcing: f64, attractors: Attractors, matches: &[Option<(usize, f64)>]) {
+        let index = self.at.len();
         let last = self.at.last().map_or(&[][..], |at| &at.followed);
         let mut followed = Vec::with_capacity(matches.len());
         for (number, own) in matches.iter().enumerate() {

@@ -323,6 +323,12 @@ fn attractors_are_followed_over_the_forcing() {
     assert_eq!(periods, [0, 1, 1, 1, 1, 1, 2, 2, 2]);
     assert!(over.at.iter().all(|at| at.moved[0].is_none()));
     assert!(over.at[2].moved[1].is_some_and(|moved| moved > 0.0 && moved < 0.3));
+    // Cut anywhere, stored and gone on with: the very same.
+    for cut in 0..=forcings.len() {
+        let begun = stored(&basin_fractions(&forcings[..cut], &Unobserved).expect("no failure"));
+        let extended = begun.extended(&forcings[cut..], &quick(200), 0.3).expect("no failure");
+        assert_eq!(extended, over, "cut at {cut}");
+    }
     // Nothing is within no reach, and there is nothing over no forcing.
     let apart = over_forcing::basin_fractions_over(0.5, &[0.4, 0.41], &quick(50), 0.0).expect("no failure");
     assert_eq!(apart.followed.len(), 3);
@@ -375,4 +381,21 @@ fn stored_attractors_that_do_not_fit_are_refused() {
     assert!(changed(&|value| value["all"][0]["kind"] = serde_json::json!({"Rest": {"LeadsTo": 3}})));
     assert!(!changed(&|value| value["all"][0]["kind"] = serde_json::json!({"Rest": {"LeadsTo": 2}})));
     assert!(changed(&|value| value["all"][0]["kind"] = serde_json::json!({"Rest": {"LeadsTo": 0}})));
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn stored_shares_of_another_map_are_refused() {
+    let over = over_forcing::basin_fractions_over(0.5, &[0.32, 0.36], &quick(50), 0.3).expect("no failure");
+    let text = serde_json::to_value(&over).expect("writes");
+    let changed = |change: &dyn Fn(&mut serde_json::Value)| {
+        let mut wrong = text.clone();
+        change(&mut wrong);
+        serde_json::from_value::<over_forcing::BasinFractions>(wrong)
+    };
+    assert_eq!(changed(&|_| ()).expect("legal"), over);
+    assert!(changed(&|value| value["restitution"] = serde_json::json!(0.6)).is_err());
+    assert!(changed(&|value| value["restitution"] = serde_json::json!(1.0)).is_err());
+    assert!(changed(&|value| value["at"][1]["axial_forcing"] = serde_json::json!(0.37)).is_err());
+    assert!(changed(&|value| value["at"][1]["followed"] = serde_json::json!([0, 2])).is_err());
 }
