@@ -39,6 +39,7 @@ pub mod fig13;
 pub mod fig14;
 mod hand_path;
 mod least_squares;
+mod manifold_lines;
 mod motor_case;
 mod operating_curve;
 mod power_of_ten;

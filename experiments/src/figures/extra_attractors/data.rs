@@ -154,7 +154,7 @@ impl ExtraAttractorsData {
         let restitution = |sweep: Option<&Sweep>| sweep.map_or(0.0, |sweep| sweep.restitution);
         format!(
             "All attractors of a disk, found without being told, for the restitutions (a) {} and (b) {}: the share of the \
-             starts that end on each, with its 95 % interval, {} starts spread evenly over the region of impacts that no attractor can leave. Colours: \
+             starts that end on each (95 % intervals are in the data, and drawn where forcings are few), {} starts spread evenly over the region of impacts that no attractor can leave. Colours: \
              platform periods for each impact. (c) Basins at Γ = {} and restitution {}, up to the proven bound of the impact speed; the key \
              gives impacts and platform periods of each attractor. (d) Share of the cells with another label than their own \
              within a distance, lines where it is a power of it: {}. The entropies S_b, and S_bb at the boundaries, are over boxes of {} cells a side.",

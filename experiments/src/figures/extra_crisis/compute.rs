@@ -1,12 +1,13 @@
 //! The computation of the figure.
 
 use bouncing_disk::core::{
-    ChatterPolicy, CrisisSearch, Error, ImpactMap, ImpactState, Manifold, ManifoldKind, ManifoldSettings,
+    ChatterPolicy, CrisisSearch, Error, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings,
     PeriodicOrbit, Vibration, orbit_diagram,
 };
 
 use super::data::{ExtraCrisisData, Spot};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::manifold_lines::lines;
 use crate::paper;
 use crate::progress::Progress;
 
@@ -42,8 +43,8 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
         at.manifold(&crisis.touched, kind, &settings)
     };
     let (stable, unstable) = quality.choose((30.0, 6.0), (120.0, 16.0));
-    let stable = pieces(&grown(ManifoldKind::Stable, stable).map_err(model)?);
-    let unstable = pieces(&grown(ManifoldKind::Unstable, unstable).map_err(model)?);
+    let stable = lines(&grown(ManifoldKind::Stable, stable).map_err(model)?, spot);
+    let unstable = lines(&grown(ManifoldKind::Unstable, unstable).map_err(model)?, spot);
     progress.advance(1);
     let (orbits, most_impacts, halvings) = quality.choose((60, 2_000_000, 12), (300, 20_000_000, 14));
     let mut beyond = vec![FARTHEST];
@@ -98,22 +99,4 @@ fn magnified(orbit: &[ImpactState], saddle: &PeriodicOrbit) -> Option<Spot> {
     let farthest = (0..orbit.len()).max_by(|&i, &j| distance(&orbit[i]).total_cmp(&distance(&orbit[j])))?;
     // The first impact after it that is back at the edge.
     orbit[farthest..].iter().find(|state| distance(state) < 0.02).map(|state| spot(*state))
-}
-
-/// The pieces of a manifold, cut where the phase passes half a period.
-fn pieces(manifold: &Manifold) -> Vec<Vec<Spot>> {
-    let mut pieces = Vec::new();
-    for piece in manifold.pieces() {
-        let mut current: Vec<Spot> = Vec::new();
-        for state in &piece.states {
-            let next = spot(*state);
-            if current.last().is_some_and(|last| (last.0 - next.0).abs() > 0.5) {
-                pieces.push(std::mem::take(&mut current));
-            }
-            current.push(next);
-        }
-        pieces.push(current);
-    }
-    pieces.retain(|piece| piece.len() > 1);
-    pieces
 }

@@ -10,6 +10,7 @@ use bouncing_disk::core::{
 
 use super::data::{ExtraManifoldsData, Panel, Spot, ThirdAttractor};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::manifold_lines::lines;
 use crate::paper;
 use crate::progress::{Progress, advancing};
 
@@ -102,7 +103,7 @@ fn panel(
             .collect(),
         saddles: saddles.iter().flat_map(|orbit| &orbit.states).map(|state| spot(*state)).collect(),
         arclength: manifolds.iter().flat_map(|own| &own.branches).fold(0.0, |sum, own| sum + own.arclength),
-        manifolds: manifolds.iter().flat_map(pieces).collect(),
+        manifolds: manifolds.iter().flat_map(|own| lines(own, spot)).collect(),
         pairs,
         different,
         borders,
@@ -128,24 +129,6 @@ fn kind(label: Label, known: &[KnownOrbit]) -> u8 {
 
 fn spot(state: ImpactState) -> Spot {
     (state.phase().cycles(), state.normalised_speed())
-}
-
-/// The pieces of a manifold, cut at the seam of the phase.
-fn pieces(manifold: &Manifold) -> Vec<Vec<Spot>> {
-    let mut pieces = Vec::new();
-    for piece in manifold.pieces() {
-        let mut current: Vec<Spot> = Vec::new();
-        for state in &piece.states {
-            let next = spot(*state);
-            if current.last().is_some_and(|last| (last.0 - next.0).abs() > 0.5) {
-                pieces.push(std::mem::take(&mut current));
-            }
-            current.push(next);
-        }
-        pieces.push(current);
-    }
-    pieces.retain(|piece| piece.len() > 1);
-    pieces
 }
 
 /// Pairs of starts on both sides of the manifolds, and how many become different things.
@@ -188,7 +171,7 @@ impl Marked {
     fn of(manifolds: &[Manifold], cells: usize) -> Self {
         let mut marked = vec![false; cells * cells];
         let size = cells as f64;
-        for piece in manifolds.iter().flat_map(pieces) {
+        for piece in manifolds.iter().flat_map(|own| lines(own, spot)) {
             for pair in piece.windows(2) {
                 let by = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
                 let steps = (4.0 * size * by.0.abs().max(by.1.abs() / WINDOW_TOP)).ceil().max(1.0) as usize;

@@ -4,23 +4,8 @@ use std::ops::ControlFlow;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
 use super::*;
-use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::toss::rotary_response::rotary_response;
-use crate::toss::rotary_response::tests::orbits;
-
-fn system(forcing: f64, restitution: f64, twist: f64, lag: f64, load: f64) -> DimensionlessSystem {
-    let peak_acceleration = PI * forcing;
-    DimensionlessParameters {
-        peak_acceleration,
-        twist_speed: twist,
-        phase_lag: lag,
-        friction: 0.4,
-        restitution,
-        load,
-    }
-    .build()
-    .expect("legal")
-}
+use crate::toss::rotary_response::tests::{orbits, system};
 
 /// What the pieces say is what is found at any value, but next to the changes.
 fn check_pieces(system: &DimensionlessSystem, orbit: &PeriodicOrbit, branch: &RotaryBranch) -> usize {

@@ -8,7 +8,14 @@ use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameter
 use crate::toss::collisions::{CollisionEvent, CollisionState, Collisions};
 use crate::toss::period_one::period_one_rotary_speed;
 
-fn system(forcing: f64, restitution: f64, twist: f64, lag: f64, load: f64) -> DimensionlessSystem {
+/// A system with a friction of 0.4.
+pub(in crate::toss) fn system(
+    forcing: f64,
+    restitution: f64,
+    twist: f64,
+    lag: f64,
+    load: f64,
+) -> DimensionlessSystem {
     DimensionlessParameters {
         peak_acceleration: PI * forcing,
         twist_speed: twist,
