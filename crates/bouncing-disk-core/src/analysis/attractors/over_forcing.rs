@@ -107,10 +107,10 @@ impl BasinFractions {
 }
 
 /// Where an attractor is: phase (rad) and velocity (units of g/omega).
-type Places = Vec<(f64, f64)>;
+pub(super) type Places = Vec<(f64, f64)>;
 
 /// The places of an attractor that moves; none of the disk at rest.
-fn places(attractor: &Attractor) -> Option<Places> {
+pub(super) fn places(attractor: &Attractor) -> Option<Places> {
     match &attractor.kind {
         AttractorKind::Rest(_) => None,
         AttractorKind::Periodic(known) => {
@@ -137,7 +137,7 @@ fn one_way(one: &Places, other: &Places, peak: f64) -> f64 {
 
 /// For each of `new` the number of the one of `old` that it was, and the distance: the nearest pairs within
 /// `reach` first, each once.
-fn matched(
+pub(super) fn matched(
     old: &[Option<Places>],
     new: &[Option<Places>],
     (reach, peak): (f64, f64),

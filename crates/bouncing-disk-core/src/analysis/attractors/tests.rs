@@ -340,6 +340,22 @@ fn attractors_are_followed_over_the_forcing() {
     }
 }
 
+/// Of two that lie near an old one the nearer goes on as it, whatever their order, and the other appears.
+#[test]
+fn an_attractor_goes_on_as_one() {
+    let own = found(0.486, 0.5, 500);
+    let places: Vec<_> = own.all().iter().map(over_forcing::places).collect();
+    let (single, four) = (places[1].clone(), places[2].clone());
+    let old = [None, four.clone()];
+    let matches = over_forcing::matched(&old, &[None, single.clone(), four.clone()], (10.0, 1.5));
+    assert_eq!(matches, [None, None, Some((1, 0.0))]);
+    let matches = over_forcing::matched(&old, &[None, four, single.clone()], (10.0, 1.5));
+    assert_eq!(matches, [None, Some((1, 0.0)), None]);
+    // One that is nobody's takes no other's place.
+    let matches = over_forcing::matched(&[None, single.clone(), single.clone()], &[None, single], (10.0, 1.5));
+    assert_eq!(matches, [None, Some((1, 0.0))]);
+}
+
 #[test]
 fn settings_out_of_their_ranges_are_refused() {
     let search = AttractorSearch::default();

@@ -173,3 +173,21 @@ fn mean_lives_follow_a_power_law() {
     let stopped = crisis.lives_observed(&beyond, 20, 1_000, &StopAfter::calls(2));
     assert!(matches!(stopped, Err(Error::Stopped { .. })));
 }
+
+/// Lives at distances that hardly differ are those of unrelated orbits: their means scatter as the errors say.
+#[test]
+fn mean_lives_scatter_as_their_errors_say() {
+    let crisis = found(&search());
+    let beyond: Vec<_> = (0..16).map(|k| 2e-4 * (1.0 + 1e-4 * f64::from(k))).collect();
+    let lives = crisis.lives(&beyond, 40, 300_000).expect("followed").lives;
+    let count = lives.len() as f64;
+    assert!(lives.iter().all(|life| life.ended == 40));
+    let mean = lives.iter().fold(0.0, |sum, life| sum + life.impacts) / count;
+    let square = |life: &crate::MeanLife| {
+        let off = (life.impacts - mean) / (mean * life.relative_error);
+        off * off
+    };
+    let chi_squared = lives.iter().fold(0.0, |sum, life| sum + square(life)) / (count - 1.0);
+    // 0.1 and 99.9 % of the distribution with 15 degrees of freedom, over 15.
+    assert!((0.23..2.52).contains(&chi_squared), "{chi_squared}");
+}

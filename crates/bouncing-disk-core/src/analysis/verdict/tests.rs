@@ -261,6 +261,19 @@ fn next_to_a_doubling_the_period_is_the_right_one_or_none() {
     }
 }
 
+/// A start on the orbit that has lost its stability stays there for long: it is no attractor for all that.
+#[test]
+fn an_orbit_that_repels_a_little_is_no_attractor() {
+    for distance in [1e-8, 1e-6, 1e-4, 1e-3] {
+        let map = map(ImpactMap::first_doubling_forcing(0.5) + distance, 0.5);
+        let orbit = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
+        let radius = orbit.multipliers().spectral_radius();
+        assert!(radius > 1.0 && radius < 1.1, "{distance:e}: {radius}");
+        let verdict = of(map, orbit.states[0]);
+        assert!(!matches!(verdict, Verdict::Periodic { impacts: 1, .. }), "{distance:e}: {verdict:?}");
+    }
+}
+
 /// Starts and parameters at the ends of their ranges.
 #[test]
 fn seams_have_verdicts() {
