@@ -10,7 +10,7 @@
 //!   [`catalogue`] alone.
 //!
 //! [`registry`] lists the experiments; [`output`] writes their files; [`page`] makes the gallery, [`results`] the
-//! committed page. [`provenance`] is what every file says of its origin.
+//! committed page, [`extra_pictures`] the pictures of the figures beyond the paper. [`provenance`] is what every file says of its origin.
 
 pub mod answers;
 pub mod artifacts;
@@ -18,9 +18,11 @@ pub mod cache_key;
 pub mod catalogue;
 pub mod claim;
 mod colour_scale;
+pub mod committed_picture;
 pub mod count;
 pub mod errata;
 pub mod experiment;
+pub mod extra_pictures;
 pub mod figures;
 mod finite;
 pub mod json;

@@ -8,14 +8,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::{Provenance, StorageError};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::artifacts::{self, Stored};
-use crate::cache_key::Stale;
 use crate::claim::{Claim, Class, Computed, Source, Verdict};
+use crate::committed_picture::{FigureDigests, MadeFiles, digest, picture_name};
 use crate::count::Counts;
 use crate::errata::{self, ERRATA_FILE, ErrataError};
 use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
@@ -29,8 +27,6 @@ pub const RESULTS_FILE: &str = "results.md";
 pub const PICTURES_FOLDER: &str = "figures";
 /// The digests, in the folder of the pictures.
 pub const DIGESTS_FILE: &str = "digests.json";
-/// The largest width of a picture in pixels: keeps each below 300 kB.
-const PICTURE_WIDTH: u16 = 1100;
 
 /// Why the page could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -104,63 +100,22 @@ pub struct Digests {
     pub figures: BTreeMap<String, FigureDigests>,
 }
 
-/// What the section and the picture of one figure were made from.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct FigureDigests {
-    /// Digest of data, drawing and section in draft quality.
-    pub draft: String,
-    /// The same in paper quality, of which the picture is.
-    pub paper: String,
-    /// Digest of the picture's file.
-    pub picture: String,
-}
-
-/// A digest that does not depend on machine or compiler (FNV-1a, 64 bits).
-pub fn digest(bytes: &[u8]) -> String {
-    Digest::of(bytes).to_string()
-}
-
-/// The digest of a picture, which does not depend on what the file says of its origin.
-pub fn picture_digest(bytes: &[u8]) -> String {
-    digest(&provenance::without_png(bytes))
-}
-
-/// A figure as it lies in an output folder.
+/// A figure as it lies in an output folder, with its section of the page.
 struct Made {
-    provenance: Provenance,
-    outcome: Box<dyn ErasedData>,
+    files: MadeFiles,
     digest: String,
     section: String,
 }
 
-/// The page shows no measurements: what was made with some, or in another quality by a run since, is not taken for it.
 fn made(
     entry: &dyn RegisteredExperiment,
     folder: &OutputFolder,
     quality: Quality,
 ) -> Result<Made, ResultsError> {
-    let id = entry.id();
-    let missing = || ResultsError::Missing { id: id.to_owned() };
-    let data = folder.read(&format!("{id}.json"))?.ok_or_else(missing)?;
-    let drawing = folder.read(&format!("{id}.svg"))?.ok_or_else(missing)?;
-    let cache_key = folder.cache_key(id).map_err(|stale| match stale {
-        Stale::Missing => missing(),
-        _ => ResultsError::Changed { id: id.to_owned() },
-    })?;
-    // What the program did not write itself may have any form.
-    let whole =
-        cache_key.holds(&format!("{id}.json"), &data) && cache_key.holds(&format!("{id}.svg"), &drawing);
-    if !(whole && cache_key.quality == quality && !cache_key.shows_measurements()) {
-        return Err(ResultsError::Changed { id: id.to_owned() });
-    }
-    let failed = |source| ResultsError::Figure { id: id.to_owned(), source };
-    let Stored { outcome, provenance, .. } = artifacts::read(entry, &data).map_err(failed)?;
-    let section = section(entry, &*outcome)?;
-    // Another version of the program does not make another figure.
-    let mut all = provenance::without_json(data);
-    all.extend(provenance::without_svg(drawing));
-    all.extend(section.as_bytes());
-    Ok(Made { provenance, outcome, digest: digest(&all), section })
+    let files = MadeFiles::read(entry, folder, quality)?;
+    let section = section(entry, &*files.outcome)?;
+    let digest = files.digest_with(&section);
+    Ok(Made { files, digest, section })
 }
 
 /// Writes the page, the errata from their template, the pictures and their digests into `docs` from the figures in both output folders:
@@ -189,17 +144,16 @@ pub fn write(
         let failed = |source: ExperimentError| ResultsError::Figure { id: id.to_owned(), source };
         let made_in_draft = made(&**entry, draft, Quality::Draft)?;
         let made = made(&**entry, paper, Quality::Paper)?;
-        let figure = made.outcome.draw().map_err(failed)?;
-        let picture = figure.to_png_within(PICTURE_WIDTH).map_err(|error| failed(error.into()))?;
-        let figure =
-            FigureDigests { draft: made_in_draft.digest, paper: made.digest, picture: digest(&picture) };
-        files.push((picture_name(id), provenance::in_png(&made.provenance, &picture)));
+        let (picture, bytes) = made.files.picture(id)?;
+        let figure = FigureDigests { draft: made_in_draft.digest, paper: made.digest, picture };
+        files.push((picture_name(id), bytes));
         digests.figures.insert(id.to_owned(), figure);
         sections.push_str(&made.section);
+        let outcome = &made.files.outcome;
         if cited.contains(&id) {
-            data.insert(id, made.outcome.to_json().map_err(failed)?);
+            data.insert(id, outcome.to_json().map_err(failed)?);
         }
-        claims.push((id, made.outcome.claims()));
+        claims.push((id, outcome.claims()));
     }
     let page = format!("{}{sections}", head(&claims));
     digests.results = digest(page.as_bytes());
@@ -252,18 +206,8 @@ pub fn outdated(
     for entry in entries {
         let id = entry.id();
         let known = digests.figures.get(id).cloned().unwrap_or_default();
-        let expected = match quality {
-            Quality::Draft => &known.draft,
-            Quality::Paper => &known.paper,
-        };
-        let picture = pictures.read(&picture_name(id))?;
-        let current = match made(*entry, folder, quality) {
-            Ok(made) => made.digest == *expected,
-            Err(ResultsError::Missing { .. }) => true,
-            Err(ResultsError::Output(error)) => return Err(error.into()),
-            Err(_) => false,
-        };
-        if !current || picture.is_none_or(|picture| picture_digest(&picture) != known.picture) {
+        let made = made(*entry, folder, quality).map(|made| made.digest);
+        if !known.is_current(made, quality, pictures.read(&picture_name(id))?)? {
             outdated.push(format!("{PICTURES_FOLDER}/{}", picture_name(id)));
         }
     }
@@ -279,10 +223,6 @@ const CLASSES: &str = "\
     inputs that all round to the printed ones: reproduced where it holds for 95 % of them, differing where it holds for at most 5 %.\n\
     A statement about a range of a parameter is meant for all of it: one counterexample, which the remark gives, makes it differ. One about \"most\" of\n\
     something needs more than half. The counts are of rows and not of causes: one cause can move several rows.\n";
-
-fn picture_name(id: &str) -> String {
-    format!("{id}.png")
-}
 
 /// Title, explanation and the table of verdicts.
 fn head(claims: &[(&str, Vec<Claim>)]) -> String {
@@ -384,6 +324,7 @@ pub fn explained(error: &ResultsError) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::artifacts;
     use crate::measured::Measurements;
     use crate::progress::Silent;
     use crate::testing::demo_entries;

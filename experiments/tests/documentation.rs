@@ -1,16 +1,16 @@
-//! The committed results page and its pictures.
+//! The committed results page and pictures.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
+use bouncing_disk_experiments::committed_picture::{FigureDigests, LARGEST_PICTURE, digest, picture_digest};
 use bouncing_disk_experiments::errata::{ERRATA_FILE, TEMPLATE};
+use bouncing_disk_experiments::extra_pictures::{self, EXTRAS_FOLDER};
 use bouncing_disk_experiments::registry;
-use bouncing_disk_experiments::results::{
-    DIGESTS_FILE, Digests, PICTURES_FOLDER, RESULTS_FILE, digest, picture_digest,
-};
+use bouncing_disk_experiments::results::{DIGESTS_FILE, Digests, PICTURES_FOLDER, RESULTS_FILE};
 
-/// A picture may be this large (bytes), and all together so large.
-const LARGEST_PICTURE: usize = 300_000;
+/// All pictures of a folder together may be so large (bytes).
 const ALL_PICTURES: usize = 4_000_000;
 
 fn docs(name: &str) -> PathBuf {
@@ -31,16 +31,34 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
         "{ERRATA_FILE} was edited: it is made from experiments/src/errata.md"
     );
     assert_eq!(digest(TEMPLATE.as_bytes()), digests.errata_template, "to repair: cargo xtask figures --docs");
-    let known: Vec<_> = digests.figures.keys().map(String::as_str).collect();
-    let mut ids: Vec<_> = registry::paper().iter().map(|entry| entry.id()).collect();
+    let ids = registry::paper().iter().map(|entry| entry.id()).collect();
+    check_pictures(PICTURES_FOLDER, &digests.figures, ids, "cargo xtask figures --docs");
+}
+
+#[test]
+fn the_committed_pictures_of_extras_are_those_that_were_generated_and_small() {
+    let digests = fs::read(docs(EXTRAS_FOLDER).join(DIGESTS_FILE)).expect("the digests are committed");
+    let digests: extra_pictures::Digests = serde_json::from_slice(&digests).expect("written by this version");
+    let ids =
+        registry::all().iter().map(|entry| entry.id()).filter(|id| extra_pictures::is_shown(id)).collect();
+    check_pictures(EXTRAS_FOLDER, &digests.figures, ids, "cargo xtask figures --extras --docs");
+}
+
+fn check_pictures(
+    folder: &str,
+    figures: &BTreeMap<String, FigureDigests>,
+    mut ids: Vec<&str>,
+    command: &str,
+) {
+    let known: Vec<_> = figures.keys().map(String::as_str).collect();
     ids.sort_unstable();
-    assert_eq!(known, ids, "to repair: cargo xtask figures --docs");
+    assert_eq!(known, ids, "to repair: {command}");
     let mut together = 0;
-    for (id, digests) in &digests.figures {
-        let picture = fs::read(pictures.join(format!("{id}.png"))).expect("the picture is committed");
+    for (id, digests) in figures {
+        let picture = fs::read(docs(folder).join(format!("{id}.png"))).expect("the picture is committed");
         assert_eq!(picture_digest(&picture), digests.picture, "{id}.png was edited");
         assert!(picture.len() <= LARGEST_PICTURE, "{id}.png has {} bytes", picture.len());
         together += picture.len();
     }
-    assert!(together <= ALL_PICTURES, "the pictures have {together} bytes");
+    assert!(together <= ALL_PICTURES, "the pictures of {folder} have {together} bytes");
 }

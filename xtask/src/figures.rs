@@ -10,10 +10,11 @@ use bouncing_disk_experiments::cache_key::Stale;
 use bouncing_disk_experiments::count::Counts;
 use bouncing_disk_experiments::errata;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
+use bouncing_disk_experiments::extra_pictures;
 use bouncing_disk_experiments::literature;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
-use bouncing_disk_experiments::results;
+use bouncing_disk_experiments::results::{self, ResultsError};
 use bouncing_disk_experiments::summary::Summary;
 use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};
@@ -30,8 +31,8 @@ const DEFAULT_FOLDER: &str = "target/figures";
 const DRAFTS_FOLDER: &str = "draft";
 /// What repairs the documentation.
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
-/// What repairs the page of the literature.
-const LITERATURE_COMMAND: &str = "cargo xtask figures --extras --docs";
+/// What repairs the pictures of the extras and the page of the literature.
+const EXTRAS_COMMAND: &str = "cargo xtask figures --extras --docs";
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
 /// The most computing threads: more than any machine has that this runs on, and few enough to be started at
@@ -62,11 +63,11 @@ pub(crate) struct Options {
     #[arg(long)]
     list: bool,
     /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with --extras
-    /// docs/literature.md, is missing or out of date
+    /// docs/literature.md or a picture in docs/extras, is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
     /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it; with
-    /// --extras make extra-literature and write docs/literature.md
+    /// --extras make those beyond the paper and write docs/literature.md and docs/extras
     #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date
@@ -167,11 +168,6 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     }
     start_threads(options)?;
     let folder = OutputFolder::create(options.folder())?;
-    if options.docs && options.extras {
-        let selected: Vec<&dyn RegisteredExperiment> =
-            selected.into_iter().filter(|entry| literature::is_source(entry.id())).collect();
-        return write_literature(&Run { options, entries: &entries, selected: &selected }, &folder);
-    }
     let run = Run { options, entries: &entries, selected: &selected };
     if options.docs {
         return write_docs(&run, &folder);
@@ -191,7 +187,8 @@ struct Run<'a> {
     selected: &'a [&'a dyn RegisteredExperiment],
 }
 
-/// Makes the figures of the paper in both qualities and the documentation from it. A user's measurements are not shown there.
+/// Makes the figures of the paper, or those beyond it, in both qualities and the documentation from it. A user's
+/// measurements are not shown there.
 fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
     let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
     for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
@@ -202,25 +199,32 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
         }
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    results::write(errata::TEMPLATE, &registry::paper(), folder, &drafts, &docs)
-        .context("the documentation cannot be written")?;
-    say!("{} is up to date", visible_path(&docs.path().join(results::RESULTS_FILE)))?;
+    let written = if run.options.extras {
+        write_extras(run.selected, folder, &drafts, &docs)
+    } else {
+        results::write(errata::TEMPLATE, &registry::paper(), folder, &drafts, &docs)
+    };
+    written.context("the documentation cannot be written")?;
+    say!("{} is up to date", visible_path(docs.path()))?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// Makes the comparison with the literature, and its page.
-fn write_literature(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
-    let code = make(run, Quality::Paper, &Measurements::none(), folder)?;
-    if code != ExitCode::SUCCESS {
-        say!("the documentation is left as it was")?;
-        return Ok(code);
+/// Writes the page of the literature and the pictures of the other figures beyond the paper.
+fn write_extras(
+    selected: &[&dyn RegisteredExperiment],
+    paper: &OutputFolder,
+    drafts: &OutputFolder,
+    docs: &OutputFolder,
+) -> Result<(), ResultsError> {
+    for entry in selected.iter().filter(|entry| literature::is_source(entry.id())) {
+        literature::write(*entry, paper, docs)?;
     }
-    let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    for entry in run.selected {
-        literature::write(*entry, folder, &docs).context("the documentation cannot be written")?;
-    }
-    say!("{} is up to date", visible_path(&docs.path().join(literature::LITERATURE_FILE)))?;
-    Ok(ExitCode::SUCCESS)
+    extra_pictures::write(&shown_extras(selected), paper, drafts, docs)
+}
+
+/// Those of which the documentation holds a picture in docs/extras.
+fn shown_extras<'a>(selected: &[&'a dyn RegisteredExperiment]) -> Vec<&'a dyn RegisteredExperiment> {
+    selected.iter().copied().filter(|entry| extra_pictures::is_shown(entry.id())).collect()
 }
 
 fn start_threads(options: &Options) -> anyhow::Result<()> {
@@ -331,13 +335,19 @@ fn check(
     if !committed.is_empty() {
         say!("to repair: {DOCS_COMMAND}")?;
     }
+    let mut extras = extra_pictures::outdated(&shown_extras(selected), options.quality, &folder, &docs)?;
     for entry in selected.iter().filter(|entry| literature::is_source(entry.id())) {
         if literature::is_outdated(*entry, &folder, &docs)? {
-            say!("{DOCS_FOLDER}/{}: missing or out of date", literature::LITERATURE_FILE)?;
-            say!("to repair: {LITERATURE_COMMAND}")?;
-            committed.push(literature::LITERATURE_FILE.to_owned());
+            extras.push(literature::LITERATURE_FILE.to_owned());
         }
     }
+    for name in &extras {
+        say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
+    }
+    if !extras.is_empty() {
+        say!("to repair: {EXTRAS_COMMAND}")?;
+    }
+    committed.append(&mut extras);
     if outdated.is_empty() && common.is_empty() {
         if !committed.is_empty() || !faults.is_empty() {
             return Ok(ExitCode::FAILURE);

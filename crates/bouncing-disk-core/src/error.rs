@@ -91,6 +91,27 @@ pub enum Error {
         /// When the first impact comes, in radians after the launch.
         found: f64,
     },
+    /// No branch of periodic orbits begins: the orbit is none of the map, or it is not an isolated one, as at a
+    /// fold.
+    #[error("no branch begins at {parameter:?}: {what} is no isolated orbit there")]
+    NoBranch {
+        /// The orbit.
+        what: &'static str,
+        /// Where it was sought: the parameter of the continuation.
+        parameter: f64,
+    },
+    /// A number of a list is none of those that are meant.
+    #[error("{what} number {index} of {count} is not {expected}")]
+    NotOfKind {
+        /// What is in the list.
+        what: &'static str,
+        /// The number that was given, from 0.
+        index: usize,
+        /// How long the list is.
+        count: usize,
+        /// What was meant.
+        expected: &'static str,
+    },
     /// A text is no decimal number.
     #[error("byte {at} is no part of a decimal number")]
     NoDecimal {

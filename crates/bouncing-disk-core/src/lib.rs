@@ -30,13 +30,14 @@
 //! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
 //! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`period_doublings`], [`follow_attractor`] |
 //! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
+//! | manifolds and crises | [`ImpactMap::manifold`], [`Manifold`], [`ImpactMap::step_back`]; [`CrisisSearch`], [`Crisis`], [`Crisis::lives`] |
 //! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::impact_speed_bound_at`], [`ImpactMap::flight_duration_bound`] |
 //! | the doubling cascade | [`doubling_cascade`], [`CascadeDoubling`], [`feigenbaum_estimates`], [`FeigenbaumEstimate`] |
 //! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`lyapunov_spectra`], [`sweep`] |
 //! | what an orbit does for good | [`Verdict`], [`verdicts`], [`VerdictSettings`] |
 //! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`]; their measures [`BasinEntropy`], [`BoundaryScaling`] |
 //! | attractors without being told | [`AttractorSearch`] and [`ImpactMap::attractors`], [`Attractors`] and their [basins](Attractors::basins), [`basin_fractions_over`] |
-//! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`] |
+//! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`], [`Branch::extended`], [`BasinFractions::extended`] |
 //! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
 //!
 //! | feature | default | what it does |
@@ -47,6 +48,8 @@
 //!
 //! What is read passes the checks of what is made: a value outside its range, a key that is
 //! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound is `null` in JSON, which has no such number.
+//! With `serde_json`, switch on its feature `float_roundtrip`: without it a third of all numbers change in the last bit when
+//! they are read, and what is gone on with is no longer the same.
 
 mod analysis;
 mod chatter;

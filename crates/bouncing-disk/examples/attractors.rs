@@ -13,16 +13,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("no attractor has a faster impact than {:.3}", map.impact_speed_bound());
     let found = map.attractors(&AttractorSearch::default())?;
     for attractor in found.all() {
-        let (low, high) = attractor.starts.interval();
+        let (share, (low, high)) = (attractor.starts.value(), attractor.starts.interval());
         let what = match &attractor.kind {
             AttractorKind::Rest(_) => "at rest, again and again".to_owned(),
             AttractorKind::Periodic(known) => {
                 let radius = known.orbit().multipliers().spectral_radius();
-                format!("{} impacts, largest multiplier {radius:.4}", known.orbit().period())
+                format!("period {}, largest multiplier {radius:.6}", known.orbit().period())
             }
             _ => "without a period".to_owned(),
         };
-        println!("{what}: {:.1} to {:.1} % of the starts", 100.0 * low, 100.0 * high);
+        println!("{what}: {:.1} % of the starts ({:.1} to {:.1})", 100.0 * share, 100.0 * low, 100.0 * high);
     }
 
     // The window of Fig. 7.

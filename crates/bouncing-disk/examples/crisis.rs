@@ -9,7 +9,8 @@ use bouncing_disk::core::{CrisisSearch, ImpactMap, OrbitSearch, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.56)?, 0.5)?;
-    // The saddle at the edge of the attractor: of three impacts in three periods of the platform, with positive multipliers.
+    // The saddle at the edge of the attractor: of three impacts in three periods of the platform, with
+    // positive multipliers.
     let orbits = map.periodic_orbits(&OrbitSearch::new(3, 3)?)?.orbits;
     let saddle = orbits
         .iter()

@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             doubling.forcing_error
         );
     }
-    for estimate in feigenbaum_estimates(&cascade).iter().rev().take(1) {
+    // From seven doublings on there are estimates; ten are best in doubles.
+    if let Some(estimate) = feigenbaum_estimates(&cascade).last() {
         println!("delta = {:.6} +- {:.0e}", estimate.delta, estimate.delta_error);
         println!("alpha = {:.6} +- {:.0e}", estimate.alpha, estimate.alpha_error);
     }

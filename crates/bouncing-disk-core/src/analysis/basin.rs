@@ -273,6 +273,30 @@ impl Basins {
         basins.check().map(|()| basins)
     }
 
+    /// The basins of grids that lie on one another, from the slowest starts on: their rows one after the other.
+    ///
+    /// # Errors
+    /// [`Error::Unfitting`] if they have not all as many columns, or there are none; [`Error::TooLarge`] for more
+    /// than [`MAX_CELLS`] cells.
+    pub fn stacked(parts: impl IntoIterator<Item = Self>) -> Result<Self, Error> {
+        let mut parts = parts.into_iter();
+        let Some(mut whole) = parts.next() else {
+            return Err(Error::Unfitting { what: "parts of basins", found: 0, expected: 1 });
+        };
+        for part in parts {
+            if part.columns != whole.columns {
+                let (found, expected) = (part.columns as u64, whole.columns as u64);
+                return Err(Error::Unfitting { what: "columns of a part of basins", found, expected });
+            }
+            let count = whole.labels.len() as u64 + part.labels.len() as u64;
+            if count > MAX_CELLS {
+                return Err(Error::TooLarge { what: "cells of basins", count, limit: MAX_CELLS });
+            }
+            whole.labels.extend(part.labels);
+        }
+        Ok(whole)
+    }
+
     /// The labels themselves.
     pub(crate) fn into_labels(self) -> Vec<Label> {
         self.labels

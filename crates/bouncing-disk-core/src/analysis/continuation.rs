@@ -250,7 +250,7 @@ impl Branch {
     }
 
     /// The branch up to so many points in all, in [2, 1e6]: the very same as if it had been continued for as
-    /// many at once, also after it has been stored. What has come to another end, or is as long already, is
+    /// many at once, also after it has been stored (as JSON with the feature `float_roundtrip` of `serde_json`). What has come to another end, or is as long already, is
     /// returned as it is.
     ///
     /// A long continuation is stopped and gone on with in this way, some points at a time.
@@ -292,12 +292,12 @@ impl Branch {
         Ok(branch)
     }
 
-    /// The branch of twice the period that begins at the doubling number `index` of this branch's
-    /// bifurcations. Its first point is the one after the doubling; `rising` of the settings has no meaning,
+    /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`], which
+    /// must be a doubling. Its first point is the one after the doubling; `rising` of the settings has no meaning,
     /// as it goes to either side.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there is no such bifurcation or it is no doubling; [`Error::NotSettled`] if
+    /// [`Error::NotOfKind`] if there is no such bifurcation or it is no doubling; [`Error::NoBranch`] if
     /// no doubled orbit is found; those of [`ImpactMap::continued`].
     pub fn switched(&self, index: usize, settings: &Continuation) -> Result<Self, Error> {
         self.switched_observed(index, settings, &Unobserved)
@@ -316,8 +316,8 @@ impl Branch {
         settings.check()?;
         let doubling = self.bifurcations.get(index).filter(|found| found.kind == BifurcationKind::Doubling);
         let Some(doubling) = doubling else {
-            let legal = "the index of a doubling of this branch";
-            return Err(Error::OutOfRange { field: "bifurcation", value: index as f64, legal });
+            let (what, count, expected) = ("bifurcation", self.bifurcations.len(), "a doubling");
+            return Err(Error::NotOfKind { what, index, count, expected });
         };
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
         let map = self.map_at(doubling.point.parameter)?;
@@ -349,7 +349,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NotSettled`] if `orbit` is none of this map, or not an isolated one.
+    /// [`Error::NoBranch`] if `orbit` is none of this map, or not an isolated one: start beside a fold, not on it.
     pub fn continued(&self, orbit: &PeriodicOrbit, settings: &Continuation) -> Result<Branch, Error> {
         self.continued_observed(orbit, settings, &Unobserved)
     }
@@ -373,7 +373,7 @@ impl ImpactMap {
             parameter,
             settings.low,
             settings.high,
-            "that of its settings",
+            "[low, high] of the `Continuation`",
         )?;
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
         let (closing, at) = Closing::of(self, settings.parameter, &orbit.states)?;

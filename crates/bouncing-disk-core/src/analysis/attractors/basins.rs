@@ -1,6 +1,6 @@
 //! Basins of the attractors that were found.
 
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Range};
 
 use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
@@ -11,7 +11,7 @@ use crate::analysis::basin::{
 use crate::analysis::sweep::{SweepEvent, sweep_observed};
 use crate::error::{Error, room_for};
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::observer::{Observer, Progress, Unobserved};
+use crate::observer::{Observer, Progress, Unobserved, Watch};
 
 /// Impacts of an undecided start that are compared with the cells of the attractors that have any, after those
 /// that were allowed.
@@ -228,6 +228,75 @@ impl Attractors {
         // Whatever it says, there is nothing left to stop.
         let _ = observer.observe(Progress { done: 2 * rows, total: 2 * rows });
         Basins::of_labels(labels, grid.phase().cells())
+    }
+
+    /// Some rows of [`Self::basins`], with the very same labels. A grid that takes long is computed some rows at a
+    /// time, on one machine or many, and put together by [`Basins::stacked`].
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{AttractorSearch, Axis, Basins, BasinSettings, Grid, ImpactMap, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+    /// let found = map.attractors(&AttractorSearch::default())?;
+    /// let (grid, settings) = (Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 3.0, 20)?)?, BasinSettings::default());
+    /// let parts = [found.basins_of_rows(grid, 0..7, settings)?, found.basins_of_rows(grid, 7..20, settings)?];
+    /// assert_eq!(Basins::stacked(parts)?, found.basins(grid, settings)?);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Unfitting`] for rows that the grid has not, or none; those of [`Self::basins`].
+    pub fn basins_of_rows(
+        &self,
+        grid: Grid,
+        rows: Range<usize>,
+        settings: BasinSettings,
+    ) -> Result<Basins, Error> {
+        self.basins_of_rows_observed(grid, rows, settings, &Unobserved)
+    }
+
+    /// [`Self::basins_of_rows`] with an observer; the items are the rows.
+    ///
+    /// # Errors
+    /// Those of [`Self::basins_of_rows`]; [`Error::Stopped`] if the observer breaks.
+    pub fn basins_of_rows_observed(
+        &self,
+        grid: Grid,
+        rows: Range<usize>,
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Basins, Error> {
+        let (width, height) = (grid.phase().cells(), grid.speed().cells());
+        let unfitting = |what, found: usize, expected: usize| {
+            Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
+        };
+        if rows.end > height {
+            return unfitting("end of the rows of a grid", rows.end, height);
+        }
+        if rows.start >= rows.end {
+            return unfitting("first row of rows of a grid", rows.start, rows.end.saturating_sub(1));
+        }
+        let count = rows.len() as u64;
+        let watch = Watch::begin(observer, 0, count)?;
+        let mut labels = room_for("cells of a grid", width as u64 * count, MAX_CELLS)?;
+        labels.resize(width * rows.len(), UNDECIDED);
+        let labelling = Labels::new(self, settings);
+        let at_once = (AT_ONCE / width).max(1);
+        for first in rows.clone().step_by(at_once) {
+            let some = first..(first + at_once).min(rows.end);
+            let starts = some.clone().flat_map(|row| (0..width).map(move |column| (row, column)));
+            let starts = starts.map(|(row, column)| start_of(&grid, row, column));
+            let starts = starts.collect::<Result<Vec<_>, _>>()?;
+            let done = (first - rows.start) as u64;
+            let part = Rows { observer, done, total: count };
+            let found = labelling.of(&starts, &part).map_err(|error| match error {
+                Error::Stopped { .. } => Error::Stopped { done, total: count },
+                other => other,
+            })?;
+            let from = (first - rows.start) * width;
+            labels[from..from + found.len()].copy_from_slice(&found);
+        }
+        watch.end();
+        Basins::of_labels(labels, width)
     }
 
     /// The basins on the grid [refined](Grid::refined) by an odd `factor`, with the labels that `coarse` has on

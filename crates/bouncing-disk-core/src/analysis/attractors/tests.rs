@@ -1,7 +1,7 @@
 use core::f64::consts::PI;
 
 use super::*;
-use crate::analysis::basin::{ATTACHED, Axis, BasinSettings, FIRST_ORBIT, Grid, UNDECIDED};
+use crate::analysis::basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, UNDECIDED};
 use crate::analysis::periodic::search::OrbitSearch;
 use crate::platform::vibration::Vibration;
 use crate::testing::{PAPER_POLICY, StopAfter, stored};
@@ -352,7 +352,8 @@ fn an_attractor_goes_on_as_one() {
     let matches = over_forcing::matched(&old, &[None, four, single.clone()], (10.0, 1.5));
     assert_eq!(matches, [None, Some((1, 0.0)), None]);
     // One that is nobody's takes no other's place.
-    let matches = over_forcing::matched(&[None, single.clone(), single.clone()], &[None, single], (10.0, 1.5));
+    let matches =
+        over_forcing::matched(&[None, single.clone(), single.clone()], &[None, single], (10.0, 1.5));
     assert_eq!(matches, [None, Some((1, 0.0))]);
 }
 
@@ -414,4 +415,31 @@ fn stored_shares_of_another_map_are_refused() {
     assert!(changed(&|value| value["restitution"] = serde_json::json!(1.0)).is_err());
     assert!(changed(&|value| value["at"][1]["axial_forcing"] = serde_json::json!(0.37)).is_err());
     assert!(changed(&|value| value["at"][1]["followed"] = serde_json::json!([0, 2])).is_err());
+}
+
+#[test]
+fn rows_are_those_of_the_whole_grid() {
+    for forcing in [0.486, 0.55] {
+        let own = found(forcing, 0.5, 500);
+        let axis = |high, cells| Axis::new(0.0, high, cells).expect("legal");
+        let grid = Grid::new(axis(1.0, 15), axis(4.0, 9)).expect("legal");
+        let settings = BasinSettings { max_impacts: 300, ..BasinSettings::default() };
+        let whole = own.basins(grid, settings).expect("no failure");
+        let rows = |rows| own.basins_of_rows(grid, rows, settings);
+        for cut in 1..9 {
+            let parts = [rows(0..cut).expect("no failure"), rows(cut..9).expect("no failure")];
+            assert_eq!(Basins::stacked(parts).expect("fit"), whole, "Gamma {forcing}: cut at {cut}");
+        }
+        for wrong in [0..10, 9..9, 4..4, 10..12, usize::MAX - 1..usize::MAX] {
+            assert!(matches!(rows(wrong.clone()), Err(Error::Unfitting { .. })), "{wrong:?}");
+        }
+        #[expect(clippy::reversed_empty_ranges, reason = "a user may give one")]
+        let reversed = rows(5..3);
+        assert!(matches!(reversed, Err(Error::Unfitting { .. })));
+        let stopped = own.basins_of_rows_observed(grid, 2..9, settings, &StopAfter::calls(1));
+        assert!(matches!(stopped, Err(Error::Stopped { total: 7, .. })), "{stopped:?}");
+    }
+    let of = |columns: usize| Basins::of_labels(vec![ATTACHED; 2 * columns], columns).expect("legal");
+    assert!(matches!(Basins::stacked([of(3), of(4)]), Err(Error::Unfitting { found: 4, expected: 3, .. })));
+    assert!(matches!(Basins::stacked([]), Err(Error::Unfitting { .. })));
 }

@@ -15,6 +15,9 @@ use crate::observer::{Observer, Watch};
 /// for bit, for any number of threads. What is stored is the map, the grid, the known orbits, the settings
 /// and the labels of the finished rows; one that is read has been checked to fit together.
 ///
+/// It knows periodic attractors only; where there are others, `Attractors::basins_of_rows` makes a grid in parts.
+/// Read from JSON it is the same if `serde_json` has its feature `float_roundtrip`.
+///
 /// [`Observer`] shows an example.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

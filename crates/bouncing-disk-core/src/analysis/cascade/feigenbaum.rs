@@ -68,7 +68,8 @@ impl FeigenbaumEstimate {
     }
 }
 
-/// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings`; a precision given is
+/// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings` in extended precision; a
+/// precision given is
 /// the number of decimals of the constants.
 impl core::fmt::Display for FeigenbaumEstimate {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

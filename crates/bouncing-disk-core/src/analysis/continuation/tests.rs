@@ -347,9 +347,16 @@ fn what_cannot_be_continued_is_refused() {
     let without = plastic.continued(&orbit, &forcing(0.5, 1.6, true));
     assert!(matches!(without, Err(Error::OutOfRange { field: "restitution of a continuation", .. })));
     let other = map(0.2, 0.5).continued(&orbit, &forcing(0.1, 0.3, true));
-    assert!(matches!(other, Err(Error::NotSettled { .. })), "{other:?}");
+    assert!(matches!(other, Err(Error::NoBranch { .. })), "{other:?}");
+    // A fold is where the two orbits are one, and no branch is the only one.
+    let birth = map(1.0 / 3.0, 0.5);
+    let at_birth =
+        birth.period_one_pair(1).expect("born").node.orbit(&birth).expect("flies").expect("an orbit");
+    let refused = birth.continued(&at_birth, &forcing(0.1, 0.6, true));
+    assert!(matches!(refused, Err(Error::NoBranch { parameter: 0.33..0.34, .. })), "{refused:?}");
     let branch = own.continued(&orbit, &forcing(0.1, 0.44, true)).expect("continued");
-    assert!(matches!(branch.switched(0, &forcing(0.1, 0.6, true)), Err(Error::OutOfRange { .. })));
+    let refused = branch.switched(7, &forcing(0.1, 0.6, true)).expect_err("none there");
+    assert!(matches!(refused, Error::NotOfKind { index: 7, count: 0, .. }), "{refused}");
     let legal = forcing(0.1, 0.6, true);
     for (first, largest, points) in
         [(0.0, 0.1, 9), (0.2, 0.1, 9), (0.1, 2.0, 9), (0.1, 0.1, 1), (f64::NAN, 0.1, 9), (0.1, f64::NAN, 9)]

@@ -96,8 +96,7 @@ impl<'s> Walker<'s> {
         let base = walker.closing.scaled(&guess);
         let across = [0.0, 0.0, if settings.rising { 1.0 } else { -1.0 }];
         let plane = Plane { normal: across, base, distance: 0.0 };
-        let lost =
-            Error::NotSettled { what: "orbit to be continued", iterations: 0, residual: guess.parameter };
+        let lost = Error::NoBranch { what: "the orbit to be continued", parameter: guess.parameter };
         let (at, corrections) = walker.closing.corrected(guess, &plane).ok_or(lost)?;
         let direction = walker.closing.tangent(&at, across).ok_or(lost)?;
         Ok((walker, Located { at, direction, arclength: 0.0, corrections }))
@@ -116,7 +115,7 @@ impl<'s> Walker<'s> {
         work: WorkCount<'s>,
     ) -> Result<(Self, Located), Error> {
         let n = at.impacts.len();
-        let lost = Error::NotSettled { what: "doubled orbit", iterations: n as u32, residual: at.parameter };
+        let lost = Error::NoBranch { what: "the doubled orbit", parameter: at.parameter };
         let flip = closing.flip_direction(&at).ok_or(lost)?;
         let there_and_back = flip.iter().copied().chain(flip.iter().map(|part| -*part)).collect();
         let walker = Self { closing: closing.twice(), settings, work: RefCell::new(work) };
@@ -170,8 +169,8 @@ impl<'s> Walker<'s> {
     /// The whole branch from `start` on; the items are its points.
     pub(super) fn walk(self, start: Located) -> Result<Branch, Error> {
         let Some(first) = self.point(&start)? else {
-            let residual = start.at.parameter;
-            return Err(Error::NotSettled { what: "start of a branch", iterations: 0, residual });
+            let parameter = start.at.parameter;
+            return Err(Error::NoBranch { what: "the start of the branch", parameter });
         };
         let [at, direction] = [&start.at, &start.direction].map(|part| self.closing.scaled(part));
         let step = self.settings.first_step;
