@@ -11,7 +11,7 @@ use crate::analysis::basin::{
 use crate::analysis::sweep::{SweepEvent, sweep_observed};
 use crate::error::{Error, room_for};
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::observer::{Observer, Progress, Unobserved, Watch};
+use crate::observer::{Observer, Progress, Unobserved};
 
 /// Impacts of an undecided start that are compared with the cells of the attractors that have any, after those
 /// that were allowed.
@@ -254,7 +254,8 @@ impl Attractors {
         self.basins_of_rows_observed(grid, rows, settings, &Unobserved)
     }
 
-    /// [`Self::basins_of_rows`] with an observer; the items are the rows.
+    /// [`Self::basins_of_rows`] with an observer; the items are these rows, each of which counts twice where there are
+    /// attractors that are known by their cells.
     ///
     /// # Errors
     /// Those of [`Self::basins_of_rows`]; [`Error::Stopped`] if the observer breaks.
@@ -275,27 +276,30 @@ impl Attractors {
         if rows.start >= rows.end {
             return unfitting("first row of rows of a grid", rows.start, rows.end.saturating_sub(1));
         }
-        let count = rows.len() as u64;
-        let watch = Watch::begin(observer, 0, count)?;
-        let mut labels = room_for("cells of a grid", width as u64 * count, MAX_CELLS)?;
-        labels.resize(width * rows.len(), UNDECIDED);
         let labelling = Labels::new(self, settings);
-        let at_once = (AT_ONCE / width).max(1);
-        for first in rows.clone().step_by(at_once) {
-            let some = first..(first + at_once).min(rows.end);
-            let starts = some.clone().flat_map(|row| (0..width).map(move |column| (row, column)));
-            let starts = starts.map(|(row, column)| start_of(&grid, row, column));
-            let starts = starts.collect::<Result<Vec<_>, _>>()?;
-            let done = (first - rows.start) as u64;
-            let part = Rows { observer, done, total: count };
-            let found = labelling.of(&starts, &part).map_err(|error| match error {
-                Error::Stopped { .. } => Error::Stopped { done, total: count },
-                other => other,
-            })?;
-            let from = (first - rows.start) * width;
-            labels[from..from + found.len()].copy_from_slice(&found);
+        let count = rows.len() as u64;
+        let recurrent = !labelling.cells.is_empty();
+        // Each row counts twice where undecided starts are compared with cells.
+        let total = if recurrent { 2 * count } else { count };
+        let elsewhere = (height - rows.len()) as u64;
+        let own = |progress: Progress| {
+            observer.observe(Progress { done: progress.done.saturating_sub(elsewhere), total })
+        };
+        let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
+        run.advance_rows(rows.clone(), &own).map_err(|error| match error {
+            Error::Stopped { done, .. } => Error::Stopped { done: done.saturating_sub(elsewhere), total },
+            other => other,
+        })?;
+        let mut labels = run.into_labels();
+        let cells = rows.start * width..rows.end * width;
+        if recurrent {
+            let open: Vec<_> = cells.clone().filter(|index| labels[*index] == UNDECIDED).collect();
+            labelling.label_cells(&grid, &mut labels, &open, &Rows { observer, done: count, total })?;
+            // Whatever it says, there is nothing left to stop.
+            let _ = observer.observe(Progress { done: total, total });
         }
-        watch.end();
+        labels.truncate(cells.end);
+        labels.drain(..cells.start);
         Basins::of_labels(labels, width)
     }
 
