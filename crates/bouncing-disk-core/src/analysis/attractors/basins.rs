@@ -230,6 +230,49 @@ impl Attractors {
         Basins::of_labels(labels, grid.phase().cells())
     }
 
+    /// The labels of some rows of a grid, row by row: those of [`Self::basins`], to the last bit. A grid that is too
+    /// large for one machine is divided so.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{AttractorSearch, Axis, BasinSettings, Grid, ImpactMap, Unobserved, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let found = map.attractors(&AttractorSearch::default())?;
+    /// let (grid, settings) = (Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 3.0, 20)?)?, BasinSettings::default());
+    /// let some = found.basin_rows(grid, 5..8, settings, &Unobserved)?;
+    /// let all = found.basins(grid, settings)?;
+    /// assert_eq!(some, all.labels()[5 * 20..8 * 20]);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// The items of the observer are the rows of the grid, of which those outside of the range count as finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::basins`]; [`Error::Unfitting`] for rows that the grid does not have.
+    pub fn basin_rows(
+        &self,
+        grid: Grid,
+        rows: core::ops::Range<usize>,
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Label>, Error> {
+        let (columns, all) = (grid.phase().cells(), grid.speed().cells());
+        if rows.start > rows.end || rows.end > all {
+            let what = "rows of a grid";
+            return Err(Error::Unfitting { what, found: rows.end as u64, expected: all as u64 });
+        }
+        let labelling = Labels::new(self, settings);
+        let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
+        run.advance_rows(rows.clone(), observer)?;
+        let mut labels = run.into_labels();
+        let cells = rows.start * columns..rows.end * columns;
+        if !labelling.cells.is_empty() {
+            let open = cells.clone().filter(|index| labels[*index] == UNDECIDED).collect::<Vec<_>>();
+            let second = Rows { observer, done: rows.end as u64, total: all as u64 };
+            labelling.label_cells(&grid, &mut labels, &open, &second)?;
+        }
+        Ok(labels[cells].to_vec())
+    }
+
     /// The basins on the grid [refined](Grid::refined) by an odd `factor`, with the labels that `coarse` has on
     /// `grid`: the starts of its cells are starts of the finer grid, to the last bit, and are not computed again.
     /// With the same settings the result is that of [`Self::basins`] on the finer grid.

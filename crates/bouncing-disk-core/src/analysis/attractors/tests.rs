@@ -399,3 +399,24 @@ fn stored_shares_of_another_map_are_refused() {
     assert!(changed(&|value| value["at"][1]["axial_forcing"] = serde_json::json!(0.37)).is_err());
     assert!(changed(&|value| value["at"][1]["followed"] = serde_json::json!([0, 2])).is_err());
 }
+
+#[test]
+fn parts_of_a_grid_have_the_labels_of_the_whole() {
+    // Without and with an attractor that is known by its cells.
+    for (forcing, max_impacts) in [(0.486, 2_000), (0.55, 400)] {
+        let own = found(forcing, 0.5, 300);
+        let settings = BasinSettings { max_impacts, ..BasinSettings::default() };
+        let grid =
+            Grid::new(Axis::new(0.1, 0.8, 17).expect("legal"), Axis::new(0.3, 3.1, 13).expect("legal"))
+                .expect("legal");
+        let whole = own.basins(grid, settings).expect("no failure");
+        for part in [0..13, 0..0, 0..1, 4..9, 12..13, 13..13] {
+            let labels = own.basin_rows(grid, part.clone(), settings, &Unobserved).expect("no failure");
+            assert_eq!(labels, whole.labels()[part.start * 17..part.end * 17], "{forcing}: {part:?}");
+        }
+        for part in [0..14, 14..20, core::ops::Range { start: 5, end: 4 }] {
+            let refused = own.basin_rows(grid, part, settings, &Unobserved);
+            assert!(matches!(refused, Err(Error::Unfitting { expected: 13, .. })), "{refused:?}");
+        }
+    }
+}

@@ -75,6 +75,28 @@ impl BasinRun {
         }
     }
 
+    /// [`Self::advance`] for the rows of this range alone, as far as they exist: a part of a grid that is divided
+    /// over several machines. For the observer, all other rows count as finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`].
+    pub fn advance_rows(
+        &mut self,
+        rows: core::ops::Range<usize>,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        let elsewhere = |(row, finished): (usize, &bool)| (!finished && !rows.contains(&row)).then_some(row);
+        let elsewhere: Vec<usize> = self.finished.iter().enumerate().filter_map(elsewhere).collect();
+        for row in &elsewhere {
+            self.finished[*row] = true;
+        }
+        let outcome = self.advance(observer);
+        for row in elsewhere {
+            self.finished[row] = false;
+        }
+        outcome
+    }
+
     fn label_rows(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
         #[cfg(feature = "parallel")]
         let threads = rayon::current_num_threads();
@@ -151,6 +173,11 @@ impl BasinRun {
             return Err(Error::Stopped { done: self.done(), total: self.total() });
         }
         Ok(Basins { columns: self.grid.phase().cells(), labels: self.labels })
+    }
+
+    /// The labels of all cells, [`UNDECIDED`] in rows that are not finished.
+    pub(in crate::analysis) fn into_labels(self) -> Vec<Label> {
+        self.labels
     }
 }
 

@@ -196,3 +196,26 @@ fn a_stored_run_that_does_not_fit_is_refused() {
         assert!(error.contains(complaint), "{error}");
     }
 }
+
+#[test]
+fn parts_of_the_rows_have_the_labels_of_the_whole() {
+    let (map, known, grid) = (map(), known(), grid(30, 23));
+    let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
+    let whole = map.basins(grid, &known, settings).expect("no failure");
+    let begin = || BasinRun::new(map, grid, &known, settings).expect("few cells");
+    for part in [0..23, 0..1, 5..11, 22..23, 7..7, 20..90, 90..99] {
+        let mut run = begin();
+        run.advance_rows(part.clone(), &Unobserved).expect("no failure");
+        for row in 0..23 {
+            assert_eq!(run.row(row), part.contains(&row).then(|| whole.row(row)), "{part:?}: {row}");
+        }
+    }
+    // One part after the other, each stopped at first, ends in the whole.
+    let mut run = begin();
+    for part in [11..23, 0..11] {
+        let stopped = run.advance_rows(part.clone(), &StopAfter::calls(1));
+        assert!(matches!(stopped, Err(Error::Stopped { .. })), "{stopped:?}");
+        run.advance_rows(part, &Unobserved).expect("no failure");
+    }
+    assert_eq!(run.into_basins(), Ok(whole));
+}
