@@ -1,0 +1,132 @@
+//! Where the commands of motors have their data sheet from.
+
+use std::path::PathBuf;
+
+use bouncing_disk::{Motor, MotorField};
+use clap::{Args, ValueEnum};
+
+use super::Format;
+use super::setting::Setting;
+use crate::failure::Failure;
+use crate::output::lines::complain;
+
+/// The motors of the paper, by the names that the library has for them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MotorPreset {
+    /// The motor of Table III at 70 kHz
+    #[value(name = "paper-70-khz")]
+    Paper70Khz,
+    /// The same at its second operating frequency, 184 kHz
+    #[value(name = "paper-184-khz")]
+    Paper184Khz,
+}
+
+impl MotorPreset {
+    fn motor(self) -> Motor {
+        match self {
+            Self::Paper70Khz => Motor::paper_70_khz(),
+            Self::Paper184Khz => Motor::paper_184_khz(),
+        }
+    }
+}
+
+/// A motor's data sheet.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Motor")]
+pub(crate) struct MotorArgs {
+    /// A data sheet, .toml or .json, in SI units; --template writes one
+    pub(crate) file: Option<PathBuf>,
+    /// A motor of the paper, in place of a file
+    #[arg(long, conflicts_with = "file", value_name = "NAME")]
+    pub(crate) preset: Option<MotorPreset>,
+    /// Gives a field of the data sheet another value: friction=0.2; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<Setting>,
+    /// Writes the data sheet as a commented TOML file to the terminal, and computes nothing
+    #[arg(long)]
+    pub(crate) template: bool,
+}
+
+impl MotorArgs {
+    /// The motor; what is legal in its data sheet and yet unlikely to be meant is told, unless `quiet`.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] names the file, the line and the key.
+    pub(crate) fn motor(&self, quiet: bool) -> Result<Motor, Failure> {
+        let motor = self.changed()?;
+        if !quiet {
+            motor.warnings().iter().for_each(|warning| complain!("warning: {warning}"));
+        }
+        Ok(motor)
+    }
+
+    fn changed(&self) -> Result<Motor, Failure> {
+        let motor = self.given()?;
+        if self.set.is_empty() {
+            return Ok(motor);
+        }
+        let mut sheet = motor.parameters();
+        for Setting { key, value } in &self.set {
+            let field: MotorField =
+                key.parse().map_err(|unknown| Failure::usage(format!("--set: {unknown}")))?;
+            field.set(&mut sheet, *value);
+        }
+        sheet.build().map_err(|error| Failure::from(error).in_context("--set"))
+    }
+
+    fn given(&self) -> Result<Motor, Failure> {
+        let Some(path) = &self.file else {
+            return Ok(self.preset.unwrap_or(MotorPreset::Paper70Khz).motor());
+        };
+        let (text, format) = super::read(path)?;
+        let read = match format {
+            Format::Json => Motor::from_json(&text),
+            Format::Toml => Motor::from_toml(&text),
+        };
+        read.map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
+    }
+}
+
+/// The data sheet as a file that is read to the same motor, with comments.
+pub(crate) fn template(motor: &Motor) -> String {
+    let given = motor.to_toml();
+    let sheet = motor.parameters();
+    let mut text = "# The data sheet of a motor. SI units; the unit stands behind each value.\n".to_owned();
+    text += &given;
+    text += "#\n# What else there may be, in place of what is above where it excludes that:\n";
+    for field in MotorField::ALL.into_iter().filter(|field| field.value(&sheet).is_none()) {
+        text += &format!("# {field} = # {}\n", field.unit());
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn args(settings: &[&str]) -> MotorArgs {
+        let set = settings.iter().map(|text| text.parse().unwrap()).collect();
+        MotorArgs { file: None, preset: None, set, template: false }
+    }
+
+    #[test]
+    fn a_template_is_read_to_the_same_motor() {
+        for motor in [Motor::paper_70_khz(), Motor::paper_184_khz()] {
+            assert_eq!(Motor::from_toml(&template(&motor)), Ok(motor));
+        }
+    }
+
+    #[test]
+    fn single_values_are_set_with_what_they_exclude() {
+        let motor = args(&["preload_force=0.4", "friction=0.2"]).motor(true).unwrap();
+        assert!((motor.preload_force() - 0.4).abs() < 1e-15);
+        for (setting, told) in [
+            ("frction=0.2", "did you mean \"friction\"?"),
+            ("friction=-1", "--set: friction = -1.0 is outside"),
+            ("friction=nan", "friction = NaN"),
+        ] {
+            let Err(Failure::Usage(text)) = args(&[setting]).motor(true) else { panic!("{setting}") };
+            assert!(text.contains(told), "{setting}: {text}");
+        }
+    }
+}
