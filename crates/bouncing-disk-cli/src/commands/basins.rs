@@ -181,6 +181,7 @@ impl GridJob for BasinsJob {
         let provenance = provenance("bouncing-disk basins", &self)?.with_chatter_policy(self.settings.policy);
         let picture = pictures::basins::Picture {
             axial_forcing: self.axial_forcing,
+            restitution: self.restitution,
             phases: self.phase_periods,
             speeds: self.normalised_speed,
             cells: self.cells,

@@ -1,13 +1,14 @@
 //! Basins as cells, with the impacts of the periodic attractors in them, and a key.
 
 use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
-use bouncing_disk_plot::{Axis, Colour, DOUBLE_COLUMN, Figure, Marker, Panel, Raster, Rect, Scatter, Ticks};
+use bouncing_disk_plot::{Axis, Colour, Figure, Marker, Panel, Raster, Rect, Scatter, Ticks};
 
 use super::{PHASE, SPEED};
 
 /// What is drawn.
 pub(crate) struct Picture {
     pub(crate) axial_forcing: f64,
+    pub(crate) restitution: f64,
     pub(crate) phases: [f64; 2],
     pub(crate) speeds: [f64; 2],
     /// Cells along each axis.
@@ -31,6 +32,7 @@ fn colour(label: Label) -> Colour {
 
 impl Picture {
     pub(crate) fn draw(&self) -> Figure {
+        const WIDTH: f64 = 470.0;
         const HEIGHT: f64 = 300.0;
         let palette: Vec<Colour> = (0..=Label::MAX).map(colour).collect();
         let ([left, right], [bottom, top]) = (self.phases, self.speeds);
@@ -45,12 +47,12 @@ impl Picture {
         let map = Panel::new(Rect::new(44.0, 26.0, 290.0, 240.0))
             .x(Axis::linear(left, right).label(PHASE))
             .y(Axis::linear(bottom, top).label(SPEED))
-            .title(format!(r"$\Gamma = {}$", self.axial_forcing))
+            .title(format!(r"$\Gamma = {}$, $\epsilon = {}$", self.axial_forcing, self.restitution))
             .layer(raster)
             .layer(crosses(spots(|label| label == FIRST_ORBIT).collect(), Colour::WHITE))
             .layer(crosses(spots(|label| label != FIRST_ORBIT).collect(), Colour::BLACK))
             .markers_on_top();
-        Figure::new(DOUBLE_COLUMN, HEIGHT).panels([map, self.key(&palette)])
+        Figure::new(WIDTH, HEIGHT).panels([map, self.key(&palette)])
     }
 
     fn key(&self, palette: &[Colour]) -> Panel {

@@ -2,10 +2,11 @@
 
 use bouncing_disk::{Operation, SweepQuantity};
 use bouncing_disk_plot::{
-    Band, Colour, Corner, Figure, Grid, Legend, Line, Margins, Panel, Rule, SINGLE_COLUMN, Scatter, Stroke,
+    Anchor, Band, Colour, Corner, Figure, Grid, Legend, Line, Margins, Panel, Rule, SINGLE_COLUMN, Scatter,
+    Stroke, Text,
 };
 
-use super::axis;
+use super::{axis, spanned};
 use crate::pictures::sweep::prefixed;
 
 /// Of a normal distribution, so many standard errors hold 95 %.
@@ -34,25 +35,41 @@ pub(crate) fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
     let speeds = points(SweepQuantity::Speed, 1.0);
     let x = || axis(loads().map(|load| torque * load));
     let limit = || Rule::vertical(torque * largest_torque).stroke(Stroke::new(Colour::DARK_GREY, 0.8));
+    let (slowest, fastest) =
+        speeds.iter().fold((0.0_f64, 0.0_f64), |(low, high), point| (low.min(point.1), high.max(point.1)));
+    let middle = 0.5 * (slowest + fastest);
     let upper = Panel::new(grid.cell(0, 0))
         .x(x().without_numbers())
         .y(axis(speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2, 0.0]))
             .label(r"mean speed $\dot{\alpha}$ (rad/s)"))
-        .letter_in("a", Corner::TopRight)
+        .letter_in("a", Corner::BottomLeft)
         .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
         .layer(limit())
-        .layers(curve(&speeds, Colour::BLUE, None));
+        .layers(curve(&speeds, Colour::BLUE, None))
+        .layer(
+            Text::at_data(torque * largest_torque, middle, r"largest torque $\mu m g a_e$")
+                .anchor(Anchor::Middle)
+                .rotated(90.0)
+                .size(7.5)
+                .halo(Colour::WHITE),
+        );
     let powers = || found.iter().filter_map(|own| SweepQuantity::InputPower.of(own)).map(|power| power.value);
     let (power, power_unit) = prefixed(powers(), "W");
     let (input, output) =
         (points(SweepQuantity::InputPower, power), points(SweepQuantity::MechanicalPower, power));
     let efficiency = points(SweepQuantity::Efficiency, 100.0);
-    let heights = input.iter().chain(&output).map(|point| 1.12 * point.1);
+    // Both zeros at one height, and room above for the names.
+    let ends = |points: &mut dyn Iterator<Item = f64>| {
+        points.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let (low, high) = ends(&mut input.iter().chain(&output).map(|point| point.1));
+    let (low, high) = (1.1 * low, 1.55 * high.max(1e-3));
+    let best = 1.7 * ends(&mut efficiency.iter().map(|point| point.1)).1.max(1e-3);
     let mut lower = Panel::new(grid.cell(1, 0))
         .x(x().label(format!("load torque $T$ ({torque_unit})")))
-        .y(axis(heights.chain([0.0])).label(format!("power ({power_unit})")))
-        .right(axis(efficiency.iter().map(|point| 1.3 * point.1).chain([0.0])).label("efficiency (%)"))
-        .letter_in("b", Corner::TopRight)
+        .y(spanned(low, high).label(format!("power ({power_unit})")))
+        .right(spanned(low / high * best, best).label("efficiency (%)"))
+        .letter_in("b", Corner::BottomLeft)
         .layer(limit())
         .layers(curve(&input, Colour::GREY, Some("put in")))
         .layers(curve(&output, Colour::BLUE, Some("mechanical")));

@@ -15,7 +15,7 @@ pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
         found.orbits.iter().flat_map(|orbit| orbit.states.iter().map(|state| state.normalised_speed()));
     let mut panel = Panel::new(Rect::new(44.0, 24.0, 190.0, 172.0))
         .x(Axis::linear(0.0, 1.0).label(PHASE).ticks(Ticks::every(0.2).minor(4)))
-        .y(Axis::linear(0.0, 1.35 * largest(speeds, 0.5)).label(SPEED))
+        .y(Axis::linear(0.0, 1.5 * largest(speeds, 0.5)).label(SPEED))
         .title(format!(r"$\Gamma = {axial_forcing}$"))
         .markers_on_top();
     for impacts in 1..=most {
@@ -34,7 +34,7 @@ pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
         let name = format!("{impacts} impact{}", if impacts == 1 { "" } else { "s" });
         if !open.is_empty() {
             let dots = Scatter::new(open).marker(Marker::Circle).size(3.6).width(0.8).colour(colour);
-            panel = panel.layer(if filled.is_empty() { dots.name(name.as_str()) } else { dots });
+            panel = panel.layer(dots.name(name.as_str()));
         }
         if !filled.is_empty() {
             let dots = Scatter::new(filled).marker(Marker::Dot).size(4.4).colour(colour);

@@ -5,7 +5,7 @@ use bouncing_disk_plot::{
     Axis, Band, Colour, Figure, Line, Panel, Raster, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };
 
-use super::axis;
+use super::{axis, spanned};
 
 /// Of a normal distribution, so many standard errors hold 95 %.
 const BARS: f64 = 1.96;
@@ -131,7 +131,7 @@ fn map(result: &MotorSweepResult, quantity: SweepQuantity, rows: &SweepAxis, col
     let key = Panel::new(Rect::new(212.0, 12.0, 8.0, 150.0))
         .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
         .y(Axis::linear(least, most).ticks(Ticks::none()))
-        .right(Axis::linear(least, most).label(words))
+        .right(spanned(least, most).label(words))
         .layer(Raster::new(1, LEVELS, bar, &palette, (0.0, 1.0), (least, most)));
     Figure::new(SINGLE_COLUMN + 30.0, 202.0).panels([map, key])
 }

@@ -1,10 +1,8 @@
 //! The motion of a toss: heights, angles and angular speeds against time.
 
-use bouncing_disk_plot::{
-    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel,
-};
+use bouncing_disk_plot::{Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel};
 
-use super::axis;
+use super::{axis, spanned};
 use crate::commands::toss::Sample;
 
 /// What a curve shows of an instant.
@@ -20,16 +18,19 @@ pub(crate) fn draw(samples: &[Sample]) -> Figure {
         let values = samples.iter().flat_map(|sample| of.map(|of| of(sample)));
         let curve = |of: Of| Line::new(samples.iter().map(move |sample| (sample.time_s, of(sample))));
         Panel::new(grid.cell(0, column))
-            .x(Axis::linear(0.0, end).label("$t$ (s)"))
+            .x(spanned(0.0, end).label("$t$ (s)"))
             .y(axis(values).label(label))
             .title(format!("({letter})"))
             .layer(curve(of[1]).colour(Colour::GREY).width(0.9).dash(Dash::Dashed).name("platform"))
             .layer(curve(of[0]).colour(Colour::BLUE).width(1.1).name("disk"))
     };
+    // The angle goes one way.
+    let forwards = samples.last().is_none_or(|sample| sample.disk_angle_rad >= 0.0);
+    let corner = if forwards { Corner::TopLeft } else { Corner::BottomLeft };
     Figure::new(DOUBLE_COLUMN, HEIGHT).panels([
-        panel(0, "a", "height (m)", [|sample| sample.disk_height_m, |sample| sample.platform_height_m])
-            .legend(Legend::at(Corner::TopLeft).without_frame().inset(4.0)),
-        panel(1, "b", "angle (rad)", [|sample| sample.disk_angle_rad, |sample| sample.platform_angle_rad]),
+        panel(0, "a", "height (m)", [|sample| sample.disk_height_m, |sample| sample.platform_height_m]),
+        panel(1, "b", "angle (rad)", [|sample| sample.disk_angle_rad, |sample| sample.platform_angle_rad])
+            .legend(Legend::at(corner).without_frame().inset(4.0)),
         panel(
             2,
             "c",

@@ -2,8 +2,10 @@
 
 use bouncing_disk::{ExponentialFit, MeasuredSpeeds, TransientEnsemble, TransientFit};
 use bouncing_disk_plot::{
-    Anchor, Axis, Band, Colour, Corner, Dash, Figure, Legend, Line, Panel, Rect, SINGLE_COLUMN, Text,
+    Anchor, Band, Colour, Corner, Dash, Figure, Legend, Line, Panel, Rect, SINGLE_COLUMN, Text,
 };
+
+use super::spanned;
 
 /// Where the frame is.
 const AREA: Rect = Rect::new(44.0, 12.0, 190.0, 150.0);
@@ -47,7 +49,7 @@ fn figure<'a, I: Iterator<Item = &'a [f64]>>(
     // The words stand where the curve does not go: below it, or above one that falls.
     let falls = fit.steady_speed < 0.0;
     let (low, high) =
-        if falls { (low - 0.06 * span, high + 0.42 * span) } else { (low - 0.02 * span, high + 0.3 * span) };
+        if falls { (low - 0.06 * span, high + 0.42 * span) } else { (low - 0.02 * span, high + 0.42 * span) };
     let corner = if falls { Corner::BottomLeft } else { Corner::TopLeft };
     let bottom = if falls { 0.84 } else { 0.16 };
     let note = |line: f64, text: String| {
@@ -68,8 +70,8 @@ fn figure<'a, I: Iterator<Item = &'a [f64]>>(
         (time, fit.speed(time))
     });
     let mut panel = Panel::new(AREA)
-        .x(Axis::linear(0.0, end).label("$t$ (s)"))
-        .y(Axis::linear(low, high).label(r"$\dot{\alpha}$ (rad/s)"));
+        .x(spanned(0.0, end).label("$t$ (s)"))
+        .y(spanned(low, high).label(r"$\dot{\alpha}$ (rad/s)"));
     if runs().count() > 1 {
         panel = panel.layer(Band::new(band).colour(Colour::BLUE).opacity(0.25).name("all runs"));
     }
