@@ -12,8 +12,8 @@ use crate::output::report::no_picture;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Exit status: 0 done; 1 the computation failed or the system refused; 2 the line or a file that it names is not
-legal; 130 interrupted by Ctrl-C, 143 terminated. A first signal ends the computation and keeps what can be kept, a
+Exit status: 0 done; 1 the computation failed or the system refused; 2 the line or a file that it names is not \
+legal; 130 interrupted by Ctrl-C, 143 terminated. A first signal ends the computation and keeps what can be kept, a \
 second one ends the program at once. Results are the same bits for any number of threads.
 
 Examples:
@@ -33,6 +33,9 @@ pub(crate) struct CommandLine {
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
+
+/// The heading of what is a command's own.
+pub(crate) const OWN: &str = "Computation";
 
 /// What every command has.
 #[derive(Debug, Clone, Copy, Args)]

@@ -7,6 +7,7 @@ pub(crate) mod chunk;
 
 use std::ops::Range;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use bouncing_disk::core::PartialResults;
 use bouncing_disk::{JOURNAL, Journal, Observer, Provenance};
@@ -19,6 +20,13 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::files::Kind;
 use crate::output::report::{PROGRAM, Report, VERSION, wrote};
+
+/// The first rows are so many times fewer than the most that are computed together.
+const FIRST_SHARE: usize = 16;
+
+/// How long rows are computed together: as much is lost by an interruption.
+const SHORT: Duration = Duration::from_millis(300);
+const LONG: Duration = Duration::from_millis(1_200);
 
 /// A computation of many rows. Stored, it has all that its rows depend on.
 pub(crate) trait GridJob: Serialize + DeserializeOwned {
@@ -34,7 +42,7 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     /// Number of rows.
     fn rows(&self) -> usize;
 
-    /// Rows that are computed together: they are kept, or begun again, together.
+    /// Most rows that are computed together: they are kept, or begun again, together.
     fn together(&self) -> usize;
 
     /// Works out what all rows need.
@@ -126,10 +134,13 @@ impl<R: Serialize + DeserializeOwned> Kept<R> {
         let items = self.range.len();
         let open = self.finished.open(items)?;
         let mut left = &open[..];
+        let most = job.together().max(1);
+        let mut together = (most / FIRST_SHARE).max(1);
         while let Some(first) = left.first() {
             // Rows that follow each other, as far as they are open.
             let run = left.iter().zip(*first..).take_while(|(index, next)| *index == next).count();
-            let count = run.min(job.together().max(1));
+            let count = run.min(together);
+            let began = Instant::now();
             watcher.set_parts(items - left.len(), items);
             let rows = self.range.start + first..self.range.start + first + count;
             let computed = if interrupt::came() {
@@ -146,6 +157,12 @@ impl<R: Serialize + DeserializeOwned> Kept<R> {
                 journal.record(&self.finished)?;
             }
             left = &left[count..];
+            // No row depends on what is computed with it.
+            match began.elapsed() {
+                fast if fast < SHORT => together = (2 * together).min(most),
+                slow if slow > LONG => together = (together / 2).max(1),
+                _ => {}
+            }
         }
         Ok(())
     }

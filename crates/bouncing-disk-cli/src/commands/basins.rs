@@ -1,6 +1,7 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
 use std::ops::Range as Rows;
+use std::rc::Rc;
 
 use bouncing_disk::core::{
     ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
@@ -11,7 +12,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::arguments::{GridArgs, OutputArgs};
+use crate::arguments::{GridArgs, OWN, OutputArgs};
 use crate::commands::map::{MapArgs, map, single};
 use crate::context::Context;
 use crate::failure::Failure;
@@ -23,9 +24,9 @@ use crate::range::{Interval, Range};
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The attractors are found first, without being told. Then each cell of the window says where an impact in its middle leads,
-as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files:
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table. See docs/studying-the-dynamics.md.
+The attractors are found first, without being told. Then each cell of the window says where an impact in its middle leads, \
+as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk basins --out basins.png
@@ -45,19 +46,19 @@ pub(crate) struct BasinsArgs {
     #[command(flatten)]
     map: MapArgs,
     /// Cells along each axis
-    #[arg(long, value_name = "N", default_value_t = 300)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 300)]
     cells: usize,
     /// Impact phases of the window, in periods
-    #[arg(long, value_name = "LOW:HIGH", default_value = "0:1", allow_negative_numbers = true)]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_negative_numbers = true)]
     phase: Interval,
     /// Normalised impact speeds of the window
-    #[arg(long, value_name = "LOW:HIGH", default_value = "0:5")]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:5")]
     speed: Interval,
     /// Impacts after which a start is left undecided
-    #[arg(long, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
     impacts: u32,
     /// Starts from which attractors are looked for
-    #[arg(long, value_name = "N", default_value_t = AttractorSearch::default().starts())]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = AttractorSearch::default().starts())]
     starts: u32,
     #[command(flatten)]
     grid: GridArgs,
@@ -106,8 +107,8 @@ impl BasinsJob {
 impl GridJob for BasinsJob {
     const COMMAND: &'static str = "basins";
 
-    /// The labels of a row, by phase.
-    type Row = Vec<Label>;
+    /// The labels of a row by phase, two hexadecimal digits each: a list of numbers takes many times the memory.
+    type Row = String;
 
     type Prepared = Attractors;
 
@@ -116,7 +117,8 @@ impl GridJob for BasinsJob {
     }
 
     fn together(&self) -> usize {
-        TOGETHER.div_ceil(self.cells.max(1))
+        // Each time the whole grid takes place in memory, so that few rows of a large one would cost more than they are.
+        TOGETHER.div_ceil(self.cells.max(1)).max(self.cells / 64)
     }
 
     fn prepare(&self, observer: &dyn Observer) -> Result<Attractors, Failure> {
@@ -131,7 +133,7 @@ impl GridJob for BasinsJob {
         attractors: &Attractors,
         rows: Rows<usize>,
         observer: &dyn Observer,
-    ) -> Result<Vec<Vec<Label>>, Failure> {
+    ) -> Result<Vec<String>, Failure> {
         let own = rows.len() as u64;
         // All other rows count as finished.
         let within = |progress: Progress| {
@@ -139,58 +141,83 @@ impl GridJob for BasinsJob {
             observer.observe(Progress { done: progress.done.saturating_sub(elsewhere), total: own })
         };
         let labels = attractors.basin_rows(self.window()?, rows, self.settings, &within)?;
-        Ok(labels.chunks(self.cells).map(<[_]>::to_vec).collect())
+        Ok(labels.chunks(self.cells).map(hexadecimal).collect())
     }
 
-    fn report(self, attractors: Attractors, rows: Vec<Vec<Label>>) -> Result<Report, Failure> {
+    fn report(self, attractors: Attractors, rows: Vec<String>) -> Result<Report, Failure> {
         let window = self.window()?;
+        let labels: Vec<Label> = rows.iter().flat_map(|row| of_hexadecimal(row)).collect();
+        if labels.len() != self.cells * self.cells {
+            return Err(Failure::usage(format!(
+                "{} labels are there, of {} by {1} cells",
+                labels.len(),
+                self.cells
+            )));
+        }
+        let mut counts = [0_u64; 256];
+        labels.iter().for_each(|label| counts[usize::from(*label)] += 1);
         let legend = legend(&attractors);
-        let all = (self.cells * self.cells) as f64;
         let mut shown = Table::new(&[("label", "1"), ("attractor", "1"), ("cells", "1"), ("share", "%")]);
         let mut listed = Vec::new();
         for (label, words) in &legend {
-            let count = rows.iter().flatten().filter(|own| *own == label).count();
-            let share = 100.0 * count as f64 / all;
+            let count = counts[usize::from(*label)];
+            let share = 100.0 * count as f64 / labels.len() as f64;
             // Undecided cells are told of only if there are any.
             if *label != UNDECIDED || count > 0 {
                 shown.push([u64::from(*label).into(), words.as_str().into(), count.into(), share.into()]);
             }
             listed.push(json!({ "label": label, "attractor": words, "cells": count }));
         }
-        let mut table =
-            Table::new(&[("impact_phase", "periods"), ("normalised_impact_speed", "1"), ("label", "1")]);
-        for (row, labels) in rows.iter().enumerate() {
-            for (column, label) in labels.iter().enumerate() {
-                let (phase, speed) = (window.phase().centre(column), window.speed().centre(row));
-                table.push([phase.into(), speed.into(), u64::from(*label).into()]);
-            }
-        }
         let data = vec![
             ("labels", listed.into()),
             ("attractors", value(&attractors)?),
-            ("rows_by_speed", value(&rows)?),
+            ("hexadecimal_labels_by_speed", value(&rows)?),
         ];
+        drop(rows);
         let text = format!(
-            "axial forcing {}, restitution {}, {} by {} cells\n{}",
+            "axial forcing {}, restitution {}, {} by {2} cells\n{}",
             self.axial_forcing,
             self.restitution,
-            self.cells,
             self.cells,
             shown.to_text()
         );
         let provenance = provenance("bouncing-disk basins", &self)?.with_chatter_policy(self.settings.policy);
+        let labels: Rc<[Label]> = labels.into();
         let picture = pictures::basins::Picture {
             axial_forcing: self.axial_forcing,
             restitution: self.restitution,
             phases: self.phase_periods,
             speeds: self.normalised_speed,
             cells: self.cells,
-            labels: rows.concat(),
+            labels: Rc::clone(&labels),
             legend,
             impacts: impacts(&attractors),
         };
+        let table = Box::new(move || table(&window, &labels));
         Ok(Report { provenance, text, table, data, figure: Some(Box::new(move || picture.draw())) })
     }
+}
+
+fn table(window: &Grid, labels: &[Label]) -> Table {
+    let mut table =
+        Table::new(&[("impact_phase", "periods"), ("normalised_impact_speed", "1"), ("label", "1")]);
+    for (row, labels) in labels.chunks(window.phase().cells()).enumerate() {
+        for (column, label) in labels.iter().enumerate() {
+            let (phase, speed) = (window.phase().centre(column), window.speed().centre(row));
+            table.push([phase.into(), speed.into(), u64::from(*label).into()]);
+        }
+    }
+    table
+}
+
+fn hexadecimal(labels: &[Label]) -> String {
+    labels.iter().map(|label| format!("{label:02x}")).collect()
+}
+
+/// The labels of a row; what is none counts as none, which the number of labels tells.
+fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
+    let pairs = row.as_bytes().chunks(2);
+    pairs.filter_map(|pair| Label::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
 }
 
 /// The labels and what they stand for, in their order.
@@ -237,4 +264,18 @@ fn impacts(attractors: &Attractors) -> Vec<(Label, f64, f64)> {
             orbit.states.iter().map(move |state| (label, state.phase().cycles(), state.normalised_speed()))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_written_and_read() {
+        let all: Vec<Label> = (0..=Label::MAX).collect();
+        let text = hexadecimal(&all);
+        assert!(text.starts_with("000102") && text.ends_with("ff"));
+        assert_eq!(of_hexadecimal(&text).collect::<Vec<_>>(), all);
+        assert_eq!(of_hexadecimal("0g").count() + of_hexadecimal("").count(), 0);
+    }
 }

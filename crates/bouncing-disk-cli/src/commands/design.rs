@@ -7,12 +7,12 @@ use bouncing_disk::{
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::arguments::OutputArgs;
+use crate::arguments::{OWN, OutputArgs};
 use crate::commands::map::wrote_template;
 use crate::commands::toss::{Spin, quantities, samples, table};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::Quantities;
 use crate::parameters::system::SystemArgs;
 use crate::pictures;
@@ -20,8 +20,8 @@ use crate::range::Interval;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system,
-whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of
+Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
+whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
 the range of friction. See docs/numerics/motors.md and `TossConstraints` of the library.
 
 Examples:
@@ -55,31 +55,31 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     system: SystemArgs,
     /// Stroke c (m): half the length of the path of the hand at the contact radius
-    #[arg(long, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
+    #[arg(help_heading = OWN, long, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
     stroke: f64,
     /// Coefficient of friction; that of the dough unless given
-    #[arg(long, value_name = "LOW:HIGH")]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH")]
     friction: Option<Interval>,
     /// Angular frequency (rad/s); 15, that of Table I, unless given
-    #[arg(long, value_name = "LOW:HIGH")]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH")]
     angular_frequency: Option<Interval>,
     /// Phase lag of the twist (rad); half a circle unless given
-    #[arg(long, value_name = "LOW:HIGH", allow_negative_numbers = true)]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_negative_numbers = true)]
     phase_lag: Option<Interval>,
     /// The highest that the dough may fly above the place where it leaves the hand (m)
-    #[arg(long, value_name = "METRES")]
+    #[arg(help_heading = OWN, long, value_name = "METRES")]
     highest_flight: Option<f64>,
     /// What the toss is to be best at
-    #[arg(long, value_name = "WHAT", default_value = "airborne-speed")]
+    #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed")]
     objective: Objective,
     /// How that is taken over the range of friction
-    #[arg(long, value_name = "HOW", default_value = "worst")]
+    #[arg(help_heading = OWN, long, value_name = "HOW", default_value = "worst")]
     over_friction: Over,
     /// How the dough turns at the start
-    #[arg(long, value_name = "SPIN", default_value = "absolute-rest")]
+    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
     spin: Spin,
     /// Instants of the motion in a file
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     samples: u32,
     #[command(flatten)]
     output: OutputArgs,
@@ -131,7 +131,7 @@ pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk design", &Job { constraints: &constraints })?,
         text: list(&design, &system).to_text(),
-        table: table(&samples),
+        table: ready(table(&samples)),
         data: vec![("design", value(&design)?), ("motion", value(&samples)?)],
         figure: Some(Box::new(move || pictures::toss::draw(&samples))),
     };

@@ -8,26 +8,26 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::arguments::{GridArgs, OutputArgs};
+use crate::arguments::{GridArgs, OWN, OutputArgs};
 use crate::commands::map::{MapArgs, map, single};
 use crate::commands::start::{STARTS, Start};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::Table;
 use crate::pictures;
 use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Of each forcing a row: the impacts of an orbit after its transient, as Figs. 6(a) and 6(b) of the paper. Phases are in
-periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the
+Of each forcing a row: the impacts of an orbit after its transient, as Figs. 6(a) and 6(b) of the paper. Phases are in \
+periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the \
 phases that differ by a millionth of a period. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk diagram --out diagram.png
-  bouncing-disk diagram --axial-forcing 0.45:0.55:1001 --start period-1 --transient 20000 --out cascade.csv
+  bouncing-disk diagram -G 0.45:0.55:1001 --start period-1 --out cascade.csv
   bouncing-disk diagram --chunk 1/10 --out part-1.json";
 
 /// Forcings of the paper's Fig. 6.
@@ -42,13 +42,13 @@ const TOGETHER: usize = 256;
 pub(crate) struct DiagramArgs {
     #[command(flatten)]
     map: MapArgs,
-    #[arg(long, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given"))]
+    #[arg(help_heading = OWN, long, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given"))]
     start: Vec<Start>,
     /// Impacts that are not looked at
-    #[arg(long, value_name = "N", default_value_t = 3_000)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 3_000)]
     transient: usize,
     /// Impacts of each orbit that are recorded
-    #[arg(long, value_name = "N", default_value_t = 256)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 256)]
     recorded: usize,
     #[command(flatten)]
     grid: GridArgs,
@@ -216,7 +216,7 @@ impl GridJob for DiagramJob {
         Ok(Report {
             provenance,
             text: shown.to_text(),
-            table,
+            table: ready(table),
             data: vec![("columns", data.into())],
             figure: Some(Box::new(move || pictures::diagram::draw(ends, &names, &layers))),
         })

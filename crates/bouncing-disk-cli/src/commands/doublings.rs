@@ -6,20 +6,20 @@ use bouncing_disk::core::{
 use clap::Args;
 use serde::Serialize;
 
-use crate::arguments::OutputArgs;
+use crate::arguments::{OWN, OutputArgs};
 use crate::commands::map::{MapArgs, single};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::output::numbers::rounded;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::Table;
 use crate::pictures;
 use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From
-the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a
+The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
+the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
 forcing by. The forcing of a system does not matter here, its restitution does. See docs/numerics/dynamics.md.
 
 Examples:
@@ -33,7 +33,7 @@ pub(crate) struct DoublingsArgs {
     #[command(flatten)]
     map: MapArgs,
     /// Doublings that are looked for, at most 13
-    #[arg(long, short = 'n', value_name = "N", default_value_t = 8)]
+    #[arg(help_heading = OWN, long, short = 'n', value_name = "N", default_value_t = 8)]
     count: usize,
     #[command(flatten)]
     output: OutputArgs,
@@ -58,7 +58,7 @@ pub(crate) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure>
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,
         text: text(&found, &estimates),
-        table: table(&found, &estimates),
+        table: ready(table(&found, &estimates)),
         data: vec![("doublings", value(&found)?), ("feigenbaum_estimates", value(&estimates)?)],
         figure: Some(Box::new(move || pictures::doublings::draw(job.restitution, &found))),
     };

@@ -10,10 +10,10 @@ use bouncing_disk::{
 use clap::Args;
 use serde::Serialize;
 
-use crate::arguments::OutputArgs;
+use crate::arguments::{OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::motor::{MotorArgs, MotorPreset};
 use crate::parameters::setting::Setting;
@@ -22,15 +22,15 @@ use crate::range::Interval;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The file has the columns time_s, speed_rad_s and, for repeated runs, member: run-ups from rest, times counted from the
-instant at which the motor is switched on. Without --parameter alpha_ss (1 - exp(-t/t_c)) is fitted to their mean, with
-95 % intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad),
-amplitude (m), twist_amplitude (rad), each within its range; all else is that of the data sheet. See
+The file has the columns time_s, speed_rad_s and, for repeated runs, member: run-ups from rest, times counted from the \
+instant at which the motor is switched on. Without --parameter alpha_ss (1 - exp(-t/t_c)) is fitted to their mean, with \
+95 % intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
+amplitude (m), twist_amplitude (rad), each within its range; all else is that of the data sheet. See \
 docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
-  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4 --parameter restitution=0.1:0.9";
+  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4";
 
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
 #[derive(Debug, Args)]
@@ -39,22 +39,22 @@ pub(crate) struct FitArgs {
     /// Measured speeds: time_s, speed_rad_s and, of several runs, member
     file: PathBuf,
     /// A parameter of the motor that is fitted, and its range; may be repeated
-    #[arg(long, value_name = "FIELD=LOW:HIGH")]
+    #[arg(help_heading = OWN, long, value_name = "FIELD=LOW:HIGH")]
     parameter: Vec<Fitted>,
     /// With --parameter: the data sheet of the motor, from whose values the search begins
-    #[arg(long, value_name = "FILE", requires = "parameter")]
+    #[arg(help_heading = OWN, long, value_name = "FILE", requires = "parameter")]
     motor: Option<PathBuf>,
     /// With --parameter: a motor of the paper in place of a data sheet
-    #[arg(long, value_name = "NAME", requires = "parameter", conflicts_with = "motor")]
+    #[arg(help_heading = OWN, long, value_name = "NAME", requires = "parameter", conflicts_with = "motor")]
     preset: Option<MotorPreset>,
     /// With --parameter: gives a field of the data sheet another value
-    #[arg(long, value_name = "KEY=VALUE", requires = "parameter")]
+    #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter")]
     set: Vec<Setting>,
     /// Resampled fits
-    #[arg(long, value_name = "N", default_value_t = FitSettings::default().resamples)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = FitSettings::default().resamples)]
     resamples: usize,
     /// Seed of the resampling
-    #[arg(long, value_name = "SEED", default_value_t = FitSettings::default().seed)]
+    #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = FitSettings::default().seed)]
     seed: u64,
     #[command(flatten)]
     output: OutputArgs,
@@ -138,7 +138,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     Ok(Report {
         provenance: provenance("bouncing-disk fit", &Job { speeds: &speeds, settings })?.with_seed(args.seed),
         text: list.to_text(),
-        table: list.to_table(),
+        table: ready(list.to_table()),
         data: vec![("fit", value(&fit)?)],
         figure: Some(Box::new(move || pictures::transient::measured(&speeds, &fit))),
     })
@@ -219,7 +219,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     Ok(Report {
         provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
         text,
-        table,
+        table: ready(table),
         data: vec![("fit", value(&fit)?)],
         figure: None,
     })

@@ -17,7 +17,7 @@ use crate::grid::chunk::{Part, merged};
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The result has the very bytes that the command without --chunk gives. Chunks that are missing, there twice, damaged, or of
+The result has the very bytes that the command without --chunk gives. Chunks that are missing, there twice, damaged, or of \
 another computation or version of the program are refused by name. See docs/command-line.md, \"On a cluster\".
 
 Example:

@@ -4,20 +4,20 @@ use bouncing_disk::core::{OrbitSearch, OrbitsFound};
 use clap::Args;
 use serde::Serialize;
 
-use crate::arguments::OutputArgs;
+use crate::arguments::{OWN, OutputArgs};
 use crate::commands::map::{MapArgs, map, single};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::Table;
 use crate::pictures;
 use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Orbits of one impact come from their closed form, all others from Newton's method on the impacts of a grid of starts: the
-result says whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in
-modulus. Phases are in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See
+Orbits of one impact come from their closed form, all others from Newton's method on the impacts of a grid of starts: the \
+result says whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in \
+modulus. Phases are in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See \
 docs/studying-the-dynamics.md, \"All periodic orbits\".
 
 Examples:
@@ -34,13 +34,13 @@ pub(crate) struct OrbitsArgs {
     #[command(flatten)]
     map: MapArgs,
     /// Most impacts of an orbit, in [1, 64]
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 4)]
     impacts: usize,
     /// Most periods of the platform that an orbit takes, in [1, 10000]
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 4)]
     platform_periods: u64,
     /// Starts along each axis, in [2, 4096]
-    #[arg(long, value_name = "N", default_value_t = 96)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 96)]
     starts: u32,
     #[command(flatten)]
     output: OutputArgs,
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk orbits", &job)?,
         text: text(&found),
-        table: table(&found),
+        table: ready(table(&found)),
         data: vec![("orbits", value(&found.orbits)?), ("coverage", value(&found.coverage)?)],
         figure: Some(Box::new(move || pictures::orbits::draw(job.axial_forcing, &found))),
     };

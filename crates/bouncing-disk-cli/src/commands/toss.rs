@@ -8,19 +8,19 @@ use bouncing_disk::{
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::arguments::OutputArgs;
+use crate::arguments::{OWN, OutputArgs};
 use crate::commands::map::wrote_template;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::system::SystemArgs;
 use crate::pictures;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come
-after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers. Units are SI; energies
+The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
+after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
 
 Examples:
@@ -53,22 +53,22 @@ pub(crate) struct TossArgs {
     #[command(flatten)]
     system: SystemArgs,
     /// How the disk turns at the start, at the lowest point of the platform
-    #[arg(long, value_name = "SPIN", default_value = "absolute-rest")]
+    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
     spin: Spin,
     /// Follows the disk through many tosses, and says what it settles on
-    #[arg(long)]
+    #[arg(help_heading = OWN, long)]
     many: bool,
     /// With --many: impacts that are not looked at before the motion is judged
-    #[arg(long, value_name = "N", default_value_t = 4_000, requires = "many")]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 4_000, requires = "many")]
     transient: usize,
     /// With --many: impacts that the motion is judged by
-    #[arg(long, value_name = "N", default_value_t = 1_024, requires = "many")]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 1_024, requires = "many")]
     examined: usize,
     /// With --many: periods of the platform in the file of the motion, from the start
-    #[arg(long, value_name = "N", default_value_t = 10, requires = "many")]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 10, requires = "many")]
     periods: u64,
     /// Instants of the motion in a file
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     samples: u32,
     #[command(flatten)]
     output: OutputArgs,
@@ -239,7 +239,7 @@ fn report(
     Ok(Report {
         provenance: provenance("bouncing-disk toss", &job(system, args))?,
         text,
-        table: table(&samples),
+        table: ready(table(&samples)),
         data,
         figure: Some(Box::new(move || pictures::toss::draw(&samples))),
     })

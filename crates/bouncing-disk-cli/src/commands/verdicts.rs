@@ -1,6 +1,7 @@
 //! `bouncing-disk verdicts`: what the disk does for good, over the forcing, or over forcing and restitution.
 
 use std::ops::Range as Rows;
+use std::rc::Rc;
 
 use bouncing_disk::Observer;
 use bouncing_disk::core::{ChatterPolicy, Verdict, VerdictSettings, verdicts_observed};
@@ -8,7 +9,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::arguments::{GridArgs, OutputArgs};
+use crate::arguments::{GridArgs, OWN, OutputArgs};
 use crate::commands::map::{MapArgs, map};
 use crate::commands::start::{STARTS, Start};
 use crate::context::Context;
@@ -21,15 +22,15 @@ use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is
-proved by Newton's method, chaos by an exponent three standard errors above zero, or undecided. A range of restitutions
-makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See
+A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is \
+proved by Newton's method, chaos by an exponent three standard errors above zero, or undecided. A range of restitutions \
+makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
 docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk verdicts --axial-forcing 0.3:0.6:7
-  bouncing-disk verdicts --axial-forcing 0:3:300 --restitution 0:0.95:200 --impacts 2000 --transient 1000 --out map.png
-  bouncing-disk verdicts --axial-forcing 0:3:20000 --restitution 0:0.95:20000 --chunk 17/500 --out part-17.json";
+  bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 2000 --out map.png
+  bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json";
 
 /// Forcings unless given.
 const FORCINGS: (f64, f64, usize) = (0.30, 0.62, 33);
@@ -43,20 +44,24 @@ const TOGETHER: usize = 4_096;
 pub(crate) struct VerdictsArgs {
     #[command(flatten)]
     map: MapArgs,
-    #[arg(long, value_name = "START", default_value_t = Start::Rise, help = format!("How each orbit starts: {STARTS}"))]
+    #[arg(help_heading = OWN, long, value_name = "START", default_value_t = Start::Rise, help = format!("How each orbit starts: {STARTS}"))]
     start: Start,
     /// Impacts before the exponent is measured
-    #[arg(long, value_name = "N", default_value_t = VerdictSettings::default().transient)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().transient)]
     transient: u64,
     /// Impacts that the exponent is measured over, at least 64
-    #[arg(long, value_name = "N", default_value_t = VerdictSettings::default().impacts)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().impacts)]
     impacts: u64,
     /// The longest period that is looked for, in impacts, at most 4096
-    #[arg(long, value_name = "N", default_value_t = VerdictSettings::default().longest_period)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().longest_period)]
     longest_period: usize,
     /// How near an impact must come to an earlier one for a period to be tried, in (0, 0.01]
-    #[arg(long, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
+    #[arg(help_heading = OWN, long, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
     tolerance: f64,
+    /// Keeps the evidence of each cell of a map in the file, which makes it a hundred times larger; without a range of
+    /// restitutions it is always kept
+    #[arg(help_heading = OWN, long)]
+    details: bool,
     #[command(flatten)]
     grid: GridArgs,
     #[command(flatten)]
@@ -80,6 +85,7 @@ pub(crate) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> 
             longest_period: args.longest_period,
             tolerance: args.tolerance,
         },
+        details: args.details || values.restitutions.count() == 1,
     };
     grid::run(job, &args.grid, &args.output, context)
 }
@@ -92,6 +98,8 @@ pub(crate) struct VerdictsJob {
     restitutions: Range,
     start: Start,
     settings: VerdictSettings,
+    /// Whether the evidence is kept, or the kinds alone.
+    details: bool,
 }
 
 /// The kind of a verdict, as files and pictures have it.
@@ -139,6 +147,15 @@ impl Kind {
         }
     }
 
+    /// Its place in [`Self::ALL`], as a letter.
+    fn digit(self) -> char {
+        char::from(b'0' + self as u8)
+    }
+
+    fn of_digit(letter: char) -> Option<Self> {
+        Self::ALL.get(letter.to_digit(10)? as usize).copied()
+    }
+
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::AtRest => "at rest",
@@ -158,9 +175,8 @@ impl Kind {
 impl GridJob for VerdictsJob {
     const COMMAND: &'static str = "verdicts";
 
-    /// The verdicts of one restitution over all forcings; where there are several forcings and one restitution, a row is a
-    /// forcing. `None` where there is no such start.
-    type Row = Vec<Option<Verdict>>;
+    /// Of a map a restitution over all forcings, else a forcing.
+    type Row = Row;
 
     type Prepared = ();
 
@@ -202,40 +218,72 @@ impl GridJob for VerdictsJob {
         let mut found = verdicts_observed(&starts, self.settings, observer)?.into_iter();
         let cells: Vec<Option<Verdict>> =
             has_start.into_iter().map(|there| if there { found.next() } else { None }).collect();
-        Ok(cells.chunks(columns).map(<[_]>::to_vec).collect())
+        let kind = |cell: &Option<Verdict>| Kind::of(cell.as_ref()).digit();
+        Ok(cells
+            .chunks(columns)
+            .map(|row| {
+                if self.details {
+                    Row::Verdicts(row.to_vec())
+                } else {
+                    Row::Kinds(row.iter().map(kind).collect())
+                }
+            })
+            .collect())
     }
 
-    fn report(self, (): (), rows: Vec<Self::Row>) -> Result<Report, Failure> {
-        let cells: Vec<(f64, f64, Option<Verdict>)> = rows
-            .into_iter()
-            .enumerate()
-            .flat_map(|(row, cells)| {
-                cells.into_iter().enumerate().map(move |(column, cell)| (row, column, cell))
-            })
-            .map(|(row, column, verdict)| {
-                let (forcing, restitution) = self.cell(row, column);
-                (forcing, restitution, verdict)
-            })
-            .collect();
-        let data = cells
-            .iter()
-            .map(|(forcing, restitution, verdict)| {
+    fn report(self, (): (), rows: Vec<Row>) -> Result<Report, Failure> {
+        let (mut kinds, mut verdicts, mut digits) = (Vec::new(), Vec::new(), Vec::new());
+        for row in rows {
+            match row {
+                Row::Verdicts(cells) => {
+                    kinds.extend(cells.iter().map(|cell| Kind::of(cell.as_ref())));
+                    verdicts.extend(cells);
+                }
+                Row::Kinds(row) => {
+                    kinds.extend(row.chars().filter_map(Kind::of_digit));
+                    digits.push(row);
+                }
+            }
+        }
+        let (expected, complete) =
+            (self.rows() * self.columns(), !self.details || verdicts.len() == kinds.len());
+        if kinds.len() != expected || !complete {
+            return Err(Failure::usage(format!("{} verdicts are there, of {expected}", kinds.len())));
+        }
+        let mut data = vec![("kinds", value(&Kind::ALL.map(Kind::name))?)];
+        if self.details {
+            let cells = verdicts.iter().enumerate().map(|(index, verdict)| {
+                let (forcing, restitution) = self.cell(index / self.columns(), index % self.columns());
                 Ok(json!({ "axial_forcing": forcing, "restitution": restitution, "verdict": value(verdict)? }))
-            })
-            .collect::<Result<Vec<_>, Failure>>()?;
-        let kinds: Vec<Kind> = cells.iter().map(|(.., verdict)| Kind::of(verdict.as_ref())).collect();
-        let text = if self.is_map() { counted(&kinds) } else { listed(&cells) };
+            });
+            data.push(("cells", cells.collect::<Result<Vec<_>, Failure>>()?.into()));
+        } else {
+            data.push(("kinds_by_restitution", value(&digits)?));
+        }
+        let text = if self.is_map() { counted(&kinds) } else { self.listed(&verdicts) };
         let provenance =
             provenance("bouncing-disk verdicts", &self)?.with_chatter_policy(ChatterPolicy::Complete);
+        let kinds: Rc<[Kind]> = kinds.into();
         let (forcings, restitutions) = (self.axial_forcings, self.restitutions);
+        let drawn = Rc::clone(&kinds);
         Ok(Report {
             provenance,
             text,
-            table: table(&cells),
-            data: vec![("cells", data.into())],
-            figure: Some(Box::new(move || pictures::regimes::draw(forcings, restitutions, &kinds))),
+            table: Box::new(move || self.table(&kinds, &verdicts)),
+            data,
+            figure: Some(Box::new(move || pictures::regimes::draw(forcings, restitutions, &drawn))),
         })
     }
+}
+
+/// A row as it is kept and stored. A map without details takes a byte a cell; with them some hundred.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Row {
+    /// The digits of the kinds, by their places in [`Kind::ALL`].
+    Kinds(String),
+    /// `None` where there is no such start.
+    Verdicts(Vec<Option<Verdict>>),
 }
 
 impl VerdictsJob {
@@ -248,6 +296,38 @@ impl VerdictsJob {
         if self.is_map() { self.axial_forcings.count() } else { 1 }
     }
 
+    /// The verdicts in words.
+    fn listed(&self, verdicts: &[Option<Verdict>]) -> String {
+        let mut table = Table::new(&[("axial_forcing", "1"), ("verdict", "1")]);
+        for (forcing, verdict) in self.axial_forcings.values().zip(verdicts) {
+            let words = verdict.map_or(Kind::NoStart.name().to_owned(), |verdict| verdict.to_string());
+            table.push([forcing.into(), words.into()]);
+        }
+        table.to_text()
+    }
+
+    /// Each cell a row, with the details where there are any.
+    fn table(&self, kinds: &[Kind], verdicts: &[Option<Verdict>]) -> Table {
+        let plain = [("axial_forcing", "1"), ("restitution", "1"), ("verdict", "1")];
+        let details = [
+            ("impacts", "1"),
+            ("platform_periods", "1"),
+            ("spectral_radius", "1"),
+            ("exponent", "1"),
+            ("exponent_error", "1"),
+            ("words", "1"),
+        ];
+        let columns = if self.details { [&plain[..], &details[..]].concat() } else { plain.to_vec() };
+        let mut table = Table::new(&columns);
+        for (index, kind) in kinds.iter().enumerate() {
+            let (forcing, restitution) = self.cell(index / self.columns(), index % self.columns());
+            let mut row: Vec<Cell> = vec![forcing.into(), restitution.into(), kind.name().into()];
+            row.extend(verdicts.get(index).copied().flatten().map(detailed).into_iter().flatten());
+            table.push(row);
+        }
+        table
+    }
+
     /// Forcing and restitution of a cell.
     fn cell(&self, row: usize, column: usize) -> (f64, f64) {
         if self.is_map() {
@@ -256,15 +336,6 @@ impl VerdictsJob {
             (self.axial_forcings.value(row), self.restitutions.value(0))
         }
     }
-}
-
-fn listed(cells: &[(f64, f64, Option<Verdict>)]) -> String {
-    let mut table = Table::new(&[("axial_forcing", "1"), ("verdict", "1")]);
-    for (forcing, _, verdict) in cells {
-        let words = verdict.map_or(Kind::NoStart.name().to_owned(), |verdict| verdict.to_string());
-        table.push([(*forcing).into(), words.into()]);
-    }
-    table.to_text()
 }
 
 /// How many cells there are of each kind that there is.
@@ -283,41 +354,33 @@ fn counted(kinds: &[Kind]) -> String {
     table.to_text()
 }
 
-fn table(cells: &[(f64, f64, Option<Verdict>)]) -> Table {
-    let mut table = Table::new(&[
-        ("axial_forcing", "1"),
-        ("restitution", "1"),
-        ("verdict", "1"),
-        ("impacts", "1"),
-        ("platform_periods", "1"),
-        ("spectral_radius", "1"),
-        ("exponent", "1"),
-        ("exponent_error", "1"),
-        ("words", "1"),
-    ]);
-    for (forcing, restitution, verdict) in cells {
-        let mut row: Vec<Cell> =
-            vec![(*forcing).into(), (*restitution).into(), Kind::of(verdict.as_ref()).name().into()];
-        row.extend(match verdict {
-            Some(Verdict::Periodic { impacts, platform_periods, multipliers, .. }) => [
-                (*impacts).into(),
-                (*platform_periods).into(),
-                multipliers.spectral_radius().into(),
-                Cell::Nothing,
-                Cell::Nothing,
-            ],
-            Some(Verdict::Chaotic { exponent, standard_error, .. }) => {
-                [Cell::Nothing, Cell::Nothing, Cell::Nothing, (*exponent).into(), (*standard_error).into()]
-            }
-            Some(Verdict::Chattering { cycle, .. }) => {
-                let counts = [cycle.impacts, cycle.platform_periods].map(Cell::from);
-                let [impacts, periods] = counts;
-                [impacts, periods, Cell::Nothing, Cell::Nothing, Cell::Nothing]
-            }
-            _ => [const { Cell::Nothing }; 5],
-        });
-        row.push(verdict.map(|verdict| verdict.to_string()).into());
-        table.push(row);
+/// Impacts, periods of the platform, spectral radius, exponent and its error, and all in words.
+fn detailed(verdict: Verdict) -> [Cell; 6] {
+    let [impacts, periods, radius, exponent, error] = match verdict {
+        Verdict::Periodic { impacts, platform_periods, multipliers, .. } => {
+            let radius = multipliers.spectral_radius();
+            [impacts.into(), platform_periods.into(), radius.into(), Cell::Nothing, Cell::Nothing]
+        }
+        Verdict::Chaotic { exponent, standard_error, .. } => {
+            [Cell::Nothing, Cell::Nothing, Cell::Nothing, exponent.into(), standard_error.into()]
+        }
+        Verdict::Chattering { cycle, .. } => {
+            [cycle.impacts.into(), cycle.platform_periods.into(), Cell::Nothing, Cell::Nothing, Cell::Nothing]
+        }
+        _ => [const { Cell::Nothing }; 5],
+    };
+    [impacts, periods, radius, exponent, error, verdict.to_string().into()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_have_a_digit_each() {
+        for kind in Kind::ALL {
+            assert_eq!(Kind::of_digit(kind.digit()), Some(kind));
+        }
+        assert_eq!([':', '/', 'a'].map(Kind::of_digit), [None; 3]);
     }
-    table
 }

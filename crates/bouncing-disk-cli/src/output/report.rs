@@ -23,8 +23,8 @@ pub(crate) struct Report {
     pub(crate) provenance: Provenance,
     /// What is printed.
     pub(crate) text: String,
-    /// What goes into a comma-separated file.
-    pub(crate) table: Table,
+    /// What goes into a comma-separated file, made when it is asked for: that of a large map takes much memory.
+    pub(crate) table: Box<dyn Fn() -> Table>,
     /// The fields of the JSON file after the provenance, in their order.
     pub(crate) data: Vec<(&'static str, Value)>,
     /// The picture, drawn when it is asked for; `None` of what has none.
@@ -38,7 +38,7 @@ impl Report {
         Ok(match kind {
             Kind::Csv => {
                 let provenance = value(&self.provenance)?;
-                format!("# provenance: {provenance}\n{}", self.table.to_csv()).into_bytes()
+                format!("# provenance: {provenance}\n{}", (self.table)().to_csv()).into_bytes()
             }
             Kind::Json => {
                 let provenance = value(&self.provenance)?;
@@ -61,6 +61,11 @@ impl Report {
         }
         Ok(())
     }
+}
+
+/// A table that is there already.
+pub(crate) fn ready(table: Table) -> Box<dyn Fn() -> Table> {
+    Box::new(move || table.clone())
 }
 
 /// Says that a file is there.

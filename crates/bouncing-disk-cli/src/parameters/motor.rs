@@ -35,6 +35,7 @@ impl MotorPreset {
 #[command(next_help_heading = "Motor")]
 pub(crate) struct MotorArgs {
     /// A data sheet, .toml or .json, in SI units; --template writes one
+    #[arg(help_heading = None)]
     pub(crate) file: Option<PathBuf>,
     /// A motor of the paper, in place of a file
     #[arg(long, conflicts_with = "file", value_name = "NAME")]
@@ -89,15 +90,51 @@ impl MotorArgs {
 
 /// The data sheet as a file that is read to the same motor, with comments.
 pub(crate) fn template(motor: &Motor) -> String {
-    let given = motor.to_toml();
     let sheet = motor.parameters();
-    let mut text = "# The data sheet of a motor. SI units; the unit stands behind each value.\n".to_owned();
-    text += &given;
-    text += "#\n# What else there may be, in place of what is above where it excludes that:\n";
+    let mut text = "# The data sheet of a motor. SI units.\n\n".to_owned();
+    for field in MotorField::ALL {
+        if let Some(value) = field.value(&sheet) {
+            text += &format!("{field} = {value:?} # {}\n", described(field));
+        }
+    }
+    text += "\n# What else there may be; of fields that say the same, only one.\n";
     for field in MotorField::ALL.into_iter().filter(|field| field.value(&sheet).is_none()) {
-        text += &format!("# {field} = # {}\n", field.unit());
+        let excluded: Vec<&str> = field.excluded().iter().map(|other| other.name()).collect();
+        let instead = if excluded.is_empty() {
+            String::new()
+        } else {
+            format!("; in place of {}", excluded.join(", "))
+        };
+        text += &format!("# {field} = ... # {}{instead}\n", described(field));
     }
     text
+}
+
+/// The unit of a field and what it is.
+fn described(field: MotorField) -> String {
+    let meaning = match field {
+        MotorField::DriveFrequency => "drive frequency omega/(2 pi)",
+        MotorField::Amplitude => "axial amplitude A of the stator",
+        MotorField::PeakAngularSpeed => "largest angular speed omega Phi of the stator",
+        MotorField::TwistAmplitude => "twist amplitude Phi of the stator",
+        MotorField::PhaseLag => "phase lag theta of the twist",
+        MotorField::Mass => "mass m of the rotor",
+        MotorField::Density => "density of the rotor, with its radius and thickness",
+        MotorField::RotorRadius => "outer radius of the rotor",
+        MotorField::RotorThickness => "thickness of the rotor, a solid disc",
+        MotorField::ContactRadius => "effective contact radius a_e",
+        MotorField::GyrationRadius => "radius of gyration a_g",
+        MotorField::PreloadForce => "all of the force F that presses the rotor onto the stator",
+        MotorField::PreloadAcceleration => "preload acceleration g = F/m",
+        MotorField::SpringConstant => "constant k of the spring that makes the preload",
+        MotorField::Friction => "coefficient of friction mu",
+        MotorField::Restitution => "coefficient of restitution, in [0, 1)",
+        MotorField::LoadTorque => "load torque; a positive one decelerates a positive rotation",
+    };
+    match field.unit() {
+        "1" => meaning.to_owned(),
+        unit => format!("{unit}: {meaning}"),
+    }
 }
 
 #[cfg(test)]

@@ -33,6 +33,7 @@ impl SystemPreset {
 #[command(next_help_heading = "Disk and platform")]
 pub(crate) struct SystemArgs {
     /// A file of parameters, .toml or .json, in SI units; --template writes one
+    #[arg(help_heading = None)]
     pub(crate) file: Option<PathBuf>,
     /// Parameters of the paper, in place of a file
     #[arg(long, conflicts_with = "file", value_name = "NAME")]

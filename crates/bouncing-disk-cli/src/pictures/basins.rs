@@ -1,5 +1,7 @@
 //! Basins as cells, with the impacts of the periodic attractors in them, and a key.
 
+use std::rc::Rc;
+
 use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
 use bouncing_disk_plot::{Axis, Colour, Figure, Marker, Panel, Raster, Rect, Scatter, Ticks};
 
@@ -14,7 +16,7 @@ pub(crate) struct Picture {
     /// Cells along each axis.
     pub(crate) cells: usize,
     /// Row by row, from the lowest speed.
-    pub(crate) labels: Vec<Label>,
+    pub(crate) labels: Rc<[Label]>,
     pub(crate) legend: Vec<(Label, String)>,
     /// Label, phase (periods) and normalised speed of the impacts of the periodic attractors.
     pub(crate) impacts: Vec<(Label, f64, f64)>,
@@ -37,7 +39,7 @@ impl Picture {
         let palette: Vec<Colour> = (0..=Label::MAX).map(colour).collect();
         let ([left, right], [bottom, top]) = (self.phases, self.speeds);
         let (x, y) = ((left, right), (bottom, top));
-        let raster = Raster::new(self.cells, self.cells, self.labels.clone(), &palette, x, y);
+        let raster = Raster::new(self.cells, self.cells, self.labels.to_vec(), &palette, x, y);
         let spots = |of: fn(Label) -> bool| {
             self.impacts.iter().filter(move |own| of(own.0)).map(|own| (own.1, own.2))
         };

@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::settings::SettingsArgs;
 use super::wrote_template;
-use crate::arguments::OutputArgs;
+use crate::arguments::{OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::{Cell, Table};
 use crate::parameters::motor::MotorArgs;
 use crate::pictures;
@@ -17,7 +17,7 @@ use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-All loads ride on one vertical motion: a curve costs little more than a point. Errors are standard errors. A load beyond
+All loads ride on one vertical motion: a curve costs little more than a point. Errors are standard errors. A load beyond \
 the largest torque mu m g a_e overpowers the motor, which then has no mean speed. See docs/designing-a-motor.md.
 
 Examples:
@@ -34,7 +34,7 @@ pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// Load torques (N m), FIRST:LAST:POINTS; eleven from none to the largest torque unless given
-    #[arg(long, value_name = "LOADS", allow_negative_numbers = true)]
+    #[arg(help_heading = OWN, long, value_name = "LOADS", allow_negative_numbers = true)]
     loads: Option<Range>,
     #[command(flatten)]
     settings: SettingsArgs,
@@ -67,7 +67,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &Job { motor: &motor, load_torques, settings })?,
         text: shown(&found).to_text(),
-        table,
+        table: ready(table),
         data: vec![("operations", value(&found)?)],
         figure: Some(Box::new(move || pictures::motor_curve::draw(motor.largest_torque(), &found))),
     };

@@ -9,13 +9,13 @@ use super::wrote_template;
 use crate::arguments::OutputArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::Quantities;
 use crate::parameters::motor::MotorArgs;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Under the load of the data sheet; the other direction is best half a circle away. Errors are standard errors. See
+Under the load of the data sheet; the other direction is best half a circle away. Errors are standard errors. See \
 docs/designing-a-motor.md.
 
 Example:
@@ -58,7 +58,7 @@ pub(super) fn run(args: &LagArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor phase-lag", &Job { motor: &motor, settings })?,
         text: list.to_text(),
-        table: list.to_table(),
+        table: ready(list.to_table()),
         data: vec![("best_phase_lag", value(&best)?)],
         figure: None,
     };

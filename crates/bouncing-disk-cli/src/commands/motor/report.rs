@@ -7,13 +7,13 @@ use super::wrote_template;
 use crate::arguments::OutputArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance};
+use crate::output::report::{Report, provenance, ready};
 use crate::output::table::Quantities;
 use crate::parameters::motor::MotorArgs;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be
+Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
 meant. See docs/designing-a-motor.md.
 
 Examples:
@@ -60,7 +60,7 @@ pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor report", &Job { motor: &motor })?,
         text: report.to_string(),
-        table: list.to_table(),
+        table: ready(list.to_table()),
         data: vec![("quantities", list.to_json())],
         figure: None,
     };

@@ -9,13 +9,13 @@ use super::wrote_template;
 use crate::arguments::OutputArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::Quantities;
 use crate::parameters::motor::MotorArgs;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The true stall: the load torque at which the mean speed vanishes, not the paper's estimate from the run-up without load
+The true stall: the load torque at which the mean speed vanishes, not the paper's estimate from the run-up without load \
 (`bouncing-disk fit` has that one). Errors are standard errors. See docs/designing-a-motor.md.
 
 Example:
@@ -59,7 +59,7 @@ pub(super) fn run(args: &StallArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor stall", &Job { motor: &motor, settings })?,
         text: list.to_text(),
-        table: list.to_table(),
+        table: ready(list.to_table()),
         data: vec![("stall_load", value(&stall)?)],
         figure: None,
     };

@@ -15,12 +15,12 @@ use serde::{Deserialize, Serialize};
 use super::curve::state;
 use super::settings::SettingsArgs;
 use super::wrote_template;
-use crate::arguments::{GridArgs, OutputArgs};
+use crate::arguments::{GridArgs, OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
 use crate::output::lines::complain;
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::{Cell, Table};
 use crate::parameters::motor::MotorArgs;
 use crate::pictures;
@@ -28,14 +28,14 @@ use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in
-load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and
+One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in \
+load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and \
 --journal divide and keep these. Fields are those of the data sheet, in its units. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
-  bouncing-disk motor sweep --over preload_force=0.2:0.4:3 --over load_torque=0:30e-6:7 --picture efficiency --out map.png
-  bouncing-disk motor sweep motor.toml --over amplitude=1e-9:1e-7:50 --journal sweep.journal --out sweep.csv";
+  bouncing-disk motor sweep --over preload_force=0.2:0.4:3 --over phase_lag=-1:1:9 --out map.png
+  bouncing-disk motor sweep motor.toml --over amplitude=1e-9:1e-7:50 --journal sweep.journal";
 
 /// A motor over one or two fields of its data sheet
 #[derive(Debug, Args)]
@@ -44,10 +44,10 @@ pub(crate) struct SweepArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// A field of the data sheet and its values, FIELD=FIRST:LAST:POINTS; one or two of them
-    #[arg(long, value_name = "FIELD=RANGE", required_unless_present = "template")]
+    #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template")]
     over: Vec<Over>,
     /// The quantity of a picture
-    #[arg(long, value_name = "QUANTITY", default_value = "speed")]
+    #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed")]
     picture: Picture,
     #[command(flatten)]
     settings: SettingsArgs,
@@ -210,7 +210,7 @@ impl GridJob for SweepJob {
         Ok(Report {
             provenance: provenance("bouncing-disk motor sweep", &self)?,
             text: shown.to_text(),
-            table: Table::of_csv(result.to_csv()),
+            table: ready(Table::of_csv(result.to_csv())),
             data: vec![("axes", value(result.axes())?), ("cells", value(result.cells())?)],
             figure: Some(Box::new(move || pictures::sweep::draw(&result, quantity))),
         })

@@ -10,20 +10,20 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::wrote_template;
-use crate::arguments::{GridArgs, OutputArgs};
+use crate::arguments::{GridArgs, OWN, OutputArgs};
 use crate::commands::fit::{estimates, refusal};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, value};
+use crate::output::report::{Report, provenance, ready, value};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::motor::MotorArgs;
 use crate::pictures;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five members or more
-their mean is fitted by alpha_ss (1 - exp(-t/t_c)) with 95 % intervals. In .csv a row is an instant and a member, with the
+Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five members or more \
+their mean is fitted by alpha_ss (1 - exp(-t/t_c)) with 95 % intervals. In .csv a row is an instant and a member, with the \
 columns that `bouncing-disk fit` reads. See docs/designing-a-motor.md.
 
 Examples:
@@ -37,19 +37,19 @@ pub(crate) struct TransientArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// Runs
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 10)]
     members: usize,
     /// Duration of a run (s)
-    #[arg(long, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
+    #[arg(help_heading = OWN, long, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
     duration: f64,
     /// Equal intervals over which the speed is averaged
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 200)]
     intervals: usize,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(long, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
+    #[arg(help_heading = OWN, long, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
     perturbation: f64,
     /// Seed of the perturbations and of the starting phases
-    #[arg(long, value_name = "SEED", default_value_t = TransientSettings::default().seed)]
+    #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = TransientSettings::default().seed)]
     seed: u64,
     #[command(flatten)]
     grid: GridArgs,
@@ -151,7 +151,7 @@ impl GridJob for TransientJob {
                 .with_seed(self.settings.seed)
                 .with_chatter_policy(policy),
             text,
-            table,
+            table: ready(table),
             data: vec![
                 ("fit", value(&fit)?),
                 ("curves", value(&ensemble.curves)?),
