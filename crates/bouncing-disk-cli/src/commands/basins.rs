@@ -1,0 +1,283 @@
+//! `bouncing-disk basins`: which impacts lead where.
+
+use std::ops::Range as Rows;
+use std::rc::Rc;
+
+use bouncing_disk::core::{
+    ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
+    UNDECIDED,
+};
+use bouncing_disk::{Observer, Progress};
+use clap::Args;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use crate::arguments::{GridArgs, OWN, OutputArgs};
+use crate::commands::map::{MapArgs, map, single};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::grid::{self, GridJob};
+use crate::output::report::{Report, provenance, value};
+use crate::output::table::Table;
+use crate::pictures;
+use crate::range::{Interval, Range};
+
+/// What stands at the end of the help.
+const AFTER: &str = "\
+The attractors are found first, without being told. Then each cell of the window says where an impact in its middle leads, \
+as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
+
+Examples:
+  bouncing-disk basins --out basins.png
+  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed 0:5 --out basins.json
+  bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json";
+
+/// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
+const FORCING: f64 = 0.486;
+
+/// Cells that are labelled together.
+const TOGETHER: usize = 100_000;
+
+/// Attractors and their basins, in the plane of impact phase and speed
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(crate) struct BasinsArgs {
+    #[command(flatten)]
+    map: MapArgs,
+    /// Cells along each axis
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 300)]
+    cells: usize,
+    /// Impact phases of the window, in periods
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_negative_numbers = true)]
+    phase: Interval,
+    /// Normalised impact speeds of the window
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:5")]
+    speed: Interval,
+    /// Impacts after which a start is left undecided
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
+    impacts: u32,
+    /// Starts from which attractors are looked for
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = AttractorSearch::default().starts())]
+    starts: u32,
+    #[command(flatten)]
+    grid: GridArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
+    if args.map.wrote_template()? {
+        return Ok(());
+    }
+    let values = args.map.values(Range::single(FORCING))?;
+    let job = BasinsJob {
+        axial_forcing: single(values.axial_forcings, "--axial-forcing")?,
+        restitution: single(values.restitutions, "--restitution")?,
+        cells: args.cells,
+        phase_periods: args.phase.0,
+        normalised_speed: args.speed.0,
+        settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
+        search: AttractorSearch::default().with_starts(args.starts)?,
+    };
+    grid::run(job, &args.grid, &args.output, context)
+}
+
+/// What basins depend on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BasinsJob {
+    axial_forcing: f64,
+    restitution: f64,
+    cells: usize,
+    phase_periods: [f64; 2],
+    normalised_speed: [f64; 2],
+    settings: BasinSettings,
+    search: AttractorSearch,
+}
+
+impl BasinsJob {
+    fn window(&self) -> Result<Grid, Failure> {
+        let axis = |[low, high]: [f64; 2]| Axis::new(low, high, self.cells);
+        Ok(Grid::new(axis(self.phase_periods)?, axis(self.normalised_speed)?)?)
+    }
+}
+
+impl GridJob for BasinsJob {
+    const COMMAND: &'static str = "basins";
+
+    /// The labels of a row by phase, two hexadecimal digits each: a list of numbers takes many times the memory.
+    type Row = String;
+
+    type Prepared = Attractors;
+
+    fn rows(&self) -> usize {
+        self.cells
+    }
+
+    fn together(&self) -> usize {
+        // Each time the whole grid takes place in memory, so that few rows of a large one would cost more than they are.
+        TOGETHER.div_ceil(self.cells.max(1)).max(self.cells / 64)
+    }
+
+    fn prepare(&self, observer: &dyn Observer) -> Result<Attractors, Failure> {
+        self.window()?;
+        // The search is a small part of the work, and has no part of the bar.
+        let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
+        Ok(map(self.axial_forcing, self.restitution)?.attractors_observed(&self.search, &silent)?)
+    }
+
+    fn compute(
+        &self,
+        attractors: &Attractors,
+        rows: Rows<usize>,
+        observer: &dyn Observer,
+    ) -> Result<Vec<String>, Failure> {
+        if rows.is_empty() {
+            return Ok(Vec::new());
+        }
+        let own = rows.len() as u64;
+        // A row may count twice there.
+        let within = |Progress { done, total }| {
+            observer.observe(Progress { done: done * own / total.max(1), total: own })
+        };
+        let labelled = attractors.basins_of_rows_observed(self.window()?, rows, self.settings, &within)?;
+        Ok(labelled.labels().chunks(self.cells).map(hexadecimal).collect())
+    }
+
+    fn report(self, attractors: Attractors, rows: Vec<String>) -> Result<Report, Failure> {
+        let window = self.window()?;
+        let labels: Vec<Label> = rows.iter().flat_map(|row| of_hexadecimal(row)).collect();
+        if labels.len() != self.cells * self.cells {
+            return Err(Failure::usage(format!(
+                "{} labels are there, of {} by {1} cells",
+                labels.len(),
+                self.cells
+            )));
+        }
+        let mut counts = [0_u64; 256];
+        labels.iter().for_each(|label| counts[usize::from(*label)] += 1);
+        let legend = legend(&attractors);
+        let mut shown = Table::new(&[("label", "1"), ("attractor", "1"), ("cells", "1"), ("share", "%")]);
+        let mut listed = Vec::new();
+        for (label, words) in &legend {
+            let count = counts[usize::from(*label)];
+            let share = 100.0 * count as f64 / labels.len() as f64;
+            // Undecided cells are told of only if there are any.
+            if *label != UNDECIDED || count > 0 {
+                shown.push([u64::from(*label).into(), words.as_str().into(), count.into(), share.into()]);
+            }
+            listed.push(json!({ "label": label, "attractor": words, "cells": count }));
+        }
+        let data = vec![
+            ("labels", listed.into()),
+            ("attractors", value(&attractors)?),
+            ("hexadecimal_labels_by_speed", value(&rows)?),
+        ];
+        drop(rows);
+        let text = format!(
+            "axial forcing {}, restitution {}, {} by {2} cells\n{}",
+            self.axial_forcing,
+            self.restitution,
+            self.cells,
+            shown.to_text()
+        );
+        let provenance = provenance("bouncing-disk basins", &self)?.with_chatter_policy(self.settings.policy);
+        let labels: Rc<[Label]> = labels.into();
+        let picture = pictures::basins::Picture {
+            axial_forcing: self.axial_forcing,
+            restitution: self.restitution,
+            phases: self.phase_periods,
+            speeds: self.normalised_speed,
+            cells: self.cells,
+            labels: Rc::clone(&labels),
+            legend,
+            impacts: impacts(&attractors),
+        };
+        let table = Box::new(move || table(&window, &labels));
+        Ok(Report { provenance, text, table, data, figure: Some(Box::new(move || picture.draw())) })
+    }
+}
+
+fn table(window: &Grid, labels: &[Label]) -> Table {
+    let mut table =
+        Table::new(&[("impact_phase", "periods"), ("normalised_impact_speed", "1"), ("label", "1")]);
+    for (row, labels) in labels.chunks(window.phase().cells()).enumerate() {
+        for (column, label) in labels.iter().enumerate() {
+            let (phase, speed) = (window.phase().centre(column), window.speed().centre(row));
+            table.push([phase.into(), speed.into(), u64::from(*label).into()]);
+        }
+    }
+    table
+}
+
+fn hexadecimal(labels: &[Label]) -> String {
+    labels.iter().map(|label| format!("{label:02x}")).collect()
+}
+
+/// The labels of a row; what is none counts as none, which the number of labels tells.
+fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
+    let pairs = row.as_bytes().chunks(2);
+    pairs.filter_map(|pair| Label::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
+}
+
+/// The labels and what they stand for, in their order.
+fn legend(attractors: &Attractors) -> Vec<(Label, String)> {
+    let mut legend = vec![(UNDECIDED, "undecided".to_owned())];
+    for (number, attractor) in attractors.all().iter().enumerate() {
+        let Some(label) = attractors.label(number) else { continue };
+        let words = match &attractor.kind {
+            AttractorKind::Rest(AfterRest::StaysForEver) => "at rest for ever".to_owned(),
+            AttractorKind::Rest(AfterRest::RestsAgain(cycle)) => cycle.to_string(),
+            AttractorKind::Rest(AfterRest::LeadsTo(number)) => {
+                let to = attractors.label(*number).unwrap_or(ATTACHED);
+                format!("at rest, then to {to}")
+            }
+            AttractorKind::Periodic(known) => {
+                let orbit = known.orbit();
+                let counted =
+                    |count: u64, thing: &str| format!("{count} {thing}{}", if count == 1 { "" } else { "s" });
+                format!(
+                    "{} in {}",
+                    counted(orbit.period() as u64, "impact"),
+                    counted(orbit.platform_periods, "period")
+                )
+            }
+            AttractorKind::Chaotic { exponent, standard_error, .. } => {
+                format!("chaos, exponent {exponent:.4} +- {standard_error:.4}")
+            }
+            _ => "of no certain kind".to_owned(),
+        };
+        legend.push((label, words));
+    }
+    legend
+}
+
+/// The impacts of the periodic attractors: label, phase (periods), normalised speed.
+fn impacts(attractors: &Attractors) -> Vec<(Label, f64, f64)> {
+    let periodic =
+        attractors.all().iter().enumerate().filter_map(|(number, attractor)| match &attractor.kind {
+            AttractorKind::Periodic(known) => Some((attractors.label(number)?, known.orbit())),
+            _ => None,
+        });
+    periodic
+        .flat_map(|(label, orbit)| {
+            orbit.states.iter().map(move |state| (label, state.phase().cycles(), state.normalised_speed()))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_written_and_read() {
+        let all: Vec<Label> = (0..=Label::MAX).collect();
+        let text = hexadecimal(&all);
+        assert!(text.starts_with("000102") && text.ends_with("ff"));
+        assert_eq!(of_hexadecimal(&text).collect::<Vec<_>>(), all);
+        assert_eq!(of_hexadecimal("0g").count() + of_hexadecimal("").count(), 0);
+    }
+}

@@ -1,0 +1,168 @@
+//! `bouncing-disk design`: the hand motion that tosses best.
+
+use bouncing_disk::{
+    OverFriction, Platform, System, TossConstraints, TossDesign, TossObjective, best_toss_observed,
+    toss_trajectory,
+};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+
+use crate::arguments::{OWN, OutputArgs};
+use crate::commands::map::wrote_template;
+use crate::commands::toss::{Spin, quantities, samples, table};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::output::report::{Report, provenance, ready, value};
+use crate::output::table::Quantities;
+use crate::parameters::system::SystemArgs;
+use crate::pictures;
+use crate::range::Interval;
+
+/// What stands at the end of the help.
+const AFTER: &str = "\
+Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
+whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
+the range of friction. See docs/numerics/motors.md and `TossConstraints` of the library.
+
+Examples:
+  bouncing-disk design
+  bouncing-disk design --friction 0.5:0.7 --angular-frequency 10:16 --objective turns --highest-flight 0.5";
+
+/// What a toss is to be best at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Objective {
+    /// The airborne rotary speed (rad/s)
+    AirborneSpeed,
+    /// The efficiency of Sec. III A
+    Efficiency,
+    /// Turns until the dough is back at the height at which it left
+    Turns,
+}
+
+/// How the objective is taken over a range of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Over {
+    /// Its least value
+    Worst,
+    /// Its mean
+    Mean,
+}
+
+/// The hand motion that tosses best, under constraints
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(crate) struct DesignArgs {
+    #[command(flatten)]
+    system: SystemArgs,
+    /// Stroke c (m): half the length of the path of the hand at the contact radius
+    #[arg(help_heading = OWN, long, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
+    stroke: f64,
+    /// Coefficient of friction; that of the dough unless given
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH")]
+    friction: Option<Interval>,
+    /// Angular frequency (rad/s); 15, that of Table I, unless given
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH")]
+    angular_frequency: Option<Interval>,
+    /// Phase lag of the twist (rad); half a circle unless given
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_negative_numbers = true)]
+    phase_lag: Option<Interval>,
+    /// The highest that the dough may fly above the place where it leaves the hand (m)
+    #[arg(help_heading = OWN, long, value_name = "METRES")]
+    highest_flight: Option<f64>,
+    /// What the toss is to be best at
+    #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed")]
+    objective: Objective,
+    /// How that is taken over the range of friction
+    #[arg(help_heading = OWN, long, value_name = "HOW", default_value = "worst")]
+    over_friction: Over,
+    /// How the dough turns at the start
+    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
+    spin: Spin,
+    /// Instants of the motion in a file
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    samples: u32,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Serialize)]
+struct Job<'a> {
+    constraints: &'a TossConstraints,
+}
+
+impl DesignArgs {
+    fn constraints(&self) -> Result<TossConstraints, Failure> {
+        let paper = TossConstraints::pizza_toss();
+        let dough = self.system.system()?.disk().parameters();
+        let ends =
+            |given: Option<Interval>, otherwise: [f64; 2]| given.map_or(otherwise, |interval| interval.0);
+        Ok(TossConstraints {
+            dough,
+            initial: self.spin.into(),
+            stroke: self.stroke,
+            friction: ends(self.friction, [dough.friction; 2]),
+            angular_frequency: ends(self.angular_frequency, paper.angular_frequency),
+            phase_lag: ends(self.phase_lag, paper.phase_lag),
+            highest_flight: self.highest_flight,
+            objective: match self.objective {
+                Objective::AirborneSpeed => TossObjective::AirborneSpeed,
+                Objective::Efficiency => TossObjective::Efficiency,
+                Objective::Turns => TossObjective::TurnsPerToss,
+            },
+            over_friction: match self.over_friction {
+                Over::Worst => OverFriction::Worst,
+                Over::Mean => OverFriction::Mean,
+            },
+        })
+    }
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
+    if wrote_template(&args.system)? {
+        return Ok(());
+    }
+    args.output.check(true)?;
+    let constraints = args.constraints()?;
+    let design = best_toss_observed(&constraints, &context.watch("design"))?;
+    let system = designed(&design)?;
+    let motion = toss_trajectory(&system, constraints.initial)?;
+    let samples = samples(&system, &motion, args.samples);
+    let report = Report {
+        provenance: provenance("bouncing-disk design", &Job { constraints: &constraints })?,
+        text: list(&design, &system).to_text(),
+        table: ready(table(&samples)),
+        data: vec![("design", value(&design)?), ("motion", value(&samples)?)],
+        figure: Some(Box::new(move || pictures::toss::draw(&samples))),
+    };
+    report.deliver(&args.output, context.quiet)
+}
+
+/// The dough on the hand that was found, with the friction in the middle of its range.
+fn designed(design: &TossDesign) -> Result<System, Failure> {
+    let [low, high] = design.constraints.friction;
+    let mut dough = design.constraints.dough;
+    dough.friction = low + 0.5 * (high - low);
+    Ok(System::new(Platform::from_stroke(design.hand)?, dough.build()?)?)
+}
+
+fn list(design: &TossDesign, system: &System) -> Quantities {
+    let mut list = Quantities::default();
+    list.push("angular_frequency", design.hand.angular_frequency, "rad/s");
+    list.push("amplitude_angle", design.hand.amplitude_angle, "rad");
+    list.push("phase_lag", design.hand.phase_lag, "rad");
+    list.push("amplitude", system.platform().amplitude(), "m");
+    list.push("twist_amplitude", system.platform().twist_amplitude(), "rad");
+    let (name, unit) = match design.constraints.objective {
+        TossObjective::AirborneSpeed => ("objective_airborne_speed", "rad/s"),
+        TossObjective::Efficiency => ("objective_efficiency", "1"),
+        TossObjective::TurnsPerToss => ("objective_turns", "turns"),
+        _ => ("objective", "1"),
+    };
+    list.push(name, design.value, unit);
+    list.push("flight_height", design.flight_height, "m");
+    list.push("turns", design.turns, "1");
+    list.push("hidden_gain_at_most", design.certificate.hidden_gain, unit);
+    list.append(quantities(system, &design.toss));
+    list
+}

@@ -1,0 +1,226 @@
+//! `bouncing-disk fit`: what measured run-ups say.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use bouncing_disk::{
+    Error, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredSpeeds, MeasuredTransient, Motor,
+    ParameterFit, ParameterFitSettings, RunPreload, TransientFit,
+};
+use clap::Args;
+use serde::Serialize;
+
+use crate::arguments::{OWN, OutputArgs};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::output::report::{Report, provenance, ready, value};
+use crate::output::table::{Quantities, Table};
+use crate::parameters::motor::{MotorArgs, MotorPreset};
+use crate::parameters::setting::Setting;
+use crate::pictures;
+use crate::range::Interval;
+
+/// What stands at the end of the help.
+const AFTER: &str = "\
+The file has the columns time_s, speed_rad_s and, for repeated runs, member: run-ups from rest, times counted from the \
+instant at which the motor is switched on. Without --parameter alpha_ss (1 - exp(-t/t_c)) is fitted to their mean, with \
+95 % intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
+amplitude (m), twist_amplitude (rad), each within its range; all else is that of the data sheet. See \
+docs/designing-a-motor.md.
+
+Examples:
+  bouncing-disk fit run-up.csv --out fit.png
+  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4";
+
+/// Fits measured run-ups: steady speed and time constant, or parameters of a motor
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(crate) struct FitArgs {
+    /// Measured speeds: time_s, speed_rad_s and, of several runs, member
+    file: PathBuf,
+    /// A parameter of the motor that is fitted, and its range; may be repeated
+    #[arg(help_heading = OWN, long, value_name = "FIELD=LOW:HIGH")]
+    parameter: Vec<Fitted>,
+    /// With --parameter: the data sheet of the motor, from whose values the search begins
+    #[arg(help_heading = OWN, long, value_name = "FILE", requires = "parameter")]
+    motor: Option<PathBuf>,
+    /// With --parameter: a motor of the paper in place of a data sheet
+    #[arg(help_heading = OWN, long, value_name = "NAME", requires = "parameter", conflicts_with = "motor")]
+    preset: Option<MotorPreset>,
+    /// With --parameter: gives a field of the data sheet another value
+    #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter")]
+    set: Vec<Setting>,
+    /// Resampled fits
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = FitSettings::default().resamples)]
+    resamples: usize,
+    /// Seed of the resampling
+    #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = FitSettings::default().seed)]
+    seed: u64,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// A parameter and its range.
+#[derive(Debug, Clone, Copy)]
+struct Fitted(FitRange);
+
+impl FromStr for Fitted {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = || "a fitted parameter is FIELD=LOW:HIGH, such as friction=0.05:0.4".to_owned();
+        let (name, range) = text.split_once('=').ok_or_else(form)?;
+        let all = [
+            FitParameter::Friction,
+            FitParameter::Restitution,
+            FitParameter::PhaseLag,
+            FitParameter::Amplitude,
+            FitParameter::TwistAmplitude,
+        ];
+        let parameter =
+            all.into_iter().find(|parameter| parameter.name() == name.trim()).ok_or_else(|| {
+                format!("{name:?} cannot be fitted; possible are {}", all.map(FitParameter::name).join(", "))
+            })?;
+        let Interval([low, high]) = range.parse()?;
+        Ok(Self(FitRange { parameter, low, high }))
+    }
+}
+
+#[derive(Serialize)]
+struct Job<'a> {
+    speeds: &'a MeasuredSpeeds,
+    settings: FitSettings,
+}
+
+#[derive(Serialize)]
+struct ParameterJob<'a> {
+    speeds: &'a MeasuredSpeeds,
+    motor: &'a Motor,
+    ranges: &'a [FitRange],
+    settings: ParameterFitSettings,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
+    args.output.check(args.parameter.is_empty())?;
+    let speeds = MeasuredSpeeds::from_csv(&args.file)?;
+    let report = if args.parameter.is_empty() {
+        rise(args, speeds, context)?
+    } else {
+        parameters(args, speeds, context)?
+    };
+    report.deliver(&args.output, context.quiet)
+}
+
+fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
+    let settings = FitSettings { resamples: args.resamples, seed: args.seed, ..FitSettings::default() };
+    let watcher = context.watch("fit");
+    let runs = speeds.runs();
+    // As `MeasuredSpeeds::fit` does, which takes no observer: one run by its residuals, several by their scatter.
+    let fit = match runs {
+        [run] => TransientFit::of_measured_observed(&run.times, &run.speeds, &settings, &watcher)?,
+        _ => {
+            let curves: Vec<&[f64]> = runs.iter().map(|run| &run.speeds[..]).collect();
+            if runs.iter().any(|run| run.times != runs[0].times) {
+                // The library names the time that differs.
+                speeds.fit(&settings)?
+            } else {
+                TransientFit::of_runs_observed(&runs[0].times, &curves, &settings, &watcher)?
+            }
+        }
+    };
+    drop(watcher);
+    let mut list = Quantities::default();
+    list.push("runs", runs.len(), "1");
+    list.push("points", fit.points, "1");
+    list.push("duration", fit.duration, "s");
+    estimates(&fit, &mut list);
+    Ok(Report {
+        provenance: provenance("bouncing-disk fit", &Job { speeds: &speeds, settings })?.with_seed(args.seed),
+        text: list.to_text(),
+        table: ready(list.to_table()),
+        data: vec![("fit", value(&fit)?)],
+        figure: Some(Box::new(move || pictures::transient::measured(&speeds, &fit))),
+    })
+}
+
+/// What a fit of a run-up says.
+pub(crate) fn estimates(fit: &TransientFit, list: &mut Quantities) {
+    let mut interval = |names: [&'static str; 3], estimate: IntervalEstimate, unit: &'static str| {
+        let [value, low, high] = names;
+        list.push(value, estimate.value, unit);
+        list.push(low, estimate.low, unit);
+        list.push(high, estimate.high, unit);
+    };
+    interval(["steady_speed", "steady_speed_low", "steady_speed_high"], fit.steady_speed(), "rad/s");
+    interval(["time_constant", "time_constant_low", "time_constant_high"], fit.time_constant(), "s");
+    interval(
+        ["stall_acceleration", "stall_acceleration_low", "stall_acceleration_high"],
+        fit.stall_acceleration(),
+        "rad/s^2",
+    );
+    list.push("residual", fit.exponential.residual, "rad/s");
+    list.push("better_form", format!("{:?}", fit.form).to_lowercase(), "1");
+}
+
+/// The words of a fit that is refused; another error is a failure.
+pub(crate) fn refusal(error: &Error) -> Result<String, Failure> {
+    match error {
+        Error::FitRefused { .. } => Ok(error.to_string()),
+        other => Err((*other).into()),
+    }
+}
+
+fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
+    let sheet =
+        MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false };
+    let motor = sheet.motor(context.quiet)?;
+    let ranges: Vec<FitRange> = args.parameter.iter().map(|fitted| fitted.0).collect();
+    let settings = ParameterFitSettings {
+        seed: args.seed,
+        resamples: args.resamples,
+        ..ParameterFitSettings::default()
+    };
+    let preload = RunPreload::Acceleration(motor.preload_acceleration());
+    let transient = MeasuredTransient { preload, runs: speeds, speed_error: None };
+    let fit = ParameterFit::new_observed(
+        &motor,
+        std::slice::from_ref(&transient),
+        &ranges,
+        &settings,
+        &context.watch("fit"),
+    )?;
+    let mut table = Table::new(&[
+        ("parameter", "1"),
+        ("nominal", "1"),
+        ("value", "1"),
+        ("low", "1"),
+        ("high", "1"),
+        ("determined", "1"),
+    ]);
+    for own in &fit.parameters {
+        table.push([
+            own.parameter.name().into(),
+            own.nominal.into(),
+            own.estimate.map(|estimate| estimate.value).into(),
+            own.estimate.map(|estimate| estimate.low).into(),
+            own.estimate.map(|estimate| estimate.high).into(),
+            if own.estimate.is_some() { "yes" } else { "no" }.into(),
+        ]);
+    }
+    let mut text = table.to_text();
+    for direction in &fit.undetermined {
+        let parts: Vec<String> =
+            direction.direction.iter().map(|(parameter, part)| format!("{part:.2} {parameter}")).collect();
+        text += &format!("not determined: {}\n", parts.join(", "));
+    }
+    text += &format!("misfit {:.3} for {} degrees of freedom\n", fit.misfit, fit.degrees_of_freedom);
+    let job = ParameterJob { speeds: &transient.runs, motor: &motor, ranges: &ranges, settings };
+    Ok(Report {
+        provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
+        text,
+        table: ready(table),
+        data: vec![("fit", value(&fit)?)],
+        figure: None,
+    })
+}

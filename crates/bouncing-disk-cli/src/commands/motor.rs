@@ -1,0 +1,54 @@
+//! `bouncing-disk motor`: a motor from its data sheet.
+
+mod curve;
+mod lag;
+mod report;
+mod settings;
+mod stall;
+pub(crate) mod sweep;
+pub(crate) mod transient;
+
+use clap::{Args, Subcommand};
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::output::lines::say;
+use crate::parameters::motor::{MotorArgs, template};
+
+/// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, sweeps
+#[derive(Debug, Args)]
+#[command(subcommand_required = true, arg_required_else_help = true)]
+pub(crate) struct MotorCommand {
+    #[command(subcommand)]
+    command: Motors,
+}
+
+#[derive(Debug, Subcommand)]
+enum Motors {
+    Report(report::ReportArgs),
+    Transient(transient::TransientArgs),
+    Curve(curve::CurveArgs),
+    Stall(stall::StallArgs),
+    PhaseLag(lag::LagArgs),
+    Sweep(sweep::SweepArgs),
+}
+
+/// Runs the command.
+pub(crate) fn run(command: MotorCommand, context: Context) -> Result<(), Failure> {
+    match command.command {
+        Motors::Report(args) => report::run(&args, context),
+        Motors::Transient(args) => transient::run(&args, context),
+        Motors::Curve(args) => curve::run(&args, context),
+        Motors::Stall(args) => stall::run(&args, context),
+        Motors::PhaseLag(args) => lag::run(&args, context),
+        Motors::Sweep(args) => sweep::run(&args, context),
+    }
+}
+
+/// Writes the template if that is asked for, and says whether it was.
+fn wrote_template(args: &MotorArgs) -> Result<bool, Failure> {
+    if args.template {
+        say!("{}", template(&args.motor(true)?).trim_end())?;
+    }
+    Ok(args.template)
+}

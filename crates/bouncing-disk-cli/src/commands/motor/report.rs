@@ -1,0 +1,68 @@
+//! `bouncing-disk motor report`: what follows from a data sheet, and what the motor does.
+
+use clap::Args;
+use serde::Serialize;
+
+use super::wrote_template;
+use crate::arguments::OutputArgs;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::output::report::{Report, provenance, ready};
+use crate::output::table::Quantities;
+use crate::parameters::motor::MotorArgs;
+
+/// What stands at the end of the help.
+const AFTER: &str = "\
+Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
+meant. See docs/designing-a-motor.md.
+
+Examples:
+  bouncing-disk motor report --template > motor.toml
+  bouncing-disk motor report motor.toml
+  bouncing-disk motor report motor.toml --set preload_force=5 --out report.json";
+
+/// What follows from the data sheet, and what the rotor does
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(crate) struct ReportArgs {
+    #[command(flatten)]
+    motor: MotorArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Serialize)]
+struct Job<'a> {
+    motor: &'a bouncing_disk::Motor,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
+    if wrote_template(&args.motor)? {
+        return Ok(());
+    }
+    args.output.check(false)?;
+    // The warnings are part of the report.
+    let motor = args.motor.motor(true)?;
+    let report = motor.report_observed(&context.watch("motor report"))?;
+    let mut list = Quantities::default();
+    list.push("axial_forcing", report.axial_forcing, "1");
+    list.push("angular_forcing", report.angular_forcing, "1");
+    list.push("peak_acceleration", report.peak_acceleration, "g");
+    list.push("regime", report.regime.to_string(), "1");
+    list.push("periods_per_flight", report.periods_per_flight, "1");
+    list.push("largest_torque", report.largest_torque, "N m");
+    list.push("static_deflection", report.static_deflection, "m");
+    list.push("preload_change_bound", report.preload_change_bound, "1");
+    for warning in &report.warnings {
+        list.push("warning", warning.to_string(), "1");
+    }
+    let report = Report {
+        provenance: provenance("bouncing-disk motor report", &Job { motor: &motor })?,
+        text: report.to_string(),
+        table: ready(list.to_table()),
+        data: vec![("quantities", list.to_json())],
+        figure: None,
+    };
+    report.deliver(&args.output, context.quiet)
+}

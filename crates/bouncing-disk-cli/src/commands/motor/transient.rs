@@ -1,0 +1,163 @@
+//! `bouncing-disk motor transient`: the run-up of a motor from rest.
+
+use std::ops::Range as Rows;
+
+use bouncing_disk::{
+    FitSettings, LEAST_MEMBERS, Motor, Observer, SpeedCurve, TransientEnsemble, TransientFit,
+    TransientMember, TransientSettings, ensemble_members, transients_observed,
+};
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use super::wrote_template;
+use crate::arguments::{GridArgs, OWN, OutputArgs};
+use crate::commands::fit::{estimates, refusal};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::grid::{self, GridJob};
+use crate::output::report::{Report, provenance, ready, value};
+use crate::output::table::{Quantities, Table};
+use crate::parameters::motor::MotorArgs;
+use crate::pictures;
+
+/// What stands at the end of the help.
+const AFTER: &str = "\
+Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five members or more \
+their mean is fitted by alpha_ss (1 - exp(-t/t_c)) with 95 % intervals. In .csv a row is an instant and a member, with the \
+columns that `bouncing-disk fit` reads. See docs/designing-a-motor.md.
+
+Examples:
+  bouncing-disk motor transient --duration 2 --members 5
+  bouncing-disk motor transient motor.toml --members 100 --out run-up.csv --out run-up.png";
+
+/// The run-up from rest, of one motor or many, with its fit
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(crate) struct TransientArgs {
+    #[command(flatten)]
+    motor: MotorArgs,
+    /// Runs
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 10)]
+    members: usize,
+    /// Duration of a run (s)
+    #[arg(help_heading = OWN, long, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
+    duration: f64,
+    /// Equal intervals over which the speed is averaged
+    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 200)]
+    intervals: usize,
+    /// Size of the relaunch perturbation, in units of g/omega
+    #[arg(help_heading = OWN, long, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
+    perturbation: f64,
+    /// Seed of the perturbations and of the starting phases
+    #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = TransientSettings::default().seed)]
+    seed: u64,
+    #[command(flatten)]
+    grid: GridArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure> {
+    if wrote_template(&args.motor)? {
+        return Ok(());
+    }
+    let job = TransientJob {
+        motor: args.motor.motor(context.quiet)?,
+        members: args.members,
+        settings: TransientSettings {
+            duration: args.duration,
+            intervals: args.intervals,
+            relaunch_perturbation: args.perturbation,
+            seed: args.seed,
+            ..TransientSettings::default()
+        },
+    };
+    grid::run(job, &args.grid, &args.output, context)
+}
+
+/// What a run-up depends on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TransientJob {
+    motor: Motor,
+    members: usize,
+    settings: TransientSettings,
+}
+
+/// Members that are computed together.
+const TOGETHER: usize = 64;
+
+impl GridJob for TransientJob {
+    const COMMAND: &'static str = "motor transient";
+
+    /// The curve of a member.
+    type Row = SpeedCurve;
+
+    type Prepared = Vec<TransientMember>;
+
+    fn rows(&self) -> usize {
+        self.members
+    }
+
+    fn together(&self) -> usize {
+        TOGETHER
+    }
+
+    fn prepare(&self, _: &dyn Observer) -> Result<Vec<TransientMember>, Failure> {
+        Ok(ensemble_members(self.motor.system(), &self.settings, self.members)?)
+    }
+
+    fn compute(
+        &self,
+        members: &Vec<TransientMember>,
+        rows: Rows<usize>,
+        observer: &dyn Observer,
+    ) -> Result<Vec<SpeedCurve>, Failure> {
+        let curves = transients_observed(&members[rows], observer)?;
+        Ok(curves.into_iter().collect::<Result<_, _>>()?)
+    }
+
+    fn report(self, _: Vec<TransientMember>, rows: Vec<SpeedCurve>) -> Result<Report, Failure> {
+        let fit = (rows.len() >= LEAST_MEMBERS).then(|| TransientFit::new(&rows, &FitSettings::default()));
+        let ensemble = TransientEnsemble::of_results(rows.into_iter().map(Ok).collect())?;
+        let mut list = Quantities::default();
+        list.push("members", ensemble.curves.len(), "1");
+        list.push("duration", self.settings.duration, "s");
+        let refused = match &fit {
+            Some(Ok(fit)) => {
+                estimates(fit, &mut list);
+                None
+            }
+            Some(Err(error)) => Some(refusal(error)?),
+            None => Some(format!("no intervals: they need {LEAST_MEMBERS} members")),
+        };
+        if refused.is_some() {
+            list.push("steady_speed", ensemble.steady_speed.mean, "rad/s");
+            list.push("time_constant", ensemble.time_constant.mean, "s");
+            list.push("stall_acceleration", ensemble.stall_acceleration.mean, "rad/s^2");
+        }
+        let mut table = Table::new(&[("time", "s"), ("speed", "rad/s"), ("member", "1")]);
+        for (member, curve) in ensemble.curves.iter().enumerate() {
+            for (time, speed) in curve.times.iter().zip(&curve.speeds) {
+                table.push([(*time).into(), (*speed).into(), (member + 1).into()]);
+            }
+        }
+        let text = list.to_text() + &refused.map_or_else(String::new, |refused| format!("{refused}\n"));
+        let fit = fit.and_then(Result::ok);
+        let policy = self.settings.policy;
+        Ok(Report {
+            provenance: provenance("bouncing-disk motor transient", &self)?
+                .with_seed(self.settings.seed)
+                .with_chatter_policy(policy),
+            text,
+            table: ready(table),
+            data: vec![
+                ("fit", value(&fit)?),
+                ("curves", value(&ensemble.curves)?),
+                ("member_fits", value(&ensemble.fits)?),
+            ],
+            figure: Some(Box::new(move || pictures::transient::draw(&ensemble, fit.as_ref()))),
+        })
+    }
+}

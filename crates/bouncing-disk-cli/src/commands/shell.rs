@@ -1,0 +1,59 @@
+//! What a shell is told of the program: completions and manual pages, made from the command line's own description.
+
+use std::io::{self, Write as _};
+
+use clap::{Args, CommandFactory as _};
+use clap_complete::Shell;
+
+use crate::arguments::CommandLine;
+use crate::failure::Failure;
+
+/// What stands at the end of the help of completions.
+const AFTER_COMPLETIONS: &str = "\
+Example:
+  bouncing-disk completions bash > ~/.local/share/bash-completion/completions/bouncing-disk";
+
+/// What stands at the end of the help of the manual.
+const AFTER_MAN: &str = "\
+Examples:
+  bouncing-disk man > bouncing-disk.1
+  bouncing-disk man motor sweep | man -l -";
+
+/// Completions for a shell, on standard output
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_COMPLETIONS)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    shell: Shell,
+}
+
+/// A manual page in roff, on standard output
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_MAN)]
+pub(crate) struct ManArgs {
+    /// The command whose page it is; that of the program unless given
+    command: Vec<String>,
+}
+
+/// Writes completions.
+pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
+    let mut command = CommandLine::command();
+    let mut text = Vec::new();
+    clap_complete::generate(args.shell, &mut command, "bouncing-disk", &mut text);
+    Ok(io::stdout().write_all(&text)?)
+}
+
+/// Writes a manual page.
+pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
+    let mut command = CommandLine::command();
+    command.build();
+    let mut name = "bouncing-disk".to_owned();
+    for word in &args.command {
+        let found = command.find_subcommand(word).cloned();
+        command = found.ok_or_else(|| Failure::usage(format!("there is no command {word:?} of {name}")))?;
+        name = format!("{name}-{word}");
+    }
+    let mut text = Vec::new();
+    clap_mangen::Man::new(command).title(name).render(&mut text)?;
+    Ok(io::stdout().write_all(&text)?)
+}

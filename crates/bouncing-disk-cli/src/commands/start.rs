@@ -1,0 +1,121 @@
+//! The impact that an orbit starts with.
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
+use bouncing_disk::core::{Error, ImpactMap, ImpactState, Phase};
+use serde::{Deserialize, Serialize};
+
+use crate::range::number;
+
+/// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the disk leaves it at
+/// once.
+const BESIDE: f64 = 1.01;
+
+/// A start, of which every map makes its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub(crate) enum Start {
+    /// At rest on the platform.
+    Rest,
+    /// An impact as the platform rises fastest, with the speed of the period-1 orbit.
+    Rise,
+    /// One per cent faster than the impact of the period-1 orbit; there is none below its birth.
+    PeriodOne,
+    /// Impact phase in periods, and normalised impact speed.
+    At(f64, f64),
+}
+
+/// What is possible, for the help.
+pub(crate) const STARTS: &str = "`rest` on the platform; `rise`, an impact as the platform rises fastest, with the speed of the \
+    period-1 orbit; `period-1`, 1 % faster than the impact of the period-1 orbit, where there is one; or PHASE,SPEED, the impact phase \
+    in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
+
+impl Start {
+    /// The impact in a map; `None` where the map has no such start.
+    ///
+    /// # Errors
+    /// Those of [`ImpactState::new`].
+    pub(crate) fn of(self, map: &ImpactMap) -> Result<Option<ImpactState>, Error> {
+        match self {
+            Self::Rest => ImpactState::new(Phase::new(0.0)?, 0.0).map(Some),
+            Self::Rise => ImpactState::new(Phase::new(0.0)?, -TAU / (1.0 + map.restitution())).map(Some),
+            Self::PeriodOne => map
+                .period_one(1)
+                .map(|orbit| ImpactState::new(orbit.phase(), BESIDE * orbit.velocity()))
+                .transpose(),
+            Self::At(phase, speed) => ImpactState::from_normalised(TAU * phase, speed).map(Some),
+        }
+    }
+}
+
+impl FromStr for Start {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "rest" => Ok(Self::Rest),
+            "rise" => Ok(Self::Rise),
+            "period-1" => Ok(Self::PeriodOne),
+            _ => {
+                let form =
+                    || format!("{text:?} is no start; possible are rest, rise, period-1 and PHASE,SPEED");
+                let (phase, speed) = text.split_once(',').ok_or_else(form)?;
+                let (phase, speed) = (number(phase)?, number(speed)?);
+                ImpactState::from_normalised(TAU * phase, speed).map_err(|error| error.to_string())?;
+                Ok(Self::At(phase, speed))
+            }
+        }
+    }
+}
+
+impl Display for Start {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rest => f.write_str("rest"),
+            Self::Rise => f.write_str("rise"),
+            Self::PeriodOne => f.write_str("period-1"),
+            Self::At(phase, speed) => write!(f, "{phase},{speed}"),
+        }
+    }
+}
+
+impl TryFrom<String> for Start {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Start> for String {
+    fn from(start: Start) -> Self {
+        start.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::commands::map::map;
+
+    #[test]
+    fn starts_are_written_and_read() {
+        for start in [Start::Rest, Start::Rise, Start::PeriodOne, Start::At(0.1, 1.0 / 3.0)] {
+            assert_eq!(start.to_string().parse(), Ok(start));
+            let stored = serde_json::to_string(&start).unwrap();
+            assert_eq!(serde_json::from_str::<Start>(&stored).unwrap(), start);
+        }
+        for text in ["", "up", "1", "1,-1", "nan,1", "1,inf", "1,2,3"] {
+            assert!(text.parse::<Start>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn below_its_birth_there_is_no_period_one_orbit() {
+        let of = |forcing: f64| Start::PeriodOne.of(&map(forcing, 0.5).unwrap()).unwrap();
+        assert!(of(0.3).is_none() && of(0.4).is_some());
+        assert!(Start::Rise.of(&map(0.0, 0.5).unwrap()).unwrap().is_some());
+    }
+}

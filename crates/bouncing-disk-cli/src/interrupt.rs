@@ -1,0 +1,45 @@
+//! Signals: the first one asks the computation to stop, the second one ends the process at once.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+/// The number of the signal that came, 0 as long as none has.
+static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
+
+/// Of the usual signals: what a shell reports where a process dies of one.
+const BASE: usize = 128;
+
+/// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A computation that does not look
+/// at [`came`] is ended by a second one: files are renamed when they are complete, so that none is torn.
+///
+/// # Errors
+/// When the system refuses.
+pub(crate) fn listen() -> io::Result<()> {
+    for signal in [SIGINT, SIGTERM] {
+        let number = usize::try_from(signal).unwrap_or_default();
+        let again = Arc::new(AtomicBool::new(false));
+        flag::register_conditional_shutdown(signal, signal + BASE as i32, Arc::clone(&again))?;
+        flag::register(signal, again)?;
+        flag::register_usize(signal, Arc::clone(&SIGNAL), number)?;
+    }
+    Ok(())
+}
+
+/// Whether a signal has come.
+pub(crate) fn came() -> bool {
+    SIGNAL.load(Ordering::Relaxed) != 0
+}
+
+/// The exit status of what was interrupted: 130 for Ctrl-C, 143 for the signal to terminate.
+pub(crate) fn exit_status() -> u8 {
+    let signal = match SIGNAL.load(Ordering::Relaxed) {
+        0 => SIGINT as usize,
+        signal => signal,
+    };
+    u8::try_from(BASE + signal).unwrap_or(u8::MAX)
+}

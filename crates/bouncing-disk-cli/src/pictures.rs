@@ -1,0 +1,79 @@
+//! Pictures of the results, each from plain numbers alone.
+
+pub(crate) mod basins;
+pub(crate) mod diagram;
+pub(crate) mod doublings;
+pub(crate) mod motor_curve;
+pub(crate) mod orbits;
+pub(crate) mod regimes;
+pub(crate) mod sweep;
+pub(crate) mod toss;
+pub(crate) mod transient;
+
+use bouncing_disk_plot::{Axis, Ticks};
+
+/// What the impact phase is called, and the normalised impact speed.
+const PHASE: &str = r"$\tau_{imp}/2\pi$";
+const SPEED: &str = r"$|w_A\Gamma/(\omega A)|$";
+
+/// A linear axis between the least and the largest of these numbers, with room beyond them; the same for one number alone.
+fn axis(values: impl IntoIterator<Item = f64>) -> Axis {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    let (low, high) = finite
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
+    let size = low.abs().max(high.abs());
+    let room = match high - low {
+        span if span > 1e-9 * size => 0.06 * span,
+        // All alike.
+        _ if size > 0.0 => 0.1 * size,
+        _ => 1.0,
+    };
+    spanned(low - room, high + room)
+}
+
+/// A linear axis from one number to another, with three to five labels: some panels are too narrow for more.
+fn spanned(low: f64, high: f64) -> Axis {
+    let (step, parts) = step(high - low);
+    Axis::linear(low, high).ticks(Ticks::every(step).minor(parts))
+}
+
+/// A round step that divides a span at most five times, and the parts into which small ticks divide it.
+fn step(span: f64) -> (f64, u32) {
+    let least = span / 5.0;
+    // The power of ten below it, from its digits.
+    let digits = format!("{least:e}");
+    let power: f64 =
+        digits.split_once('e').and_then(|(_, own)| format!("1e{own}").parse().ok()).unwrap_or(1.0);
+    let steps = [(power, 5), (2.0 * power, 4), (5.0 * power, 5)];
+    steps.into_iter().find(|(step, _)| *step >= least).unwrap_or((10.0 * power, 5))
+}
+
+/// The most of these numbers, at least `least`.
+fn largest(values: impl IntoIterator<Item = f64>, least: f64) -> f64 {
+    values.into_iter().filter(|value| value.is_finite()).fold(least, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_has_a_few_labels_whatever_its_span() {
+        for span in [1e-12, 3e-7, 0.1, 0.83, 1.0, 2.0, 4.99, 5.0, 7.0, 99.0, 1e9] {
+            let (step, _) = step(span);
+            let labels = span / step;
+            assert!((2.0..=5.000_001).contains(&labels), "{span}: {step}");
+        }
+    }
+
+    #[test]
+    fn an_axis_of_nothing_can_be_drawn() {
+        use bouncing_disk_plot::{Figure, Panel, Rect};
+
+        for values in [&[][..], &[0.0], &[1.0, 1.0], &[f64::NAN], &[-1e-300, 1e-300], &[1e300, -1e300]] {
+            let panel = Panel::new(Rect::new(40.0, 10.0, 100.0, 100.0)).y(axis(values.iter().copied()));
+            assert!(Figure::new(150.0, 150.0).panel(panel).to_svg().is_ok(), "{values:?}");
+        }
+    }
+}

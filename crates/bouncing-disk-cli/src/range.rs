@@ -1,0 +1,215 @@
+//! Values on the command line: one number, or a range of them.
+
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// Most values of a range: a longer one is a slip of the keyboard.
+const MOST: usize = 1_000_000;
+
+/// Numbers at equal distances, both ends included: `0.1:1.5:500` on the command line, or a single number.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
+pub(crate) struct Range {
+    first: f64,
+    last: f64,
+    count: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    first: f64,
+    last: f64,
+    count: usize,
+}
+
+impl TryFrom<Unchecked> for Range {
+    type Error = String;
+
+    fn try_from(Unchecked { first, last, count }: Unchecked) -> Result<Self, String> {
+        Self::new(first, last, count)
+    }
+}
+
+impl Range {
+    /// From `first` to `last`, which is not below it; a single value has both ends alike.
+    pub(crate) fn new(first: f64, last: f64, count: usize) -> Result<Self, String> {
+        for end in [first, last] {
+            if !end.is_finite() {
+                return Err(format!("{end} is not finite"));
+            }
+        }
+        match count {
+            0 => Err("it has no values; give the number of points as the third part, at least 1".to_owned()),
+            1 if first < last => Err(format!("one point cannot be both {first} and {last}")),
+            _ if count > MOST => Err(format!("{count} points are more than {MOST}")),
+            1 => Ok(Self { first, last, count }),
+            _ if first < last && (last - first).is_finite() => Ok(Self { first, last, count }),
+            _ if last < first => Err(format!("it is reversed: {last} is below {first}")),
+            _ => Err(format!("{count} points from {first} to {last} cannot be told apart")),
+        }
+    }
+
+    /// One value.
+    pub(crate) const fn single(value: f64) -> Self {
+        Self { first: value, last: value, count: 1 }
+    }
+
+    pub(crate) const fn count(&self) -> usize {
+        self.count
+    }
+
+    pub(crate) const fn ends(&self) -> (f64, f64) {
+        (self.first, self.last)
+    }
+
+    /// The value with this index; beyond the last one, the last one.
+    pub(crate) fn value(&self, index: usize) -> f64 {
+        if index + 1 >= self.count {
+            return self.last;
+        }
+        self.first + (self.last - self.first) * index as f64 / (self.count - 1) as f64
+    }
+
+    pub(crate) fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.count).map(|index| self.value(index))
+    }
+
+    /// The only value; `None` of several.
+    pub(crate) fn only(&self) -> Option<f64> {
+        (self.count == 1).then_some(self.first)
+    }
+
+    /// The outer ends of equal cells with the values in their middles; `width` is that of a single one.
+    pub(crate) fn cell_ends(&self, width: f64) -> (f64, f64) {
+        let step = if self.count > 1 { (self.last - self.first) / (self.count - 1) as f64 } else { width };
+        (self.first - 0.5 * step, self.last + 0.5 * step)
+    }
+}
+
+/// A number as a person writes it.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    let value: f64 = text.trim().parse().map_err(|_| format!("{text:?} is no number"))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("{text:?} is not finite")) }
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split(':').collect::<Vec<_>>()[..] {
+            [value] => Ok(Self::single(number(value)?)),
+            [first, last, count] => {
+                let whole = count.trim().parse();
+                let count = whole.map_err(|_| format!("{count:?} is no number of points"))?;
+                Self::new(number(first)?, number(last)?, count)
+            }
+            _ => Err("a range is FIRST:LAST:POINTS, both ends included, such as 0.1:1.5:500".to_owned()),
+        }
+    }
+}
+
+impl Display for Range {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.only() {
+            Some(value) => write!(f, "{value}"),
+            None => write!(f, "{}:{}:{}", self.first, self.last, self.count),
+        }
+    }
+}
+
+/// The two ends of an interval: `0.5:0.7` on the command line, or a single number twice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Interval(pub(crate) [f64; 2]);
+
+impl FromStr for Interval {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let [low, high] = match text.split(':').collect::<Vec<_>>()[..] {
+            [value] => [number(value)?; 2],
+            [low, high] => [number(low)?, number(high)?],
+            _ => return Err("an interval is LOW:HIGH, such as 0.5:0.7".to_owned()),
+        };
+        if high < low {
+            return Err(format!("it is reversed: {high} is below {low}"));
+        }
+        Ok(Self([low, high]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Range, String> {
+        text.parse()
+    }
+
+    #[test]
+    fn both_ends_are_there_to_the_last_bit() {
+        let range = read("0.1:1.5:500").unwrap();
+        let values: Vec<f64> = range.values().collect();
+        assert_eq!(values.len(), 500);
+        assert_eq!((values[0].to_bits(), values[499].to_bits()), (0.1_f64.to_bits(), 1.5_f64.to_bits()));
+        assert!(values.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(range.to_string(), "0.1:1.5:500");
+        assert_eq!(read(&range.to_string()), Ok(range));
+    }
+
+    #[test]
+    fn one_number_is_a_range_of_one() {
+        for text in ["0.5", "0.5:0.5:1"] {
+            let range = read(text).unwrap();
+            assert_eq!((range.only(), range.count()), (Some(0.5), 1));
+            assert_eq!(range.cell_ends(1.0), (0.0, 1.0));
+        }
+        assert_eq!(read("-0.0").unwrap().only().map(f64::to_bits), Some((-0.0_f64).to_bits()));
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused_with_the_reason() {
+        for (text, told) in [
+            ("", "no number"),
+            ("a", "\"a\" is no number"),
+            ("nan", "not finite"),
+            ("inf", "not finite"),
+            ("0:1", "FIRST:LAST:POINTS"),
+            ("0:1:2:3", "FIRST:LAST:POINTS"),
+            ("0:1:0", "no values"),
+            ("0:1:1", "one point"),
+            ("1:0:5", "reversed"),
+            ("0:0:2", "cannot be told apart"),
+            ("0:1:-1", "number of points"),
+            ("0:1:1.5", "number of points"),
+            ("0:1:1000001", "more than 1000000"),
+            ("-1e308:1e308:3", "cannot be told apart"),
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(error.contains(told), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn what_is_stored_is_checked_again() {
+        let read = |text: &str| serde_json::from_str::<Range>(text);
+        assert_eq!(
+            read(r#"{"first":0.0,"last":1.0,"count":3}"#).unwrap().value(1).to_bits(),
+            0.5_f64.to_bits()
+        );
+        assert!(read(r#"{"first":1.0,"last":0.0,"count":3}"#).is_err());
+        assert!(read(r#"{"first":1.0,"last":0.0,"count":3,"step":1}"#).is_err());
+    }
+
+    #[test]
+    fn an_interval_has_two_ends() {
+        let read = |text: &str| text.parse::<Interval>();
+        assert_eq!(read("0.5:0.7"), Ok(Interval([0.5, 0.7])));
+        assert_eq!(read("0.5"), Ok(Interval([0.5, 0.5])));
+        for text in ["0.7:0.5", "1:2:3", "x", "nan:1"] {
+            assert!(read(text).is_err(), "{text}");
+        }
+    }
+}

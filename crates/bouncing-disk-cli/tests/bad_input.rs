@@ -1,0 +1,129 @@
+//! What cannot be used is refused with status 2 and a text that says what is wrong, where, and what would be right.
+
+mod common;
+
+use common::Folder;
+
+/// The template of a toss with one line changed.
+fn changed(folder: &Folder, from: &str, to: &str) {
+    let text = folder.done("toss --template");
+    assert!(text.contains(from), "{from}");
+    folder.write("a.toml", &text.replace(from, to));
+}
+
+#[test]
+fn files_of_parameters_that_cannot_be_read() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.join("folder.toml")).unwrap();
+    std::fs::write(folder.join("bytes.toml"), b"a = \xff").unwrap();
+    folder.write("empty.json", "");
+    folder.write("a.txt", "");
+    for (line, told) in [
+        ("toss missing.toml", "missing.toml cannot be read"),
+        ("toss folder.toml", "legal is a regular file"),
+        ("toss bytes.toml", "no text in UTF-8"),
+        ("toss empty.json", "empty.json: line 1, column 1: no JSON"),
+        ("toss a.txt", "ends in .json or .toml"),
+        ("toss a", "ends in .json or .toml"),
+        ("motor report missing.json", "missing.json cannot be read"),
+        ("motor report empty.json", "empty.json: line 1"),
+        ("motor report a.txt", "ends in .json or .toml"),
+        ("fit missing.csv", "missing.csv"),
+        ("merge missing.json", "missing.json: it cannot be read"),
+        ("merge empty.json", "empty.json: it is no whole chunk"),
+    ] {
+        let text = folder.refused(line, 2);
+        assert!(text.contains(told), "{line}: {text}");
+    }
+}
+
+#[test]
+fn values_of_files_that_are_not_legal() {
+    let folder = Folder::new();
+    for (from, to, told) in [
+        ("friction = 0.6", "fricton = 0.6", "the key \"fricton\" is unknown; did you mean \"friction\"?"),
+        ("friction = 0.6", "friction = nan", "friction = NaN is outside its legal range"),
+        ("friction = 0.6", "friction = inf", "friction = inf is outside its legal range"),
+        ("friction = 0.6", "friction = -1", "friction = -1.0 is outside its legal range"),
+        ("friction = 0.6", "friction = \"0.6\"", "must be a number, and is a text"),
+        ("restitution = 0.5", "restitution = 1", "restitution = 1.0 is outside its legal range [0, 1)"),
+        ("[disk]", "[disc]", "did you mean \"disk\"?"),
+        ("friction = 0.6", "friction = ", "no TOML"),
+    ] {
+        changed(&folder, from, to);
+        let text = folder.refused("toss a.toml", 2);
+        assert!(text.starts_with("error: a.toml: line ") && text.contains(told), "{to}: {text}");
+    }
+    folder.write("motor.json", "{\"amplitud\": 1e-8}");
+    let text = folder.refused("motor report motor.json", 2);
+    assert!(text.contains("motor.json: line 1") && text.contains("did you mean \"amplitude\"?"), "{text}");
+}
+
+#[test]
+fn words_of_the_line_that_are_not_legal() {
+    let folder = Folder::new();
+    for (line, told) in [
+        ("", "Usage"),
+        ("tos", "tip: a similar subcommand exists: 'toss'"),
+        ("toss --many --out a.txt", ".csv, .json, .png or .svg"),
+        ("toss --preset pizza", "pizza-toss"),
+        ("toss --preset motor a.toml", "cannot be used with"),
+        ("toss --set friction=0.2", "did you mean \"disk.friction\"?"),
+        ("toss --set disk.friction", "KEY=VALUE"),
+        ("toss --set disk.friction=x", "\"x\" is no number"),
+        ("toss --set disk.friction=nan", "--set: friction = NaN"),
+        ("toss --samples 1", "2..=1000000"),
+        ("motor report --set frction=0.2", "did you mean \"friction\"?"),
+        ("motor sweep", "--over"),
+        ("motor sweep --over load=0:1:3", "load_torque"),
+        ("motor sweep --over load_torque", "FIELD=FIRST:LAST:POINTS"),
+        ("motor sweep --over friction=0:1:2 --over friction=0:1:2", "friction"),
+        ("motor curve --relative-error 2", "relative_error = 2.0"),
+        ("motor transient --duration nan", "duration = NaN"),
+        ("motor transient --members 0", "members"),
+        ("diagram -G 0.6:0.5:3", "reversed"),
+        ("diagram -G 0.5:0.6:0", "no values"),
+        ("diagram -G 0.5:0.6:1", "one point"),
+        ("diagram -G nan", "not finite"),
+        ("diagram -G inf", "not finite"),
+        ("diagram -G -1", "peak_acceleration"),
+        ("diagram -G x", "\"x\" is no number"),
+        ("diagram -r 1", "restitution = 1.0"),
+        ("diagram -r 0.1:0.2:3", "takes a single number"),
+        ("diagram --start up", "rest, rise, period-1 and PHASE,SPEED"),
+        ("diagram --chunk 0/3 --out a.json", "I/N"),
+        ("diagram --chunk 4/3 --out a.json", "I/N"),
+        ("diagram --chunk 1/3", "--chunk needs one --out FILE.json"),
+        ("diagram --chunk 1/3 --out a.csv", "--chunk needs one --out FILE.json"),
+        ("verdicts --impacts 1", "impacts"),
+        ("basins --cells 0", "cells"),
+        ("basins -G 0.1:0.2:3", "takes a single number"),
+        ("basins --phase 1:0", "reversed"),
+        ("basins --phase 0.5:0.5", "axis"),
+        ("orbits --impacts 0", "impacts"),
+        ("doublings --count 99", "count"),
+        ("doublings -r 0", "restitution"),
+        ("design --friction 0.7:0.5", "reversed"),
+        ("design --stroke -1", "stroke"),
+        ("fit a.csv --parameter mass=0:1", "cannot be fitted"),
+        ("merge", "FILE"),
+        ("man toss many", "no command"),
+        ("toss --threads 0", "--threads"),
+    ] {
+        let text = folder.refused(line, 2);
+        assert!(text.contains(told), "{line}: {text}");
+    }
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+}
+
+#[test]
+fn a_computation_that_fails_is_no_bad_input() {
+    let folder = Folder::new();
+    let text = folder.refused("toss --set platform.amplitude=0.001", 1);
+    assert!(text.contains("never leaves the platform"), "{text}");
+    let text = folder.refused("motor stall --set peak_angular_speed=0 --most-impacts 1000", 1);
+    assert!(text.contains("does not turn"), "{text}");
+    folder.write("short.csv", "time_s,speed_rad_s\n0.1,1\n0.2,2\n0.3,3\n0.4,4\n");
+    let text = folder.refused("fit short.csv", 1);
+    assert!(text.contains("the curve is not fitted"), "{text}");
+}

@@ -1,0 +1,133 @@
+//! Chunks and their merge: the same bytes as without, and a refusal by name of what does not belong.
+
+mod common;
+
+use common::Folder;
+
+/// A quick line of each command that can be divided, with its number of rows.
+const GRIDS: [(&str, usize); 6] = [
+    ("diagram -G 0.3:0.6:7 --transient 50 --recorded 20", 7),
+    ("verdicts -G 0.3:0.6:5 --impacts 500 --transient 100", 5),
+    ("verdicts -G 0:1:6 -r 0:0.9:4 --impacts 500 --transient 100 --start period-1", 4),
+    ("basins -G 0.55 --cells 9 --starts 50 --impacts 300", 9),
+    (
+        "motor sweep --over friction=0.1:0.2:2 --over amplitude=1e-8:3e-8:3 --relative-error 0.3 --members 4",
+        3,
+    ),
+    ("motor transient --members 6 --duration 3 --intervals 30", 6),
+];
+
+fn parts(folder: &Folder, line: &str, count: usize) -> String {
+    let names: Vec<String> = (1..=count)
+        .map(|index| {
+            let name = format!("part-{index}-of-{count}.json");
+            folder.done(&format!("{line} --chunk {index}/{count} --out {name} --force"));
+            name
+        })
+        .collect();
+    names.join(" ")
+}
+
+#[test]
+fn parts_are_put_together_to_the_bytes_of_the_whole() {
+    let folder = Folder::new();
+    for (line, rows) in GRIDS {
+        let text = folder.done(line);
+        folder.done(&format!("{line} --out whole.json --out whole.csv --out whole.svg --force"));
+        // One part, some, one a row, and more than there are rows.
+        for count in [1, 2, rows, rows + 3] {
+            let names = parts(&folder, line, count);
+            assert_eq!(folder.done(&format!("merge {names}")), text, "{line} in {count}");
+            folder
+                .done(&format!("merge {names} --out merged.json --out merged.csv --out merged.svg --force"));
+            for ending in ["json", "csv", "svg"] {
+                let [whole, merged] =
+                    ["whole", "merged"].map(|name| folder.read(&format!("{name}.{ending}")));
+                assert!(whole == merged, "{line} in {count}: {ending}");
+            }
+        }
+        // Their order does not matter.
+        assert_eq!(folder.done("merge part-2-of-2.json part-1-of-2.json"), text);
+    }
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused_by_name() {
+    let folder = Folder::new();
+    let line = "diagram -G 0.3:0.6:7 --transient 50 --recorded 5";
+    parts(&folder, line, 3);
+    let refused = |names: &str, told: &str| {
+        let text = folder.refused(&format!("merge {names}"), 2);
+        assert!(text.contains(told), "{names}: {text}");
+    };
+    let (one, two, three) = ("part-1-of-3.json", "part-2-of-3.json", "part-3-of-3.json");
+    refused(&format!("{one} {three}"), "chunks are missing: 2/3");
+    refused(one, "chunks are missing: 2/3, 3/3");
+    refused(&format!("{one} {two} {three} {two}"), "chunk 2 is there twice");
+    // Of another restitution, of another number of parts, of another command.
+    folder.done("diagram -G 0.3:0.6:7 --transient 50 --recorded 5 -r 0.4 --chunk 2/3 --out other.json");
+    refused(
+        &format!("{one} other.json {three}"),
+        "other.json is of another computation: its job.restitution is 0.4",
+    );
+    folder.done(&format!("{line} --chunk 2/4 --out four.json"));
+    refused(&format!("{one} four.json {three}"), "its number of chunks is 4");
+    folder.done("verdicts -G 0.3:0.6:7 --impacts 100 --chunk 2/3 --out verdicts.json");
+    refused(
+        &format!("{one} verdicts.json {three}"),
+        "its command is verdicts, where part-1-of-3.json has diagram",
+    );
+    // A result that is no part.
+    folder.done(&format!("{line} --out whole.json"));
+    refused("whole.json", "is no file of the format \"bouncing-disk chunk\"");
+}
+
+#[test]
+fn a_part_that_is_damaged_is_refused() {
+    let folder = Folder::new();
+    parts(&folder, "verdicts -G 0.3:0.6:4 --impacts 100", 2);
+    let whole = String::from_utf8(folder.read("part-1-of-2.json")).unwrap();
+    let digit = whole.rfind("0.").unwrap() + 2;
+    let changed = format!(
+        "{}{}{}",
+        &whole[..digit],
+        if &whole[digit..=digit] == "1" { "2" } else { "1" },
+        &whole[digit + 1..]
+    );
+    for (text, told) in [
+        (changed, "it is damaged: its rows_digest"),
+        (whole[..whole.len() / 2].to_owned(), "it is no whole chunk"),
+        (whole.replace("\"start\":\"rise\"", "\"start\":\"rest\""), "it is damaged: its job_digest"),
+        (
+            whole.replace("\"index\":1", "\"index\":0").replace("\"index\": 1", "\"index\": 0"),
+            "does not fit together",
+        ),
+        (whole.replace("\"first_row\": 0", "\"first_row\": 1"), "does not fit together"),
+        ("{}".to_owned(), "its format is \"\""),
+        ("[]".to_owned(), "its format is \"\""),
+    ] {
+        assert_ne!(text, whole);
+        folder.write("part.json", &text);
+        let refusal = folder.refused("merge part.json part-2-of-2.json", 2);
+        assert!(refusal.contains("part.json") && refusal.contains(told), "{told}: {refusal}");
+    }
+}
+
+/// As a job array does it, with a shell.
+#[cfg(unix)]
+#[test]
+fn a_loop_of_the_shell_computes_a_map() {
+    let folder = Folder::new();
+    let script = "for i in 1 2 3 4; do
+        \"$0\" verdicts -G 0:3:12 -r 0:0.9:9 --impacts 200 --chunk $i/4 --out part-$i.json --quiet || exit 1
+    done
+    \"$0\" merge part-*.json --out map.csv --quiet";
+    let shell = std::process::Command::new("sh")
+        .args(["-c", script, env!("CARGO_BIN_EXE_bouncing-disk")])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(shell.status.success() && shell.stderr.is_empty(), "{}", common::errors(&shell));
+    folder.done("verdicts -G 0:3:12 -r 0:0.9:9 --impacts 200 --out whole.csv");
+    assert!(folder.read("map.csv") == folder.read("whole.csv"));
+}

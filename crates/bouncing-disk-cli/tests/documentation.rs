@@ -1,0 +1,132 @@
+//! Every command in the documentation is run by a shell, and its output compared with what stands under it.
+//!
+//! In a block marked `console` a line that begins with `$ ` is a command, the lines after it are what it prints, on either
+//! stream. The blocks of a file are run one after the other in one folder. `UPDATE_DOCUMENTATION=1` writes what is printed
+//! into the file in place of comparing it.
+#![cfg(unix)]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use common::Folder;
+
+/// Runs a command of the documentation; what it prints, each line as it stands in a file.
+fn printed(folder: &Folder, command: &str) -> Vec<String> {
+    let program = Path::new(env!("CARGO_BIN_EXE_bouncing-disk"));
+    let path =
+        format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap_or_default());
+    let output = Command::new("sh")
+        .args(["-c", &format!("exec 2>&1\n{command}")])
+        .current_dir(folder.path())
+        .env("PATH", path)
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.lines().map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// The text with what its commands print now.
+fn renewed(text: &str) -> String {
+    let folder = Folder::new();
+    let mut new = Vec::new();
+    let mut lines = text.lines().peekable();
+    let mut inside = false;
+    while let Some(line) = lines.next() {
+        new.push(line.to_owned());
+        if line.starts_with("```") {
+            inside = line == "```console";
+        }
+        let Some(first) = line.strip_prefix("$ ").filter(|_| inside) else { continue };
+        let mut command = first.to_owned();
+        // A command may go on in lines that begin with the shell's second prompt.
+        while let Some(next) = lines.next_if(|next| next.starts_with("> ")) {
+            new.push(next.to_owned());
+            command = format!("{command}\n{}", &next[2..]);
+        }
+        while lines.next_if(|next| !next.starts_with("$ ") && !next.starts_with("```")).is_some() {}
+        new.extend(printed(&folder, &command));
+    }
+    new.join("\n") + "\n"
+}
+
+fn check(path: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let text = fs::read_to_string(&path).unwrap();
+    let commands = text.lines().filter(|line| line.starts_with("$ ")).count();
+    assert!(commands > 0, "{} has no commands", path.display());
+    let new = renewed(&text);
+    if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {
+        fs::write(&path, new).unwrap();
+        return;
+    }
+    for (line, (old, new)) in text.lines().zip(new.lines()).enumerate() {
+        assert_eq!(
+            old,
+            new,
+            "{}, line {}; UPDATE_DOCUMENTATION=1 writes what is printed",
+            path.display(),
+            line + 1
+        );
+    }
+    assert_eq!(text.lines().count(), new.lines().count(), "{}", path.display());
+}
+
+#[test]
+fn the_chapter_prints_what_it_says() {
+    check("../../docs/command-line.md");
+}
+
+#[test]
+fn the_page_of_the_crate_prints_what_it_says() {
+    check("README.md");
+}
+
+#[test]
+fn a_wrong_output_is_seen() {
+    let text = "```console\n$ echo one; echo two >&2\none\n```\n```sh\n$ exit 1\n```\n";
+    assert_eq!(renewed(text), "```console\n$ echo one; echo two >&2\none\ntwo\n```\n```sh\n$ exit 1\n```\n");
+}
+
+/// The help of each command says what it computes, shows an example, and its examples are legal lines.
+#[test]
+fn every_command_has_an_example_in_its_help() {
+    let folder = Folder::new();
+    let motors =
+        ["report", "transient", "curve", "stall", "phase-lag", "sweep"].map(|name| format!("motor {name}"));
+    let others = ["toss", "orbits", "diagram", "verdicts", "basins", "doublings", "fit", "design", "merge"];
+    for command in motors.into_iter().chain(others.map(str::to_owned)) {
+        let help = folder.done(&format!("{command} --help"));
+        let examples: Vec<&str> =
+            help.lines().filter_map(|line| line.trim().strip_prefix("bouncing-disk ")).collect();
+        assert!(examples.iter().any(|example| example.starts_with(&command)), "{command}: {help}");
+        assert!(help.contains("docs/"), "{command}");
+        assert!(help.lines().all(|line| line.chars().count() <= 110), "{command}: {help}");
+        for example in examples {
+            // With a file that is not there nothing is computed; a fault of the line itself is told before.
+            let line = format!("{} --out no/such/folder.json", example.split(" >").next().unwrap());
+            if example.contains('*') || example.contains("--template") {
+                continue;
+            }
+            let text = folder.refused(&line, 2);
+            assert!(
+                text.contains("there is no folder no/such") || text.contains("cannot be read"),
+                "{line}: {text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn completions_and_manual_pages_know_the_commands() {
+    let folder = Folder::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let text = folder.done(&format!("completions {shell}"));
+        assert!(text.contains("verdicts") && text.contains("phase-lag"), "{shell}");
+    }
+    assert!(folder.done("man").contains(".TH bouncing"));
+    let page = folder.done("man motor sweep");
+    assert!(page.contains("bouncing\\-disk") && page.contains("\\-\\-over"), "{page}");
+}

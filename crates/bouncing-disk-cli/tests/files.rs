@@ -1,0 +1,158 @@
+//! Files and streams: what is written, what is never overwritten, and what happens when nobody reads.
+
+mod common;
+
+use std::process::Stdio;
+
+use common::{Folder, errors};
+use serde_json::Value;
+
+/// Every command that computes, made quick.
+const QUICK: [(&str, bool); 13] = [
+    ("toss", true),
+    ("toss --many --transient 100 --examined 100 --periods 2", true),
+    ("motor report", false),
+    ("motor transient --members 5 --duration 4 --intervals 40", true),
+    ("motor curve --loads 0:45e-6:3 --relative-error 0.3 --members 4", true),
+    ("motor sweep --over load_torque=0:45e-6:3 --relative-error 0.3 --members 4", true),
+    (
+        "motor sweep --over friction=0.1:0.2:2 --over load_torque=0:45e-6:2 --relative-error 0.3 --members 4",
+        true,
+    ),
+    ("orbits --impacts 1 --starts 4", true),
+    ("diagram -G 0.3:0.6:5 --transient 50 --recorded 20", true),
+    ("verdicts -G 0.3:0.6:4 --impacts 500 --transient 100", true),
+    ("verdicts -G 0:1:4 -r 0:0.9:3 --impacts 500 --transient 100", true),
+    ("basins --cells 8 --starts 50", true),
+    ("doublings --count 3", true),
+];
+
+#[test]
+fn every_command_writes_every_kind_of_file() {
+    let folder = Folder::new();
+    for (index, (line, has_picture)) in QUICK.into_iter().enumerate() {
+        let text = folder.done(line);
+        assert!(text.lines().count() >= 2 && text.ends_with('\n'), "{line}: {text}");
+        let name = |ending: &str| format!("{index}.{ending}");
+        let (csv, json) = (name("csv"), name("json"));
+        assert_eq!(folder.done(&format!("{line} --out {csv} --out {json}")), "", "{line}");
+        let table = String::from_utf8(folder.read(&csv)).unwrap();
+        let mut lines = table.lines();
+        let provenance = lines.next().and_then(|first| first.strip_prefix("# provenance: ")).unwrap();
+        let provenance: Value = serde_json::from_str(provenance).unwrap();
+        assert_eq!(provenance["program"], "bouncing-disk-cli", "{line}");
+        let columns = lines.next().unwrap().split(',').count();
+        assert!(lines.clone().count() >= 1, "{line}");
+        assert!(lines.all(|row| row.contains('"') || row.split(',').count() == columns), "{line}: {table}");
+        let stored: Value = serde_json::from_slice(&folder.read(&json)).unwrap();
+        assert_eq!(stored["provenance"], provenance, "{line}");
+        assert!(stored.as_object().unwrap().len() >= 2, "{line}");
+        let (svg, png) = (name("svg"), name("png"));
+        let pictures = format!("{line} --out {svg} --out {png}");
+        if has_picture {
+            folder.done(&pictures);
+            assert!(
+                folder.read(&svg).starts_with(b"<?xml") || folder.read(&svg).starts_with(b"<svg"),
+                "{line}"
+            );
+            assert!(folder.read(&png).starts_with(b"\x89PNG"), "{line}");
+        } else {
+            assert!(folder.refused(&pictures, 2).contains("has no picture"), "{line}");
+        }
+    }
+    assert!(folder.names().iter().all(|name| !name.starts_with('.')), "{:?}", folder.names());
+}
+
+#[test]
+fn the_same_line_gives_the_same_bytes_for_any_number_of_threads() {
+    let folder = Folder::new();
+    for (index, (line, _)) in QUICK.into_iter().enumerate() {
+        for threads in [1, 3] {
+            folder.done(&format!("{line} --threads {threads} --out {index}-{threads}.json"));
+        }
+        assert!(folder.read(&format!("{index}-1.json")) == folder.read(&format!("{index}-3.json")), "{line}");
+    }
+}
+
+#[test]
+fn nothing_is_overwritten_unless_that_is_meant() {
+    let folder = Folder::new();
+    folder.write("a.csv", "mine");
+    let text = folder.refused("toss --out a.csv", 2);
+    assert!(text.contains("a.csv: it is there already; --force replaces it"), "{text}");
+    assert_eq!(folder.read("a.csv"), b"mine");
+    folder.done("toss --out a.csv --force");
+    assert_ne!(folder.read("a.csv"), b"mine");
+    assert_eq!(folder.names(), ["a.csv"]);
+}
+
+#[test]
+fn places_that_cannot_be_written_are_told_before_anything_is_computed() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.join("taken.csv")).unwrap();
+    // These would take hours.
+    let long = "verdicts -G 0:3:20000 -r 0:0.9:20000";
+    for (out, told) in [("no/such/a.csv", "there is no folder no/such"), ("taken.csv", "it is a folder")] {
+        let text = folder.refused(&format!("{long} --out {out}"), 2);
+        assert!(text.contains(told), "{out}: {text}");
+    }
+    if cfg!(target_os = "linux") {
+        // A folder in which nobody can write.
+        let text = folder.refused(&format!("{long} --out /proc/a.csv"), 1);
+        assert!(text.contains("/proc/a.csv cannot be written"), "{text}");
+    }
+}
+
+#[test]
+fn a_reader_that_goes_is_no_error() {
+    let folder = Folder::new();
+    for line in [
+        "verdicts -G 0.3:0.31:2000 --impacts 64 --transient 10",
+        "--help",
+        "man motor sweep",
+        "toss --template",
+    ] {
+        let mut child = folder.command(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        // Nobody will ever read.
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!((output.status.code(), errors(&output).as_str()), (Some(0), ""), "{line}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let folder = Folder::new();
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = folder.command("toss").stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+}
+
+#[test]
+fn a_template_is_read_to_the_same_result() {
+    let folder = Folder::new();
+    for preset in ["pizza-toss", "motor"] {
+        folder.write("system.toml", &folder.done(&format!("toss --template --preset {preset}")));
+        assert_eq!(folder.done("toss system.toml"), folder.done(&format!("toss --preset {preset}")));
+        assert_eq!(
+            folder.done("verdicts system.toml --impacts 200"),
+            folder.done(&format!("verdicts --preset {preset} --impacts 200"))
+        );
+    }
+    folder.write("motor.toml", &folder.done("motor report --template --preset paper-184-khz"));
+    assert_eq!(folder.done("motor report motor.toml"), folder.done("motor report --preset paper-184-khz"));
+    // What is set is in the template.
+    assert!(folder.done("toss --template --set disk.friction=0.25").contains("friction = 0.25"));
+}
+
+#[test]
+fn a_computed_run_up_is_read_by_fit() {
+    let folder = Folder::new();
+    folder.done("motor transient --members 6 --duration 5 --intervals 50 --out run.csv --out run.json");
+    let fit = folder.done("fit run.csv");
+    let run = folder.done("motor transient --members 6 --duration 5 --intervals 50");
+    let line = |text: &str| text.lines().find(|line| line.starts_with("time constant ")).unwrap().to_owned();
+    let value = |text: &str| line(text).split_whitespace().nth(2).unwrap().parse::<f64>().unwrap();
+    assert!((value(&fit) - value(&run)).abs() < 1e-3 * value(&run), "{fit}\n{run}");
+}
