@@ -1,4 +1,5 @@
 //! Files and streams: what is written, what is never overwritten, and what happens when nobody reads.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
