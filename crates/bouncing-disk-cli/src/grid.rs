@@ -22,7 +22,7 @@ use crate::output::files::Kind;
 use crate::output::report::{PROGRAM, Report, VERSION, wrote};
 
 /// The first rows are so many times fewer than the most that are computed together.
-const FIRST_SHARE: usize = 16;
+const FIRST_SHARE: usize = 256;
 
 /// How long rows are computed together: as much is lost by an interruption.
 const SHORT: Duration = Duration::from_millis(300);

@@ -1,4 +1,5 @@
 //! Chunks and their merge: the same bytes as without, and a refusal by name of what does not belong.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 

@@ -4,6 +4,7 @@
 //! stream. The blocks of a file are run one after the other in one folder. `UPDATE_DOCUMENTATION=1` writes what is printed
 //! into the file in place of comparing it.
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Files and streams: what is written, what is never overwritten, and what happens when nobody reads.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
@@ -155,4 +156,37 @@ fn a_computed_run_up_is_read_by_fit() {
     let line = |text: &str| text.lines().find(|line| line.starts_with("time constant ")).unwrap().to_owned();
     let value = |text: &str| line(text).split_whitespace().nth(2).unwrap().parse::<f64>().unwrap();
     assert!((value(&fit) - value(&run)).abs() < 1e-3 * value(&run), "{fit}\n{run}");
+}
+
+/// One value, one cell, nothing found, nothing that turns: each has a picture.
+#[test]
+fn pictures_of_the_least_are_drawn() {
+    let folder = Folder::new();
+    for (index, line) in [
+        "diagram -G 0.4:0.4:1 --recorded 1 --transient 0",
+        "diagram -G 0 --recorded 4 --transient 0",
+        "verdicts -G 0 --impacts 64",
+        "verdicts -G 0.5 -r 0:0.5:2 --impacts 64 --transient 1",
+        "basins --cells 1 --starts 1 --phase -0.5:0.5",
+        "orbits -G 0",
+        "orbits -G 0.01 --impacts 64 --platform-periods 1 --starts 2",
+        "doublings --count 1",
+        "doublings --count 0",
+        "motor sweep --over friction=0.1 --relative-error 0.5 --members 4",
+        "motor sweep --over load_torque=1e-3:2e-3:2 --relative-error 0.5 --members 4",
+        "motor sweep --over load_torque=1e-3 --over phase_lag=-0.1 --relative-error 0.5 --members 4",
+        "motor curve --loads 1e-3 --relative-error 0.5 --members 4",
+        "motor curve --loads -1e-6:0:2 --set friction=0 --relative-error 0.5 --members 4",
+        "motor transient --members 1 --intervals 3 --duration 0.01",
+        "motor transient --members 5 --intervals 10 --set peak_angular_speed=0",
+        "toss --set platform.twist_amplitude=0 --samples 2",
+        "toss --many --set platform.amplitude=0 --transient 1 --examined 2",
+        "toss --many --periods 0 --transient 1 --examined 2",
+        "design --phase-lag 3.1416",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        folder.done(&format!("{line} --out {index}.svg --out {index}.json --out {index}.csv --quiet"));
+    }
 }

@@ -49,10 +49,10 @@ pub(crate) struct BasinsArgs {
     #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 300)]
     cells: usize,
     /// Impact phases of the window, in periods
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_negative_numbers = true)]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true)]
     phase: Interval,
     /// Normalised impact speeds of the window
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:5")]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5")]
     speed: Interval,
     /// Impacts after which a start is left undecided
     #[arg(help_heading = OWN, long, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]

@@ -55,19 +55,19 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     system: SystemArgs,
     /// Stroke c (m): half the length of the path of the hand at the contact radius
-    #[arg(help_heading = OWN, long, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
     stroke: f64,
     /// Coefficient of friction; that of the dough unless given
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH")]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH")]
     friction: Option<Interval>,
     /// Angular frequency (rad/s); 15, that of Table I, unless given
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH")]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH")]
     angular_frequency: Option<Interval>,
     /// Phase lag of the twist (rad); half a circle unless given
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_negative_numbers = true)]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_hyphen_values = true)]
     phase_lag: Option<Interval>,
     /// The highest that the dough may fly above the place where it leaves the hand (m)
-    #[arg(help_heading = OWN, long, value_name = "METRES")]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "METRES")]
     highest_flight: Option<f64>,
     /// What the toss is to be best at
     #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed")]

@@ -15,10 +15,10 @@ use crate::range::Range;
 pub(crate) struct MapArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or where several are possible a range
     /// FIRST:LAST:POINTS, both ends included. That of the system unless given
-    #[arg(long, short = 'G', value_name = "GAMMA", allow_negative_numbers = true)]
+    #[arg(long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     pub(crate) axial_forcing: Option<Range>,
     /// Coefficient of restitution, in [0, 1). That of the system unless given, which is 0.5 by default
-    #[arg(long, short, value_name = "EPSILON", allow_negative_numbers = true)]
+    #[arg(long, short, value_name = "EPSILON", allow_hyphen_values = true)]
     pub(crate) restitution: Option<Range>,
     #[command(flatten)]
     pub(crate) system: SystemArgs,

@@ -56,7 +56,7 @@ pub(crate) struct VerdictsArgs {
     #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().longest_period)]
     longest_period: usize,
     /// How near an impact must come to an earlier one for a period to be tried, in (0, 0.01]
-    #[arg(help_heading = OWN, long, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
     tolerance: f64,
     /// Keeps the evidence of each cell of a map in the file, which makes it a hundred times larger; without a range of
     /// restitutions it is always kept

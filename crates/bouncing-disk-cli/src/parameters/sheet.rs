@@ -230,7 +230,7 @@ mod tests {
         assert!(told(read("disk = 1")).contains("line 1: \"disk\" must be a table"));
         assert!(told(read("")).contains("platform.amplitude is not given"));
         // What has a default may be missing.
-        assert!(read(&text.replace("load_acceleration", "# load")).is_ok());
+        assert!(read(&text.replace("\nload_acceleration", "\n# load")).is_ok());
     }
 
     #[test]

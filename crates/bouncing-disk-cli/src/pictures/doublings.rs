@@ -11,7 +11,7 @@ pub(crate) fn draw(restitution: f64, found: &[CascadeDoubling]) -> Figure {
         .map(|pair| (pair[0].number as f64, pair[1].axial_forcing - pair[0].axial_forcing))
         .filter(|(_, distance)| *distance > 0.0)
         .collect();
-    let least = distances.iter().fold(1.0_f64, |least, (_, distance)| least.min(*distance));
+    let least = distances.iter().fold(0.1_f64, |least, (_, distance)| least.min(*distance));
     let last = found.len().max(2) as f64;
     let panel = Panel::new(Rect::new(50.0, 24.0, 184.0, 132.0))
         .x(Axis::linear(0.5, last - 0.5).label("$n$").ticks(Ticks::every(1.0).minor(1)))

@@ -112,7 +112,14 @@ fn map(result: &MotorSweepResult, quantity: SweepQuantity, rows: &SweepAxis, col
     let (scale, words) = shown(quantity, known());
     let least = scale * known().fold(f64::INFINITY, f64::min);
     let most = scale * known().fold(f64::NEG_INFINITY, f64::max);
-    let (least, most) = if least < most { (least, most) } else { (0.0, most.abs().max(1e-300)) };
+    // All cells alike, or none with a value.
+    let (least, most) = match (least, most) {
+        (least, most) if least < most => (least, most),
+        (least, _) if least.is_finite() && least.abs() > 0.0 => {
+            (least - 0.5 * least.abs(), least + 0.5 * least.abs())
+        }
+        _ => (0.0, 1.0),
+    };
     let level = |value: f64| {
         let share = (scale * value - least) / (most - least);
         1 + ((share * LEVELS as f64).max(0.0) as usize).min(LEVELS - 1) as u8

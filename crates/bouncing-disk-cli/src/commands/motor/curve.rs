@@ -34,7 +34,7 @@ pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// Load torques (N m), FIRST:LAST:POINTS; eleven from none to the largest torque unless given
-    #[arg(help_heading = OWN, long, value_name = "LOADS", allow_negative_numbers = true)]
+    #[arg(help_heading = OWN, long, value_name = "LOADS", allow_hyphen_values = true)]
     loads: Option<Range>,
     #[command(flatten)]
     settings: SettingsArgs,

@@ -8,7 +8,7 @@ use clap::Args;
 #[command(next_help_heading = "Accuracy")]
 pub(super) struct SettingsArgs {
     /// Standard error of the mean speed that is asked for, relative to the speed without load
-    #[arg(long, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
+    #[arg(long, allow_negative_numbers = true, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
     relative_error: f64,
     /// Vertical motions that are averaged over
     #[arg(long, value_name = "N", default_value_t = OperatingSettings::default().members)]
@@ -17,7 +17,7 @@ pub(super) struct SettingsArgs {
     #[arg(long, value_name = "N", default_value_t = OperatingSettings::default().most_impacts)]
     most_impacts: u64,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(long, value_name = "SIZE", default_value_t = OperatingSettings::default().relaunch_perturbation)]
+    #[arg(long, allow_negative_numbers = true, value_name = "SIZE", default_value_t = OperatingSettings::default().relaunch_perturbation)]
     perturbation: f64,
     /// Seed of the perturbations
     #[arg(long, value_name = "SEED", default_value_t = OperatingSettings::default().seed)]

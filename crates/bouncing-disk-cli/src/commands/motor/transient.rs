@@ -40,13 +40,13 @@ pub(crate) struct TransientArgs {
     #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 10)]
     members: usize,
     /// Duration of a run (s)
-    #[arg(help_heading = OWN, long, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
     duration: f64,
     /// Equal intervals over which the speed is averaged
     #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 200)]
     intervals: usize,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(help_heading = OWN, long, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
     perturbation: f64,
     /// Seed of the perturbations and of the starting phases
     #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = TransientSettings::default().seed)]

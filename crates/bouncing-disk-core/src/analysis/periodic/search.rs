@@ -230,6 +230,9 @@ impl ImpactMap {
         column: u32,
         mut work: WorkCount<'_>,
     ) -> Result<Row, Error> {
+        // The count begins anew with each row: without this, short rows never asked, and after a stop each further row
+        // went on until it asked.
+        work.watch().ask()?;
         let mut row = Row { catalogue: Catalogue::default(), coverage: limits.coverage(search) };
         let phase = Phase::new(TAU * (f64::from(column) + 0.5) / f64::from(search.phases))?;
         for level in 0..search.speeds {

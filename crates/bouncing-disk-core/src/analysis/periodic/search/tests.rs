@@ -293,3 +293,14 @@ fn limits_are_checked() {
     }
     assert_eq!(search, stored(&search));
 }
+
+/// Rows that are too short to ask by themselves, and many of them: after the stop none is begun.
+#[test]
+fn a_search_of_many_short_rows_can_be_stopped() {
+    let map = map(0.5, 0.5);
+    let search = OrbitSearch::new(1, 1).expect("legal").with_starts(4_096, 2).expect("legal");
+    let calls = StopAfter::calls(10);
+    let stopped = map.periodic_orbits_observed(&search, &calls);
+    assert!(matches!(stopped, Err(Error::Stopped { done: 0..4_096, total: 8_192 })), "{stopped:?}");
+    assert_eq!(calls.asked(), 10);
+}
