@@ -23,7 +23,8 @@ ENDLESS = {
     "iterate": "bd.ImpactMap(axial_forcing=0.56, restitution=0.5).iterate("
     "impact_phase=1.2, axial_impact_velocity=-4.0, impacts=10**12)",
     "verdicts": "bd.verdicts(axial_forcing=0.56, impacts=10**12, **STARTS)",
-    "basins": "bd.basins(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), phases=20000, speeds=20000)",
+    "basins": "bd.basins(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), phases=2000, speeds=2000,"
+    " max_impacts=2**31)",
     "attractors": "bd.attractors(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), impacts=10**12)",
     "periodic orbits": "bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.8, restitution=0.7), max_impacts=64,"
     " max_platform_periods=10000, phases=4096, speeds=4096)",

@@ -38,7 +38,7 @@ def everything() -> dict[str, Any]:
     """One of each kind of object."""
     found = bd.attractors(MAP, starts=64, impacts=1000)
     branch = bd.continued(MAP, orbit(), parameter_range=(0.1, 0.6))
-    runs = bd.ensemble(bd.System.motor(), members=6, duration=1.0, intervals=60)
+    runs = bd.ensemble(bd.System.motor(), members=6, duration=4.0, intervals=80)
     times = runs.times[:, 0]
     return {
         "System": bd.System.pizza_toss(),

@@ -39,7 +39,6 @@ def test_nothing_and_one_are_numbers_of_orbits() -> None:
     assert one == bd.orbit_diagram(axial_forcing=[0.45], recorded=1, **STARTS)
     assert bd.orbit_diagram(axial_forcing=0.45, recorded=0, **STARTS).offsets.tolist() == [0, 0]
     assert bd.transients([], duration=0.01, intervals=5).speeds.shape == (5, 0)
-    assert bd.torque_speed_curve(MOTOR, load_torques=[]).names() == []
 
 
 def test_a_disk_that_rests_for_ever_has_fewer_impacts() -> None:

@@ -63,9 +63,9 @@ def _same(one: Any, other: Any) -> bool:
 
 def _shown(value: Any) -> str:
     """A value in a line of text: an array by its type and shape, if it is long."""
-    if isinstance(value, np.ndarray) and value.size > 6:
-        return f"<{value.dtype} array {value.shape}>"
-    return repr(value)
+    if not isinstance(value, np.ndarray):
+        return repr(value)
+    return repr(value.tolist()) if value.size <= 4 else f"<{value.dtype} array {value.shape}>"
 
 
 class Result:
