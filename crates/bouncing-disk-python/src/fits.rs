@@ -44,7 +44,8 @@ pub(crate) fn fit_exponential<'py>(
     results::make(py, "ExponentialFit", fields)
 }
 
-fn interval<'py>(py: Python<'py>, estimate: &IntervalEstimate) -> PyResult<Bound<'py, PyAny>> {
+/// An interval as Python has it.
+pub(crate) fn interval<'py>(py: Python<'py>, estimate: &IntervalEstimate) -> PyResult<Bound<'py, PyAny>> {
     results::make(py, "IntervalEstimate", (estimate.value, estimate.low, estimate.high))
 }
 

@@ -9,6 +9,7 @@ mod attractors;
 mod basins;
 mod branch;
 mod chatter;
+mod design;
 mod diagram;
 mod errors;
 mod fits;
@@ -16,6 +17,7 @@ mod impact_map;
 mod long_call;
 mod motor;
 mod operation;
+mod parameter_fit;
 mod periodic_orbit;
 mod results;
 mod start;
@@ -41,6 +43,8 @@ mod _native {
     #[pymodule_export]
     use crate::chatter::ChatterCut;
     #[pymodule_export]
+    use crate::design::best_toss;
+    #[pymodule_export]
     use crate::diagram::{lyapunov_exponents, orbit_diagram, survival_times};
     #[pymodule_export]
     use crate::fits::{fit_exponential, fit_transients};
@@ -50,6 +54,8 @@ mod _native {
     use crate::motor::Motor;
     #[pymodule_export]
     use crate::operation::{best_phase_lag, operating_point, stall_load, torque_speed_curve};
+    #[pymodule_export]
+    use crate::parameter_fit::fit_parameters;
     #[pymodule_export]
     use crate::periodic_orbit::{PeriodicOrbit, periodic_orbits};
     #[pymodule_export]
