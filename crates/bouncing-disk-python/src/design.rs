@@ -81,7 +81,11 @@ pub(crate) fn best_toss<'py>(
     let over_friction = match over_friction {
         "worst" => OverFriction::Worst,
         "mean" => OverFriction::Mean,
-        _ => return Err(PyValueError::new_err(format!("over_friction must be \"worst\" or \"mean\", and is {over_friction:?}"))),
+        _ => {
+            return Err(PyValueError::new_err(format!(
+                "over_friction must be \"worst\" or \"mean\", and is {over_friction:?}"
+            )));
+        }
     };
     let table = TossConstraints::pizza_toss();
     let pair = |given: Option<(f64, f64)>, own: [f64; 2]| given.map_or(own, |(least, most)| [least, most]);
@@ -101,7 +105,8 @@ pub(crate) fn best_toss<'py>(
         objective,
         over_friction,
     };
-    let design: TossDesign = long_call::run(py, progress.0, |observer| best_toss_observed(&constraints, observer))?;
+    let design: TossDesign =
+        long_call::run(py, progress.0, |observer| best_toss_observed(&constraints, observer))?;
     let fields = (
         design.hand.stroke,
         design.hand.amplitude_angle,

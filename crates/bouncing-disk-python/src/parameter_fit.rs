@@ -1,8 +1,8 @@
 //! Parameters of a motor from its measured transients.
 
 use bouncing_disk::{
-    FitParameter, FitRange, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit, ParameterFitSettings,
-    RunPreload,
+    FitParameter, FitRange, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit,
+    ParameterFitSettings, RunPreload,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -30,7 +30,8 @@ fn ranges(given: &Bound<'_, PyDict>) -> PyResult<Vec<FitRange>> {
         let (low, high) = range.extract()?;
         let Some(parameter) = PARAMETERS.into_iter().find(|parameter| parameter.name() == name) else {
             let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.name()).collect();
-            let text = format!("the parameter {name:?} cannot be fitted; those that can are {}", known.join(", "));
+            let text =
+                format!("the parameter {name:?} cannot be fitted; those that can are {}", known.join(", "));
             return Err(PyValueError::new_err(text));
         };
         ranges.push(FitRange { parameter, low, high });
@@ -48,8 +49,10 @@ fn measured(
 ) -> PyResult<MeasuredTransient> {
     let times = row(times, "times")?;
     let runs = row(speeds, "speeds").map(|run| vec![run]).or_else(|_| columns(speeds, "speeds"))?;
-    let runs = runs.into_iter().zip(0..).map(|(speeds, member)| {
-        MeasuredRun { member, times: times.clone(), speeds }
+    let runs = runs.into_iter().zip(0..).map(|(speeds, member)| MeasuredRun {
+        member,
+        times: times.clone(),
+        speeds,
     });
     let runs = MeasuredSpeeds::new(runs.collect()).map_err(|error| errors::of(py, error))?;
     Ok(MeasuredTransient { preload: RunPreload::Acceleration(preload_acceleration), runs, speed_error })
