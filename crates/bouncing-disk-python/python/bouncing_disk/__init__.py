@@ -138,3 +138,28 @@ __all__ = [
     "transients",
     "verdicts",
 ]
+
+# Sweeps and what they raise: Dask and xarray are imported by the call that needs them.
+from bouncing_disk._sweep import (  # noqa: E402
+    FailedPoint,
+    MissingDependencyError,
+    SweepFailedError,
+    SweepFolderError,
+    SweepFolderWarning,
+    SweepFunctionError,
+    SweepResult,
+    read_sweep,
+    sweep,
+)
+
+__all__ += [
+    "FailedPoint",
+    "MissingDependencyError",
+    "SweepFailedError",
+    "SweepFolderError",
+    "SweepFolderWarning",
+    "SweepFunctionError",
+    "SweepResult",
+    "read_sweep",
+    "sweep",
+]

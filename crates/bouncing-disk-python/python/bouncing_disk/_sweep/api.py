@@ -105,9 +105,9 @@ def sweep(
     array([[ 3.,  4.,  5.],
            [ 6.,  8., 10.]])
     """
-    run = _Run(function, grid, arguments, folder, chunk_size, pointwise, max_failures, progress)
     if client is not None and client != "serial" and not hasattr(client, "submit"):
         raise TypeError(f'client must be a distributed.Client, "serial" or None, not {type(client).__name__}')
+    run = _Run(function, grid, arguments, folder, chunk_size, pointwise, max_failures, progress)
     with ExitStack() as stack:
         if run.journal is not None:
             stack.callback(run.journal.close)

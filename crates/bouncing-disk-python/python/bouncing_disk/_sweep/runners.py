@@ -54,7 +54,7 @@ def local_client(most: int) -> Iterator[Any]:
         n_workers=workers,
         threads_per_worker=1,
         processes=True,
-        dashboard_address=None,
+        dashboard_address="127.0.0.1:0",
         env={"RAYON_NUM_THREADS": "1"},
     )
     try:
@@ -107,7 +107,7 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
             pending[future.key] = future
             finished.add(future)
 
-    finished = distributed.as_completed()
+    finished = distributed.as_completed(loop=client.loop)
     try:
         fill_up(finished)
         while pending:
