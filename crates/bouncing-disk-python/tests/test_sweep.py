@@ -134,7 +134,7 @@ def test_a_failed_point_is_named_and_the_others_kept(pointwise: bool, chunk_size
     with pytest.raises(bd.SweepFailedError) as failure:
         serial(functions.refuses_three, pointwise=pointwise, chunk_size=chunk_size)
     (point,) = failure.value.failures
-    assert point.index == (2, 1) and point.values == {"a": 3.0, "b": 20.0}
+    assert point.place == (2, 1) and point.values == {"a": 3.0, "b": 20.0}
     assert (point.error, point.message) == ("ValueError", "three and twenty")
     assert "refuses_three" in point.traceback
     assert str(failure.value) == "the function failed at 1 point: a = 3.0, b = 20.0: ValueError: three and twenty"

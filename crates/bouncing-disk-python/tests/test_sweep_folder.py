@@ -235,7 +235,7 @@ def test_failed_points_are_kept_apart_and_tried_again(folder: Path, tmp_path: Pa
     for _ in range(2):
         with pytest.raises(bd.SweepFailedError, match="3 points") as failure:
             run()
-        assert [point.index for point in failure.value.failures] == [(2, 0), (2, 1), (2, 2)]
+        assert [point.place for point in failure.value.failures] == [(2, 0), (2, 1), (2, 2)]
     stored = bd.read_sweep(folder)
     assert stored.failed.sum() == 3 and np.isnan(stored.values[stored.failed]).all()
     flag.touch()

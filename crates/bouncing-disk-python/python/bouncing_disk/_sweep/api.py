@@ -226,7 +226,7 @@ class _Run:
         failed: npt.NDArray[np.bool_] = np.zeros(self.grid.shape, dtype=np.bool_)
         points = self._failed_points()
         for point in points:
-            failed[point.index] = True
+            failed[point.place] = True
         result = _result(self.assembly.whole(), self.grid, failed, self.job)
         if points:
             raise SweepFailedError.of(points, result)

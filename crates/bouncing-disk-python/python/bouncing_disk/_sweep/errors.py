@@ -26,7 +26,7 @@ class FailedPoint(NamedTuple):
     """A point of the grid at which the function raised an exception."""
 
     #: The place in the grid, one number for each axis.
-    index: tuple[int, ...]
+    place: tuple[int, ...]
     #: The values of the axes there.
     values: dict[str, bool | int | float | complex | str]
     #: The name of the exception's class.

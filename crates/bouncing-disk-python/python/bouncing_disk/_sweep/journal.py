@@ -72,7 +72,8 @@ class Journal:
             raise self._refused(f"holds other files, such as {others[0]}, and no sweep", "other-files")
         axes = io.BytesIO()
         # As `axis_NAME`, because NumPy has names of its own for two arguments.
-        np.savez(axes, **{f"axis_{name}": axis for name, axis in grid.axes.items()})
+        members: dict[str, Any] = {f"axis_{name}": axis for name, axis in grid.axes.items()}
+        np.savez(axes, **members)
         described = json.dumps({**self.identity.described, "digest": self.identity.digest}, indent=1)
         try:
             write_whole(self.folder / AXES, axes.getvalue())

@@ -81,7 +81,7 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
     waiting = iter(tasks)
     # A task like the others, so that the scheduler can make it again when all workers that hold it are lost.
     shared = client.submit(_itself, job, key=f"job-{name}", pure=False)
-    chunk_of = {}
+    chunk_of: dict[str, int] = {}
 
     def submit(task: Task) -> Any:
         chunk, points = task
@@ -93,9 +93,10 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
         return future
 
     def ahead() -> int:
-        return max(_AHEAD, _AHEAD * sum(client.nthreads().values()))
+        threads: int = sum(client.nthreads().values())
+        return _AHEAD * max(1, threads)
 
-    pending = {}
+    pending: dict[str, Any] = {}
 
     def fill_up(finished: Any) -> None:
         room = ahead() - len(pending)
