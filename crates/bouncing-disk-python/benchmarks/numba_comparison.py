@@ -72,13 +72,12 @@ def w1(count=ORBITS, impacts=IMPACTS):
     last = np.empty(count), np.empty(count)
 
     def package():
-        return bd.orbit_diagram(
+        return bd.iterate_orbits(
             axial_forcing=FORCING,
             restitution=RESTITUTION,
             impact_phase=phases,
             normalised_speed=-velocities / math.pi,
-            transient=impacts - 1,
-            recorded=1,
+            impacts=impacts,
         )
 
     def by_hand():

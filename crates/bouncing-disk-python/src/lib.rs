@@ -14,6 +14,7 @@ mod impact_map;
 mod long_call;
 mod motor;
 mod operation;
+mod orbit_batch;
 mod periodic_orbit;
 mod results;
 mod start;
@@ -44,6 +45,8 @@ mod _native {
     use crate::motor::Motor;
     #[pymodule_export]
     use crate::operation::{best_phase_lag, operating_point, stall_load, torque_speed_curve};
+    #[pymodule_export]
+    use crate::orbit_batch::iterate_orbits;
     #[pymodule_export]
     use crate::periodic_orbit::{PeriodicOrbit, periodic_orbits};
     #[pymodule_export]
