@@ -5,7 +5,9 @@
 #![cfg(feature = "extension-module")]
 
 mod arguments;
+mod attractors;
 mod basins;
+mod branch;
 mod chatter;
 mod diagram;
 mod errors;
@@ -32,7 +34,11 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use crate::attractors::{Attractors, attractors};
+    #[pymodule_export]
     use crate::basins::basins;
+    #[pymodule_export]
+    use crate::branch::{Branch, continued, doubling_cascade};
     #[pymodule_export]
     use crate::chatter::ChatterCut;
     #[pymodule_export]

@@ -8,11 +8,14 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bouncing_disk._native import ImpactMap
+from bouncing_disk._native import ImpactMap, PeriodicOrbit
 
 __all__ = [
+    "Attractor",
     "Basins",
     "BestPhaseLag",
+    "Bifurcation",
+    "DoublingCascade",
     "Energy",
     "EventTable",
     "ExponentialFit",
@@ -60,9 +63,9 @@ def _same(one: Any, other: Any) -> bool:
 
 def _shown(value: Any) -> str:
     """A value in a line of text: an array by its type and shape, if it is long."""
-    if isinstance(value, np.ndarray) and value.size > 6:
-        return f"<{value.dtype} array {value.shape}>"
-    return repr(value)
+    if not isinstance(value, np.ndarray):
+        return repr(value)
+    return repr(value.tolist()) if value.size <= 4 else f"<{value.dtype} array {value.shape}>"
 
 
 class Result:
@@ -789,3 +792,104 @@ class MotorReport(Result):
     def __str__(self) -> str:
         """The text."""
         return self.text
+
+
+@dataclass(frozen=True, eq=False)
+class Attractor(Result):
+    """An attractor of an impact map.
+
+    Attributes
+    ----------
+    kind : str
+        ``"rest"``, ``"periodic"``, ``"chaotic"`` or ``"unclassified"``.
+    label : int
+        Its label in :attr:`Basins.labels`.
+    orbit : PeriodicOrbit or None
+        The orbit of a periodic one.
+    radius : float
+        The radius (rad) within which a start counts as caught by that orbit, else NaN.
+    exponent, standard_error : float
+        The largest Lyapunov exponent per impact of a chaotic one and its standard error, else NaN.
+    share : float
+        The share of the starts that ended on it.
+    interval : (float, float)
+        Its 95 % interval.
+    lasts : bool
+        Whether the motion lasts: not that of a disk which rests and never does so again.
+    leads_to : int or None
+        The number of the attractor that a rest leads to.
+    meaning : str
+        What it is, in words.
+    """
+
+    kind: str
+    label: int
+    orbit: PeriodicOrbit | None
+    radius: float
+    exponent: float
+    standard_error: float
+    share: float
+    interval: tuple[float, float]
+    lasts: bool
+    leads_to: int | None
+    meaning: str
+
+
+@dataclass(frozen=True, eq=False)
+class Bifurcation(Result):
+    """A special point of a branch of periodic orbits.
+
+    Attributes
+    ----------
+    kind : str
+        ``"doubling"``, ``"fold"``, ``"graze"``, ``"vanishing-impact"`` or ``"birth"``.
+    parameter : float
+        The value of the parameter.
+    arclength : float
+        Arclength from the start of the branch.
+    impact : int or None
+        Which impact grazes or vanishes.
+    orbit : PeriodicOrbit
+        The orbit there.
+    """
+
+    kind: str
+    parameter: float
+    arclength: float
+    impact: int | None
+    orbit: PeriodicOrbit
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DoublingCascade(Result):
+    """A period-doubling cascade; n doublings, and Feigenbaum's numbers from some of them.
+
+    Attributes
+    ----------
+    period : (n,) int64 array
+        Impacts of the orbit that loses its stability.
+    axial_forcing, forcing_error : (n,) float64 array
+        The forcing Gamma_n, and how far rounding may have moved it.
+    multiplier : (n,) float64 array
+        The multiplier that the search left, -1 but for rounding.
+    width : (n,) float64 array
+        The largest distance (rad) of an impact from the one half a period later.
+    graze_margin : (n,) float64 array
+        How near a flight comes to an earlier impact, in units of g/omega^2; infinite where none dips.
+    feigenbaum_number : (m,) int64 array
+        The last doubling that was used for each estimate, from 1.
+    delta, delta_error, alpha, alpha_error : (m,) float64 array
+        Feigenbaum's numbers, extrapolated, and how far they may be off.
+    """
+
+    period: IntArray
+    axial_forcing: FloatArray
+    forcing_error: FloatArray
+    multiplier: FloatArray
+    width: FloatArray
+    graze_margin: FloatArray
+    feigenbaum_number: IntArray
+    delta: FloatArray
+    delta_error: FloatArray
+    alpha: FloatArray
+    alpha_error: FloatArray

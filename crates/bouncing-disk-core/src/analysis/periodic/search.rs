@@ -230,6 +230,10 @@ impl ImpactMap {
         column: u32,
         mut work: WorkCount<'_>,
     ) -> Result<Row, Error> {
+        // A row that begins after the end counts no flights first: there may be thousands of rows.
+        if work.watch().is_stopped() {
+            work.watch().ask()?;
+        }
         let mut row = Row { catalogue: Catalogue::default(), coverage: limits.coverage(search) };
         let phase = Phase::new(TAU * (f64::from(column) + 0.5) / f64::from(search.phases))?;
         for level in 0..search.speeds {
