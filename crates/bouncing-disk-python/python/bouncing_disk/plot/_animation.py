@@ -59,7 +59,7 @@ def toss_animation(
     radius = trajectory.system.contact_radius
     time = curve.time - trajectory.start_time
     plt: Any = pyplot()
-    with plt.rc_context(style()):
+    with style():
         fig, (side, graph) = plt.subplots(
             1, 2, sharey=True, figsize=(1.6 * SINGLE_COLUMN, 2.8), width_ratios=(1.0, 1.4), layout="constrained"
         )

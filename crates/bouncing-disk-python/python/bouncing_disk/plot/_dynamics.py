@@ -72,7 +72,7 @@ def orbit_diagram(
         diagram = _two_starts(restitution, axial_forcing, columns, transient, recorded)
     named = diagram if isinstance(diagram, Mapping) else {"": diagram}
     colours = _COLOURS if len(named) > 1 else (BLACK,)
-    with pyplot().rc_context(style()):
+    with style():
         fig, ax = drawn_on(ax)
         for place, (name, orbits) in enumerate(named.items()):
             values = orbits.impact_phase / (2.0 * np.pi) if quantity == "phase" else orbits.normalised_speed
@@ -177,9 +177,8 @@ def basins(
         )
     elif not isinstance(basins, bd.Basins):
         raise TypeError(f"basins must be Basins or an ImpactMap, not {type(basins).__name__}")
-    plt = pyplot()
     colours = _basin_colours(len(basins.meaning))
-    with plt.rc_context(style()):
+    with style():
         fig, ax = drawn_on(ax)
         ax.imshow(
             np.array(colours)[basins.labels],

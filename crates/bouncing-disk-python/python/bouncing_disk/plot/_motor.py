@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
-from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, pyplot, style
+from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +65,7 @@ def motor_transient(
     end = float(time[-1] + 0.5 * (time[1] - time[0]))
     smooth = np.linspace(0.0, end, 400)
     steady, constant = runs.steady_speed, runs.time_constant
-    with pyplot().rc_context(style()):
+    with style():
         fig, ax = drawn_on(ax)
         count = runs.speeds.shape[1]
         if count > 1:
@@ -146,7 +146,7 @@ def torque_speed(
     factor, unit = _torque_unit(curve.load_torque)
     steady = curve.status == bd.TorqueSpeedCurve.STATUSES.index("steady")
     load = factor * curve.load_torque
-    with pyplot().rc_context(style()):
+    with style():
         fig, ax = drawn_on(ax, 2.5)
         # A load that drives the rotor backwards ever faster has no steady speed.
         runs = steady & np.isfinite(curve.speed)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -48,15 +49,20 @@ _STYLE: dict[str, Any] = {
 }
 
 
-def style() -> dict[str, Any]:
-    """The settings of these figures, for others of the same document: ``with plt.rc_context(plot.style()): ...``.
+@contextmanager
+def style() -> Iterator[None]:
+    """The look of these figures, for others of the same document: ``with plot.style(): ...``.
 
-    Returns
-    -------
-    dict
-        Settings of Matplotlib.
+    Only the settings that make it are changed, and put back. (``rc_context`` puts back all. A notebook makes Matplotlib
+    interactive when the first figure is made; if that was undone, the notebook would show no figure any more.)
     """
-    return dict(_STYLE)
+    settings = pyplot().rcParams
+    before = {name: settings[name] for name in _STYLE}
+    settings.update(_STYLE)
+    try:
+        yield
+    finally:
+        settings.update(before)
 
 
 def pyplot() -> Any:

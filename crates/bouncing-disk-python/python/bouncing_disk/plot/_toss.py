@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 import bouncing_disk as bd
-from bouncing_disk.plot._style import BLACK, BLUE, drawn_on_rows, pyplot, style
+from bouncing_disk.plot._style import BLACK, BLUE, drawn_on_rows, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def toss(
     began = trajectory.start_time
     time = curve.time - began
     names = events.names()
-    with pyplot().rc_context(style()):
+    with style():
         fig, axes = drawn_on_rows(ax, 2, 3.6)
         rows = [
             (axes[0], curve.height, curve.platform_height, events.height, "height (m)"),
