@@ -5,8 +5,8 @@
 
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
-    Axis, BasinSettings, ChatterPolicy, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit, Verdict, VerdictSettings,
-    Vibration, orbit_diagram, verdicts,
+    Axis, BasinSettings, ChatterPolicy, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit, Verdict,
+    VerdictSettings, Vibration, orbit_diagram, verdicts,
 };
 use bouncing_disk::{Error, InitialSpin, PAPER_CHATTER, System, TransientSettings, ensemble, single_toss};
 
@@ -17,9 +17,9 @@ fn forcings(count: u32, low: f64, step: f64) -> Vec<f64> {
 
 fn starts(forcings: &[f64], restitution: f64) -> Result<Vec<(ImpactMap, ImpactState)>, Error> {
     let start = ImpactState::from_normalised(1.2, 1.3)?;
-    let maps = forcings.iter().map(|forcing| {
-        Ok((ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, restitution)?, start))
-    });
+    let maps = forcings
+        .iter()
+        .map(|forcing| Ok((ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, restitution)?, start)));
     maps.collect()
 }
 
@@ -87,7 +87,8 @@ fn tosses() -> Result<Digest, Error> {
         let system = System::pizza_toss().with_platform(|hand| hand.phase_lag = lag)?;
         for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
             let toss = single_toss(&system, initial)?;
-            for number in [toss.airborne_speed, toss.efficiency, toss.launch_speed, toss.energy.friction_loss] {
+            for number in [toss.airborne_speed, toss.efficiency, toss.launch_speed, toss.energy.friction_loss]
+            {
                 digest.number(number);
             }
         }

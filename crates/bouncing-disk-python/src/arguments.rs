@@ -140,7 +140,9 @@ pub(crate) fn columns(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Vec
     let read = array.try_readonly().map_err(|error| PyValueError::new_err(error.to_string()))?;
     let view = read.as_array();
     let columns = view.shape().get(1).copied().unwrap_or(0);
-    Ok((0..columns).map(|column| view.index_axis(numpy::ndarray::Axis(1), column).iter().copied().collect()).collect())
+    Ok((0..columns)
+        .map(|column| view.index_axis(numpy::ndarray::Axis(1), column).iter().copied().collect())
+        .collect())
 }
 
 /// The one length of several arguments, each a number or a row; of numbers alone one item.

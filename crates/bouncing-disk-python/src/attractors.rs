@@ -129,7 +129,8 @@ impl Attractors {
         progress: ProgressCallable,
     ) -> PyResult<Bound<'py, PyAny>> {
         let grid = GridArguments { phases, phase_range, speeds, speed_range }.grid(py)?;
-        let settings = BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
+        let settings =
+            BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
         let found = long_call::run(py, progress.0, |observer| {
             labels(&self.0.basins_observed(grid, settings, observer)?)
         })?;
@@ -228,7 +229,9 @@ pub(crate) fn attractors(
     let longest = longest_period.usize(py, "longest_period")?;
     let search = AttractorSearch::default()
         .with_starts(starts)
-        .and_then(|search| search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells))
+        .and_then(|search| {
+            search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
+        })
         .map_err(|error| errors::of(py, error))?;
     let map = impact_map.get().map;
     long_call::run(py, progress.0, |observer| Ok(map.attractors_observed(&search, observer)?)).map(Attractors)

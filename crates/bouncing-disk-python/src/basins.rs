@@ -1,7 +1,8 @@
 //! Basins of attraction on a grid.
 
 use bouncing_disk::core::{
-    Axis, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap as Map, KnownOrbit, Label, PeriodicOrbit as Orbit,
+    Axis, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap as Map, KnownOrbit, Label,
+    PeriodicOrbit as Orbit,
 };
 use bouncing_disk::{Error, Observer, Progress};
 use pyo3::exceptions::PyTypeError;
@@ -31,9 +32,8 @@ impl GridArguments {
     pub(crate) fn grid(self, py: Python<'_>) -> PyResult<Grid> {
         let (phases, speeds) = (self.phases.usize(py, "phases")?, self.speeds.usize(py, "speeds")?);
         let phase = Axis::new(self.phase_range.0, self.phase_range.1, phases);
-        let grid = phase.and_then(|phase| {
-            Grid::new(phase, Axis::new(self.speed_range.0, self.speed_range.1, speeds)?)
-        });
+        let grid = phase
+            .and_then(|phase| Grid::new(phase, Axis::new(self.speed_range.0, self.speed_range.1, speeds)?));
         grid.map_err(|error| errors::of(py, error))
     }
 }
@@ -48,7 +48,8 @@ pub(crate) fn result<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let centres = |axis: &Axis| (0..axis.cells()).map(|cell| axis.centre(cell)).collect();
     let labels = results::matrix(py, labels, [grid.speed().cells(), grid.phase().cells()])?;
-    let (phase, speed) = (results::array(py, centres(grid.phase())), results::array(py, centres(grid.speed())));
+    let (phase, speed) =
+        (results::array(py, centres(grid.phase())), results::array(py, centres(grid.speed())));
     let range = |axis: &Axis| (axis.low(), axis.high());
     let (phases, speeds) = (range(grid.phase()), range(grid.speed()));
     let meaning = PyTuple::new(py, meaning)?;
@@ -77,7 +78,9 @@ fn known_orbits(known: &Bound<'_, PyAny>) -> PyResult<Vec<(Orbit, Option<f64>)>>
         } else if let Ok((orbit, radius)) = item.extract::<(Bound<'_, PeriodicOrbit>, f64)>() {
             (orbit.get().0.clone(), Some(radius))
         } else {
-            return Err(PyTypeError::new_err("known_orbits must hold orbits, or pairs of an orbit and a radius"));
+            return Err(PyTypeError::new_err(
+                "known_orbits must hold orbits, or pairs of an orbit and a radius",
+            ));
         });
     }
     Ok(orbits)
@@ -163,7 +166,8 @@ pub(crate) fn basins<'py>(
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let grid = GridArguments { phases, phase_range, speeds, speed_range }.grid(py)?;
-    let settings = BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
+    let settings =
+        BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
     let orbits = known_orbits.map_or_else(|| Ok(Vec::new()), self::known_orbits)?;
     let mut meaning = vec!["undecided".to_owned(), "comes to rest".to_owned()];
     meaning.extend(orbits.iter().map(|(orbit, _)| told(orbit)));

@@ -2,8 +2,8 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    BifurcationKind, Branch as Core, BranchEnd, Continuation, ContinuationParameter, Error as CoreError, ImpactState,
-    doubling_cascade_observed, feigenbaum_estimates,
+    BifurcationKind, Branch as Core, BranchEnd, Continuation, ContinuationParameter, Error as CoreError,
+    ImpactState, doubling_cascade_observed, feigenbaum_estimates,
 };
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -64,7 +64,11 @@ fn kind(kind: BifurcationKind) -> (&'static str, Option<usize>) {
 }
 
 impl Branch {
-    fn row(&self, py: Python<'_>, of: impl Fn(&bouncing_disk::core::BranchPoint) -> f64) -> Py<PyArray1<f64>> {
+    fn row(
+        &self,
+        py: Python<'_>,
+        of: impl Fn(&bouncing_disk::core::BranchPoint) -> f64,
+    ) -> Py<PyArray1<f64>> {
         results::array(py, self.0.points.iter().map(of).collect()).unbind()
     }
 
@@ -217,7 +221,8 @@ impl Branch {
         let (parameter, range) = (self.0.parameter, parameter_range);
         let settings = Settings { parameter, range, rising: true, first_step, largest_step, max_points };
         let settings = settings.checked(py)?;
-        long_call::run(py, progress.0, |observer| Ok(self.0.switched_observed(index, &settings, observer)?)).map(Self)
+        long_call::run(py, progress.0, |observer| Ok(self.0.switched_observed(index, &settings, observer)?))
+            .map(Self)
     }
 
     /// Number of orbits.
@@ -290,7 +295,7 @@ impl Branch {
 /// >>> orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
 /// >>> branch = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6))
 /// >>> [(found.kind, round(found.parameter, 6)) for found in branch.bifurcations]
-/// [('doubling', 0.484537)]
+/// [('doubling', 0.486003)]
 #[pyfunction]
 #[pyo3(signature = (
     impact_map, orbit, *, parameter="axial_forcing", parameter_range, rising=true, first_step=0.01, largest_step=0.05,
@@ -313,7 +318,8 @@ pub(crate) fn continued(
     let (parameter, range) = (self::parameter(parameter)?, parameter_range);
     let settings = Settings { parameter, range, rising, first_step, largest_step, max_points }.checked(py)?;
     let (map, orbit) = (impact_map.get().map, &orbit.get().0);
-    long_call::run(py, progress.0, |observer| Ok(map.continued_observed(orbit, &settings, observer)?)).map(Branch)
+    long_call::run(py, progress.0, |observer| Ok(map.continued_observed(orbit, &settings, observer)?))
+        .map(Branch)
 }
 
 /// The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers from them.
@@ -335,7 +341,7 @@ pub(crate) fn continued(
 /// --------
 /// >>> import bouncing_disk as bd
 /// >>> bd.doubling_cascade(restitution=0.5, count=3).axial_forcing.round(4)
-/// array([0.4845, 0.5258, 0.5401])
+/// array([0.486 , 0.5307, 0.5401])
 #[pyfunction]
 #[pyo3(signature = (*, restitution, count, progress=ProgressCallable(None)),
        text_signature = "(*, restitution, count, progress=None)")]

@@ -36,7 +36,9 @@ impl ChatterCut {
     #[pyo3(signature = (*, smallest_speed, short_flight, short_flights))]
     fn new(py: Python<'_>, smallest_speed: f64, short_flight: f64, short_flights: Count) -> PyResult<Self> {
         let flights = short_flights.at_most(py, "short_flights", u32::MAX.into(), "[1, 4294967295]")?;
-        Cut::new(smallest_speed, short_flight, flights as u32).map(Self).map_err(|error| errors::of(py, error))
+        Cut::new(smallest_speed, short_flight, flights as u32)
+            .map(Self)
+            .map_err(|error| errors::of(py, error))
     }
 
     /// The rule of the paper's simulations.

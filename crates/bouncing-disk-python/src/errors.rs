@@ -91,7 +91,9 @@ fn of_core(error: CoreError) -> Raised {
         CoreError::Stopped { done, total } => Computation("stopped", details![done, total]),
         CoreError::NoClosedForm => Invalid("no-closed-form", Vec::new()),
         CoreError::NoDecimal { at } => Invalid("no-decimal", details![at]),
-        CoreError::Unfitting { what, found, expected } => Invalid("unfitting", details![what, found, expected]),
+        CoreError::Unfitting { what, found, expected } => {
+            Invalid("unfitting", details![what, found, expected])
+        }
         _ => Computation("other", Vec::new()),
     }
 }
@@ -128,7 +130,10 @@ fn of_model(error: Error) -> Raised {
 /// A class of the module of errors.
 fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
-    MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._errors")?.unbind()))?.bind(py).getattr(name)
+    MODULE
+        .get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._errors")?.unbind()))?
+        .bind(py)
+        .getattr(name)
 }
 
 fn dictionary<'py>(py: Python<'py>, details: Vec<(&'static str, Detail)>) -> PyResult<Bound<'py, PyDict>> {

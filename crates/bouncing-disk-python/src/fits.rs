@@ -1,6 +1,8 @@
 //! Fits of transients.
 
-use bouncing_disk::{Error, ExponentialFit, FitSettings, IntervalEstimate, RiseEstimate, RiseForm, TransientFit};
+use bouncing_disk::{
+    Error, ExponentialFit, FitSettings, IntervalEstimate, RiseEstimate, RiseForm, TransientFit,
+};
 use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, columns, row};
@@ -39,12 +41,14 @@ pub(crate) fn fit_exponential<'py>(
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (times, speeds) = (row(times, "times")?, row(speeds, "speeds")?);
-    let fit = long_call::run(py, progress.0, |observer| ExponentialFit::new_observed(&times, &speeds, observer))?;
+    let fit =
+        long_call::run(py, progress.0, |observer| ExponentialFit::new_observed(&times, &speeds, observer))?;
     let fields = (fit.steady_speed, fit.time_constant, fit.residual, fit.stall_acceleration());
     results::make(py, "ExponentialFit", fields)
 }
 
-fn interval<'py>(py: Python<'py>, estimate: &IntervalEstimate) -> PyResult<Bound<'py, PyAny>> {
+/// An interval as Python has it.
+pub(crate) fn interval<'py>(py: Python<'py>, estimate: &IntervalEstimate) -> PyResult<Bound<'py, PyAny>> {
     results::make(py, "IntervalEstimate", (estimate.value, estimate.low, estimate.high))
 }
 

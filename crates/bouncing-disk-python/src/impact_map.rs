@@ -153,9 +153,7 @@ impl ImpactMap {
     ///     Phase and velocity of the next impact.
     #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
     fn step(&self, py: Python<'_>, impact_phase: f64, axial_impact_velocity: f64) -> PyResult<(f64, f64)> {
-        long_call::short(py, || {
-            Ok(pair(self.map.step(state(impact_phase, axial_impact_velocity)?)?.into()))
-        })
+        long_call::short(py, || Ok(pair(self.map.step(state(impact_phase, axial_impact_velocity)?)?.into())))
     }
 
     /// The impact that is so many steps later.
@@ -261,7 +259,8 @@ impl ImpactMap {
             ("axial_impact_velocity", velocities.len()),
         ])?;
         let orbit = long_call::run(py, None, |_| {
-            let impacts = phases.iter().enumerate().map(|(index, phase)| state(*phase, velocities.get(index)));
+            let impacts =
+                phases.iter().enumerate().map(|(index, phase)| state(*phase, velocities.get(index)));
             Ok(self.map.refine(&impacts.collect::<Result<Vec<_>, _>>()?)?)
         })?;
         Ok(PeriodicOrbit(orbit))
@@ -304,7 +303,8 @@ impl ImpactMap {
         tolerance: f64,
         progress: ProgressCallable,
     ) -> PyResult<Option<PeriodicOrbit>> {
-        let (transient, longest) = (transient.usize(py, "transient")?, longest_period.usize(py, "longest_period")?);
+        let (transient, longest) =
+            (transient.usize(py, "transient")?, longest_period.usize(py, "longest_period")?);
         let orbit = long_call::run(py, progress.0, |observer| {
             let start = ImpactState::from_normalised(impact_phase, normalised_speed)?;
             Ok(self.map.settled_orbit_observed(start, transient, longest, tolerance, observer)?)

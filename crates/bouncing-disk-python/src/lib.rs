@@ -9,6 +9,7 @@ mod attractors;
 mod basins;
 mod branch;
 mod chatter;
+mod design;
 mod diagram;
 mod errors;
 mod fits;
@@ -17,6 +18,7 @@ mod long_call;
 mod motor;
 mod operation;
 mod orbit_batch;
+mod parameter_fit;
 mod periodic_orbit;
 mod results;
 mod start;
@@ -42,6 +44,8 @@ mod _native {
     #[pymodule_export]
     use crate::chatter::ChatterCut;
     #[pymodule_export]
+    use crate::design::best_toss;
+    #[pymodule_export]
     use crate::diagram::{lyapunov_exponents, orbit_diagram, survival_times};
     #[pymodule_export]
     use crate::fits::{fit_exponential, fit_transients};
@@ -53,6 +57,8 @@ mod _native {
     use crate::operation::{best_phase_lag, operating_point, stall_load, torque_speed_curve};
     #[pymodule_export]
     use crate::orbit_batch::iterate_orbits;
+    #[pymodule_export]
+    use crate::parameter_fit::fit_parameters;
     #[pymodule_export]
     use crate::periodic_orbit::{PeriodicOrbit, periodic_orbits};
     #[pymodule_export]

@@ -382,7 +382,8 @@ impl Motor {
     }
 
     fn __hash__(&self) -> u64 {
-        let numbers = [self.drive_frequency(), self.amplitude(), self.mass(), self.friction(), self.load_torque()];
+        let numbers =
+            [self.drive_frequency(), self.amplitude(), self.mass(), self.friction(), self.load_torque()];
         text::hash(&numbers)
     }
 

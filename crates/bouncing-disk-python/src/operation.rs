@@ -61,9 +61,12 @@ fn numbers(operation: &Operation) -> Numbers {
         Operation::Steady(point) => {
             Numbers { values: of_point(point), impacts: impacts(point), status: 0, shortfall: String::new() }
         }
-        Operation::Unsettled(point, lack) => {
-            Numbers { values: of_point(point), impacts: impacts(point), status: 1, shortfall: shortfall(lack) }
-        }
+        Operation::Unsettled(point, lack) => Numbers {
+            values: of_point(point),
+            impacts: impacts(point),
+            status: 1,
+            shortfall: shortfall(lack),
+        },
         Operation::Runaway { load_torque, acceleration, .. } => {
             let mut values = [f64::NAN; 18];
             (values[0], values[17]) = (*load_torque, *acceleration);
@@ -135,7 +138,8 @@ pub(crate) fn operating_point<'py>(
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor = motor.get().0;
     let load = load_torque.unwrap_or_else(|| motor.load_torque());
     let operation =
@@ -179,14 +183,17 @@ pub(crate) fn torque_speed_curve<'py>(
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let loads = row(load_torques, "load_torques")?;
     let motor = motor.get().0;
     let operations = long_call::run(py, progress.0, |observer| {
         motor.torque_speed_curve_observed(&loads, &settings, observer)
     })?;
     let all: Vec<_> = operations.iter().map(numbers).collect();
-    let columns: Vec<_> = (0..18).map(|column| results::array(py, all.iter().map(|one| one.values[column]).collect())).collect();
+    let columns: Vec<_> = (0..18)
+        .map(|column| results::array(py, all.iter().map(|one| one.values[column]).collect()))
+        .collect();
     let rest = (
         results::array(py, all.iter().map(|one| one.impacts).collect()),
         results::array(py, all.iter().map(|one| one.status).collect()),
@@ -224,7 +231,8 @@ pub(crate) fn stall_load<'py>(
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor: Model = motor.get().0;
     let stall = long_call::run(py, progress.0, |observer| motor.stall_load_observed(&settings, observer))?;
     let fields = (
@@ -268,7 +276,8 @@ pub(crate) fn best_phase_lag<'py>(
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor: Model = motor.get().0;
     let best = long_call::run(py, progress.0, |observer| motor.best_phase_lag_observed(&settings, observer))?;
     let fields = (

@@ -102,7 +102,9 @@ impl PeriodicOrbit {
     ) -> PyResult<Option<f64>> {
         let samples = samples.at_most(py, "samples", 1 << 20, "[1, 2^20]")? as u32;
         let map = impact_map.get().map;
-        long_call::run(py, progress.0, |observer| Ok(self.0.trapping_radius_observed(&map, samples, observer)?))
+        long_call::run(py, progress.0, |observer| {
+            Ok(self.0.trapping_radius_observed(&map, samples, observer)?)
+        })
     }
 
     /// The orbit as JSON, as the Rust library stores it.
@@ -194,6 +196,7 @@ pub(crate) fn periodic_orbits(
     let search = OrbitSearch::new(impacts, periods).and_then(|search| search.with_starts(phases, speeds));
     let search = search.map_err(|error| errors::of(py, error))?;
     let map = impact_map.get().map;
-    let found = long_call::run(py, progress.0, |observer| Ok(map.periodic_orbits_observed(&search, observer)?))?;
+    let found =
+        long_call::run(py, progress.0, |observer| Ok(map.periodic_orbits_observed(&search, observer)?))?;
     Ok(found.orbits.into_iter().map(PeriodicOrbit).collect())
 }

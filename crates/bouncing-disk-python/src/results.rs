@@ -13,7 +13,8 @@ pub(crate) fn make<'py>(
     fields: impl IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>, Error: Into<PyErr>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
-    let module = MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._results")?.unbind()))?;
+    let module =
+        MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._results")?.unbind()))?;
     module.bind(py).getattr(class)?.call1(fields.into_pyobject(py).map_err(Into::into)?)
 }
 

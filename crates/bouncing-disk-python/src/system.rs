@@ -50,8 +50,14 @@ pub(crate) struct System(pub(crate) Model);
 
 /// The names of the arguments, and which part of the system they belong to.
 const PLATFORM: [&str; 4] = ["amplitude", "twist_amplitude", "angular_frequency", "phase_lag"];
-const DISK: [&str; 6] =
-    ["contact_radius", "gyration_radius", "friction", "restitution", "preload_acceleration", "load_acceleration"];
+const DISK: [&str; 6] = [
+    "contact_radius",
+    "gyration_radius",
+    "friction",
+    "restitution",
+    "preload_acceleration",
+    "load_acceleration",
+];
 
 fn build(py: Python<'_>, platform: PlatformParameters, disk: DiskParameters) -> PyResult<System> {
     let made = platform.build().and_then(|platform| Model::new(platform, disk.build()?));

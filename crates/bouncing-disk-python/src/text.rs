@@ -1,9 +1,9 @@
 //! How objects show themselves, and their hashes.
 
 use bouncing_disk::core::numerics::digest::Digest;
-use pyo3::prelude::*;
 use pyo3::PyTypeInfo;
 use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
 /// The call that makes an object: `Name(one=1.0, other=2.0)`.

@@ -2,8 +2,8 @@
 
 use bouncing_disk::core::{Error as CoreError, Watch};
 use bouncing_disk::{
-    DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PlatformState, Scales, SlipDirection, Snapshot,
-    System as Model, Trajectory as Motion, toss_trajectory as toss_motion,
+    DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PlatformState, Scales, SlipDirection,
+    Snapshot, System as Model, Trajectory as Motion, toss_trajectory as toss_motion,
 };
 use pyo3::prelude::*;
 
@@ -52,7 +52,8 @@ fn kind(event: &Event) -> u8 {
 /// The platform in SI units: its state scales as that of the disk.
 fn platform(scales: &Scales, state: &PlatformState) -> [f64; 4] {
     let PlatformState { height, axial_velocity, angle, angular_speed } = *state;
-    let state = scales.state(&DiskState { mode: Mode::Sticking, height, axial_velocity, angle, angular_speed });
+    let state =
+        scales.state(&DiskState { mode: Mode::Sticking, height, axial_velocity, angle, angular_speed });
     [state.height, state.axial_velocity, state.angle, state.angular_speed]
 }
 
@@ -137,8 +138,17 @@ impl Trajectory {
             }
             Ok((numbers, modes))
         })?;
-        let [time, height, axial_velocity, angle, angular_speed, platform_height, velocity, platform_angle, speed] =
-            numbers.map(|column| results::array(py, column));
+        let [
+            time,
+            height,
+            axial_velocity,
+            angle,
+            angular_speed,
+            platform_height,
+            velocity,
+            platform_angle,
+            speed,
+        ] = numbers.map(|column| results::array(py, column));
         let disk = (time, height, axial_velocity, angle, angular_speed);
         let rest = (platform_height, velocity, platform_angle, speed, results::array(py, modes));
         results::make(py, "TrajectorySamples", results::joined(py, disk, rest)?)
@@ -185,10 +195,16 @@ impl Trajectory {
             row(&|record| scales.state(&record.after).angular_speed),
             row(&|record| impact(record).map_or(f64::NAN, |(velocity, _, _)| velocity * scales.velocity)),
             row(&|record| impact(record).map_or(f64::NAN, |(_, speed, _)| speed * scales.angular_speed)),
-            results::array(py, records.iter().map(|record| impact(record).is_some_and(|(.., capped)| capped)).collect()),
             results::array(
                 py,
-                records.iter().map(|record| chatter(record).map_or(0, |(impacts, _)| impacts as i64)).collect(),
+                records.iter().map(|record| impact(record).is_some_and(|(.., capped)| capped)).collect(),
+            ),
+            results::array(
+                py,
+                records
+                    .iter()
+                    .map(|record| chatter(record).map_or(0, |(impacts, _)| impacts as i64))
+                    .collect(),
             ),
             row(&|record| chatter(record).map_or(f64::NAN, |(_, bound)| bound)),
         );

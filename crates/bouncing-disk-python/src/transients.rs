@@ -99,7 +99,8 @@ pub(crate) fn transient<'py>(
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (intervals, seed) = (intervals.usize(py, "intervals")?, seed.u64(py, "seed")?);
-    let settings = TransientSettings { duration, intervals, relaunch_perturbation, seed, policy: policy(chatter) };
+    let settings =
+        TransientSettings { duration, intervals, relaunch_perturbation, seed, policy: policy(chatter) };
     let system = system.get().0;
     let curve = long_call::run(py, progress.0, |observer| {
         transient_observed(&system, Phase::new(phase)?, &settings, observer)
@@ -158,7 +159,8 @@ pub(crate) fn transients<'py>(
             let mut all = Vec::new();
             for item in systems.try_iter()? {
                 let item = item?;
-                let system = item.cast::<System>().map_err(|_| PyTypeError::new_err("systems must hold systems"))?;
+                let system =
+                    item.cast::<System>().map_err(|_| PyTypeError::new_err("systems must hold systems"))?;
                 all.push(system.get().0);
             }
             let count = all.len();
@@ -183,7 +185,8 @@ pub(crate) fn transients<'py>(
             }
         },
     };
-    let members = common_length(&[("systems", many_systems), ("phases", phases.len()), ("seeds", many_seeds)])?;
+    let members =
+        common_length(&[("systems", many_systems), ("phases", phases.len()), ("seeds", many_seeds)])?;
     let policy = policy(chatter);
     let matrices = long_call::run(py, progress.0, |observer| {
         let mut all = room_for(members)?;
@@ -245,7 +248,8 @@ pub(crate) fn ensemble<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (members, intervals) = (members.usize(py, "members")?, intervals.usize(py, "intervals")?);
     let seed = seed.u64(py, "seed")?;
-    let settings = TransientSettings { duration, intervals, relaunch_perturbation, seed, policy: policy(chatter) };
+    let settings =
+        TransientSettings { duration, intervals, relaunch_perturbation, seed, policy: policy(chatter) };
     let system = system.get().0;
     let (runs, matrices) = long_call::run(py, progress.0, |observer| {
         let runs = ensemble_observed(&system, &settings, members, observer)?;

@@ -9,13 +9,14 @@ import sys
 import textwrap
 import threading
 import time
+from typing import Any
 
 import numpy as np
 import pytest
 
 import bouncing_disk as bd
 
-STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
+STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 
 # One of each kind of work, each of which takes minutes: many orbits, one orbit, a grid, a search, the engine, motors.
 ENDLESS = {
@@ -148,10 +149,10 @@ def test_python_goes_on_while_a_call_computes() -> None:
 def test_two_threads_compute_at_once() -> None:
     """Each call is under way before the other one ends."""
     both = threading.Barrier(2, timeout=30.0)
-    met = []
+    met: list[bool] = []
 
     def call() -> None:
-        waited = []
+        waited: list[bool] = []
 
         def progress(done: int, total: int) -> None:
             # Only a call that runs beside this one can meet it here.

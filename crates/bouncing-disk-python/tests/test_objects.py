@@ -13,7 +13,7 @@ import pytest
 
 import bouncing_disk as bd
 
-STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
+STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 MAP = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
 MOTOR = bd.Motor(
     drive_frequency=70e3,
@@ -181,16 +181,17 @@ def test_data_sheets_that_are_wrong_say_where() -> None:
 
 
 def test_systems_of_unknown_keys_are_refused() -> None:
-    for parameters in (
+    wrong: list[Any] = [
         {"plattform": {}},
         {"platform": {"amplitud": 1.0}},
         {"platform": {"friction": 1.0}},
         {"platform": 1},
         {1: {}},
         {},
-    ):
+    ]
+    for parameters in wrong:
         with pytest.raises((TypeError, ValueError)):
-            bd.System.from_dict(parameters)  # type: ignore[arg-type]
+            bd.System.from_dict(parameters)
     for text in ("", "1", "[]", "{", '{"platform": null}'):
         with pytest.raises((TypeError, ValueError)):
             bd.System.from_json(text)

@@ -12,7 +12,7 @@ import pytest
 
 import bouncing_disk as bd
 
-STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
+STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 MAP = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
 TOSS = bd.System.pizza_toss()
 MOTOR = bd.Motor(
@@ -51,7 +51,7 @@ def test_a_disk_that_rests_for_ever_has_fewer_impacts() -> None:
 def test_numbers_outside_their_range_are_told(field: str, value: float) -> None:
     for call in (bd.orbit_diagram, bd.verdicts, bd.lyapunov_exponents):
         with pytest.raises(bd.OutOfRangeError) as refused:
-            call(**{"axial_forcing": 0.5, **STARTS, field: [0.4, value]})  # type: ignore[operator]
+            call(**{"axial_forcing": 0.5, **STARTS, field: [0.4, value]})
         assert refused.value.field == field
         assert refused.value.value == value or np.isnan(value)
 
@@ -75,9 +75,10 @@ def test_counts_that_are_none_are_told() -> None:
             with pytest.raises(bd.OutOfRangeError) as refused:
                 call()
             assert refused.value.value == pytest.approx(float(count))
-    for count in (1.0, 1.5, "1", None, [1], np.array([1, 2])):
+    no_counts: list[Any] = [1.0, 1.5, "1", None, [1], np.array([1, 2])]
+    for none in no_counts:
         with pytest.raises(TypeError):
-            bd.orbit_diagram(axial_forcing=0.5, recorded=count, **STARTS)
+            bd.orbit_diagram(axial_forcing=0.5, recorded=none, **STARTS)
     assert len(bd.orbit_diagram(axial_forcing=0.5, recorded=np.int8(3), **STARTS).impact_phase) == 3
 
 

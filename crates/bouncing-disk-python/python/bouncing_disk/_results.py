@@ -8,7 +8,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bouncing_disk._native import ImpactMap, PeriodicOrbit
+from bouncing_disk._native import ImpactMap, Motor, PeriodicOrbit
 
 __all__ = [
     "Attractor",
@@ -23,6 +23,7 @@ __all__ = [
     "MotorReport",
     "OperatingPoint",
     "OrbitDiagram",
+    "ParameterFit",
     "Result",
     "RiseEstimate",
     "SpeedCurve",
@@ -30,6 +31,7 @@ __all__ = [
     "Spread",
     "StallLoad",
     "TorqueSpeedCurve",
+    "TossDesign",
     "TossOrbit",
     "TossPerformance",
     "TrajectorySamples",
@@ -893,3 +895,74 @@ class DoublingCascade(Result):
     delta_error: FloatArray
     alpha: FloatArray
     alpha_error: FloatArray
+
+
+@dataclass(frozen=True)
+class TossDesign:
+    """The best hand motion, and what it gives.
+
+    Attributes
+    ----------
+    stroke, amplitude_angle, angular_frequency, phase_lag : float
+        The hand motion (m, rad, rad/s, rad).
+    amplitude_ratio : float
+        The tangent of the amplitude angle.
+    value : float
+        The objective, over the range of friction: rad/s, a share, or turns.
+    toss : TossPerformance
+        The toss at the middle of the range of friction.
+    flight_height : float
+        How high the dough flies above the place where it leaves the hand (m).
+    turns : float
+        Turns until it is back there.
+    grid_points : int
+        Hand motions on the grid from which the optimum was found.
+    best_on_grid : float
+        The best of them.
+    hidden_gain : float
+        What the objective could be above the optimum at most.
+    """
+
+    stroke: float
+    amplitude_angle: float
+    angular_frequency: float
+    phase_lag: float
+    amplitude_ratio: float
+    value: float
+    toss: TossPerformance
+    flight_height: float
+    turns: float
+    grid_points: int
+    best_on_grid: float
+    hidden_gain: float
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterFit(Result):
+    """Parameters of a motor that were fitted to its transients.
+
+    Attributes
+    ----------
+    nominal : dict of str to float
+        The values of the data sheet (SI).
+    estimates : dict of str to IntervalEstimate or None
+        Values and 95 % intervals (SI); None for a parameter that the transients do not determine.
+    undetermined : tuple of (dict, float)
+        Directions that they do not determine, as changes of each parameter, and the standard error along each.
+    motor : Motor
+        The motor with the fitted parameters.
+    misfit : float
+        Sum of the weighted squares that is left.
+    degrees_of_freedom : int
+        Its expectation.
+    evaluations : int
+        How often all motors have been computed.
+    """
+
+    nominal: dict[str, float]
+    estimates: dict[str, IntervalEstimate | None]
+    undetermined: tuple[tuple[dict[str, float], float], ...]
+    motor: Motor
+    misfit: float
+    degrees_of_freedom: int
+    evaluations: int
