@@ -16,8 +16,8 @@ AT_REST = 1e-12
 def surely_rests(peak, lift_off, angle, speed, restitution):
     """Whether a disk that is launched like this comes to rest before the platform falls away from it.
 
-    Over the next `reach` the platform pulls with `least` to `most`; a flight then takes at most 2 speed/least, and
-    ends at most 2 most/least - 1 times as fast as it began.
+    Over the next `reach` the platform pulls with `least` to `most`; a flight then takes at most 2
+    speed/least, and ends at most 2 most/least - 1 times as fast as it began.
     """
     pull = 1.0 - peak * math.sin(angle)
     if pull <= 0.0:

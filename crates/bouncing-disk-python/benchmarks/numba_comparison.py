@@ -3,10 +3,11 @@
     pip install './crates/bouncing-disk-python' numba
     python crates/bouncing-disk-python/benchmarks/numba_comparison.py
 
-The workloads are those of docs/performance.md. W1: 500 orbits at Gamma = 0.55, 10,000 impacts of each. W3: the basin at
-Gamma = 0.5 on 300 x 300 cells. Motor: 512 run-ups of two seconds of the motor of Table III. Both programs run in turn, and
-the least of 20 times of each counts. Before, the answers are compared: single flights to the last digits, all labels
-of the basin, and the mean speed of the motors within its standard error (single run-ups are chaotic).
+The workloads are those of docs/performance.md. W1: 500 orbits at Gamma = 0.55, 10,000 impacts of each. W3:
+the basin at Gamma = 0.5 on 300 x 300 cells. Motor: 512 run-ups of two seconds of the motor of Table III. Both
+programs run in turn, and the least of 20 times of each counts. Before, the answers are compared: single
+flights to the last digits, all labels of the basin, and the mean speed of the motors within its standard
+error (single run-ups are chaotic).
 """
 
 from __future__ import annotations
@@ -88,7 +89,7 @@ def w1(count=ORBITS, impacts=IMPACTS):
 
 
 def w3(cells=CELLS, prove=False):
-    """Basins; `prove`: in Numba, too, rest is proven and not waited for, which the definition of W3 does not ask for."""
+    """Basins; `prove`: in Numba, too, rest is proven and not waited for, more than W3 asks for."""
     bouncing = bd.ImpactMap(axial_forcing=BASIN_FORCING, restitution=RESTITUTION)
     orbit = bouncing.refine(impact_phase=ORBIT_PHASES, axial_impact_velocity=ORBIT_VELOCITIES)
     centres = (np.arange(cells) + 0.5) / cells
@@ -107,7 +108,16 @@ def w3(cells=CELLS, prove=False):
     def by_hand():
         peak = math.pi * BASIN_FORCING
         basin(
-            peak, RESTITUTION, TAU * centres, 2.0 * centres, ORBIT_PHASES, ORBIT_VELOCITIES, RADIUS, MOST, prove, labels
+            peak,
+            RESTITUTION,
+            TAU * centres,
+            2.0 * centres,
+            ORBIT_PHASES,
+            ORBIT_VELOCITIES,
+            RADIUS,
+            MOST,
+            prove,
+            labels,
         )
         return labels
 
@@ -201,7 +211,9 @@ def main():
     bd.set_threads(count=1)
     workloads = [w1(), w3(), w3(prove=True), motors()]
     print(f"single flights: impact phases differ by at most {flights_differ():.1e} rad")
-    print(f"W3: {labels_differ(workloads[1])} and {labels_differ(workloads[2])} of {CELLS * CELLS} labels differ")
+    print(
+        f"W3: {labels_differ(workloads[1])} and {labels_differ(workloads[2])} of {CELLS * CELLS} labels differ"
+    )
     print(f"motor: mean speeds differ by {motors_differ(workloads[3]):.1f} standard errors")
     for workload in workloads:
         package, by_hand = least_times(workload, rounds)

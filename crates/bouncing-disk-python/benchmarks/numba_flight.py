@@ -1,14 +1,14 @@
 """Eq. 11 by hand in Numba: the first impact of a flight, and the impact map. For the comparison only.
 
-Times are in radians of the platform's phase, lengths in g/omega^2, speeds in g/omega; `peak` is P = pi Gamma. As fast as
-its author could make it while it finds the same first impacts as the library:
+Times are in radians of the platform's phase, lengths in g/omega^2, speeds in g/omega; `peak` is P = pi Gamma.
+As fast as its author could make it while it finds the same first impacts as the library:
 
-* A disk is hit before the first crest (phase pi/2) that it does not clear. If it clears the next one, it falls freely to
-  the height of the crests, in closed form, and then is hit before the one after.
-* Between the phases asin(1/P) and pi - asin(1/P) the gap is convex, elsewhere concave: a piece holds one root that is
-  known from the signs at its ends, or two, if a convex one dips.
-* A short flight is a root of gap(h)/h in a power series, which needs no sine; the others are found by Halley's
-  method, inside of a bracket.
+* A disk is hit before the first crest (phase pi/2) that it does not clear. If it clears the next one, it
+  falls freely to the height of the crests, in closed form, and then is hit before the one after.
+* Between the phases asin(1/P) and pi - asin(1/P) the gap is convex, elsewhere concave: a piece holds one root
+  that is known from the signs at its ends, or two, if a convex one dips.
+* A short flight is a root of gap(h)/h in a power series, which needs no sine; the others are found by
+  Halley's method, inside of a bracket.
 """
 
 from __future__ import annotations
@@ -44,7 +44,8 @@ def short_form(h, speed, sine, cosine):
 
 @njit(cache=True, inline="always")
 def root_between(low, high, guess, peak, height, speed, angle):
-    """The root of height + speed t - t^2/2 - P sin(angle + t) between `low` and `high`, where it falls from + to -.
+    """The root of height + speed t - t^2/2 - P sin(angle + t) between `low` and `high`, where it falls from +
+    to -.
 
     The only one there. Returns the time and the cosine of the phase.
     """
@@ -94,8 +95,8 @@ def dip(low, high, peak, height, speed, angle):
 def root_before_crest(peak, lift_off, height, speed, angle, crest, at_start):
     """The first root before the crest that comes `crest` after `angle`; -1 if there is none.
 
-    `height`, `speed` as of `root_between`; `at_start`: whether the time 0 is itself a root, from which the disk rises.
-    Returns the time and the cosine of the phase.
+    `height`, `speed` as of `root_between`; `at_start`: whether the time 0 is itself a root, from which the
+    disk rises. Returns the time and the cosine of the phase.
     """
     start, inflection = 0.0, 0.0
     if peak > 1.0:
@@ -117,8 +118,11 @@ def root_before_crest(peak, lift_off, height, speed, angle, crest, at_start):
     else:
         inflection = crest
     # A launch where the platform begins to fall away has no concave piece, whatever rounding says.
-    if inflection > 1e-12 and height + inflection * (speed - 0.5 * inflection) <= (1.0 if peak > 1.0 else peak):
-        # Concave: from the end Newton's steps stay on one side; the parabola of the launch is nearer if it is inside.
+    if inflection > 1e-12 and height + inflection * (speed - 0.5 * inflection) <= (
+        1.0 if peak > 1.0 else peak
+    ):
+        # Concave: from the end Newton's steps stay on one side; the parabola of the launch is nearer if it is
+        # inside.
         guess = inflection
         if at_start:
             pull = 1.0 - peak * math.sin(angle)
@@ -131,7 +135,8 @@ def root_before_crest(peak, lift_off, height, speed, angle, crest, at_start):
         return -1.0, 0.0
     if height + crest * (speed - 0.5 * crest) <= peak:
         return root_between(low, crest, low, peak, height, speed, angle)
-    # Convex, and above at both ends: a dip, if it falls at first and rises at last, and its tangents meet below zero.
+    # Convex, and above at both ends: a dip, if it falls at first and rises at last, and its tangents meet
+    # below zero.
     first = speed - low - peak * math.cos(angle + low)
     last = speed - crest
     if first < 0.0 < last:
@@ -147,7 +152,8 @@ def root_before_crest(peak, lift_off, height, speed, angle, crest, at_start):
 
 @njit(cache=True)
 def first_impact(peak, lift_off, angle, speed):
-    """The first impact after a launch at this phase with this relative speed: duration, phase, relative velocity.
+    """The first impact after a launch at this phase with this relative speed: duration, phase, relative
+    velocity.
 
     `lift_off` is asin(1/P) where P > 1.
     """

@@ -1,7 +1,7 @@
 """W2 by hand in Numba: run-ups of a motor. For the comparison only.
 
-It is a motor whose platform turns so fast (Q = a_g^2 Phi omega^2/(a_e g) far above mu (1 + P)) that the rotor never sticks:
-it slides, flies, and slides again. Angular speeds are in units of g a_e/(a_g^2 omega).
+It is a motor whose platform turns so fast (Q = a_g^2 Phi omega^2/(a_e g) far above mu (1 + P)) that the rotor
+never sticks: it slides, flies, and slides again. Angular speeds are in units of g a_e/(a_g^2 omega).
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ import numpy as np
 from numba import njit
 from numba_flight import TAU, first_impact, lift_off_phase, wrapped
 
-#: Below this launch speed, in units of what the platform pulls with, the rest of a chatter is summed in closed form.
+#: Below this launch speed, in units of what the platform pulls with, the rest of a chatter is summed in
+#: closed form.
 SUMMED = 1e-4
 
 
@@ -57,7 +58,8 @@ def slide(angles, interval, time, phase, duration, speed, twist, friction, peak)
         direction = math.copysign(1.0, slip if abs(slip) > 1e-9 * twist else math.sin(phase))
         piece, reverses = duration, False
         if abs(speed) < twist:
-            # The platform has the rotor's speed at these two phases; the next of them, corrected for the sliding.
+            # The platform has the rotor's speed at these two phases; the next of them, corrected for the
+            # sliding.
             at = math.acos(speed / twist)
             first, second = wrapped(at - phase), wrapped(-at - phase)
             t = min(first if first > 1e-9 else TAU, second if second > 1e-9 else TAU)
@@ -65,7 +67,9 @@ def slide(angles, interval, time, phase, duration, speed, twist, friction, peak)
                 sine, cosine = math.sin(phase), math.cos(phase)
                 for _ in range(3):
                     q, _ = slid(speed, direction, friction, peak, sine, cosine, phase, t)
-                    slope = -direction * friction * (1.0 - peak * math.sin(phase + t)) + twist * math.sin(phase + t)
+                    slope = -direction * friction * (1.0 - peak * math.sin(phase + t)) + twist * math.sin(
+                        phase + t
+                    )
                     t -= (q - twist * math.cos(phase + t)) / slope
                 if t < duration:
                     piece, reverses = t, True
@@ -117,7 +121,9 @@ def run_up(peak, twist, friction, restitution, phase, length, perturbation, seed
             if rest < wrapped(lift_off - phase):
                 impulse /= 1.0 - restitution
                 resting = True
-                turn_evenly(angles, interval, time, rest, speed - math.copysign(min(impulse, abs(slip)), slip))
+                turn_evenly(
+                    angles, interval, time, rest, speed - math.copysign(min(impulse, abs(slip)), slip)
+                )
                 time += rest
         speed -= math.copysign(min(impulse, abs(slip)), slip)
         if resting:
@@ -131,6 +137,14 @@ def run_ups(peak, twist, friction, restitution, phases, length, perturbation, se
     impacts = 0
     for member in range(len(phases)):
         impacts += run_up(
-            peak, twist, friction, restitution, phases[member], length, perturbation, seeds[member], angles[member]
+            peak,
+            twist,
+            friction,
+            restitution,
+            phases[member],
+            length,
+            perturbation,
+            seeds[member],
+            angles[member],
         )
     return impacts

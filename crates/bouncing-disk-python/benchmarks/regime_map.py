@@ -1,10 +1,11 @@
-"""The regime map: what the disk does for good, over axial forcing and restitution. A worked example of a sweep.
+"""The regime map: what the disk does for good, over axial forcing and restitution. A worked example of a
+sweep.
 
     python crates/bouncing-disk-python/benchmarks/regime_map.py --side 1000 --folder regimes
     python crates/bouncing-disk-python/benchmarks/regime_map.py --side 20000 --paper
 
-The first computes the map by local processes; ended and called again, it goes on. The second computes a few thousand
-cells of the map, and says what all of it would take: chunks, memory, hours of a core.
+The first computes the map by local processes; ended and called again, it goes on. The second computes a few
+thousand cells of the map, and says what all of it would take: chunks, memory, hours of a core.
 """
 
 from __future__ import annotations
@@ -86,8 +87,8 @@ class Plan(NamedTuple):
 def plan(side, rate, chunk_size=CHUNK):
     """What a map of so many cells a side takes at this rate (cells a second and core).
 
-    A worker holds for each cell of a chunk its map, its start, its orbit and the evidence of its verdict. What a process
-    grew by was measured, 1,900 bytes a cell.
+    A worker holds for each cell of a chunk its map, its start, its orbit and the evidence of its verdict.
+    What a process grew by was measured, 1,900 bytes a cell.
     """
     points = side * side
     return Plan(

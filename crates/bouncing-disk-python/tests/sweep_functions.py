@@ -21,7 +21,11 @@ def scaled(a: Any, b: Any, factor: float) -> Any:
 
 
 def fields(a: Any, b: Any) -> dict[str, Any]:
-    return {"sum": a + b, "pair": np.stack([a, b], axis=-1), "count": np.arange(len(a), dtype=np.int16) * 0 + 3}
+    return {
+        "sum": a + b,
+        "pair": np.stack([a, b], axis=-1),
+        "count": np.arange(len(a), dtype=np.int16) * 0 + 3,
+    }
 
 
 def point_fields(a: float, b: float) -> dict[str, Any]:

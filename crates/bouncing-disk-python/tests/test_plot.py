@@ -82,7 +82,9 @@ def test_an_orbit_diagram_of_a_restitution_follows_two_starts() -> None:
 
 def test_an_orbit_diagram_of_nothing_and_of_one_column() -> None:
     for forcings in ([], [0.5]):
-        diagram = bd.orbit_diagram(axial_forcing=forcings, restitution=0.5, impact_phase=1.0, normalised_speed=1.0)
+        diagram = bd.orbit_diagram(
+            axial_forcing=forcings, restitution=0.5, impact_phase=1.0, normalised_speed=1.0
+        )
         _, ax = plot.orbit_diagram(diagram)
         assert len(drawn(ax.lines[0])[0]) == 50 * len(forcings)
     with pytest.raises(ValueError, match="quantity"):
@@ -155,7 +157,11 @@ def test_a_run_up_shows_band_member_and_fit() -> None:
     assert speed == pytest.approx(steady * (1.0 - np.exp(-time / constant)))
     assert ax.get_xlim() == pytest.approx((0.0, 4.0))
     title = ax.get_legend().get_title().get_text()
-    assert f"{steady:.1f}" in title and "rad/s" in title and "80 % of 12 runs" in ax.get_legend().get_texts()[0].get_text()
+    assert (
+        f"{steady:.1f}" in title
+        and "rad/s" in title
+        and "80 % of 12 runs" in ax.get_legend().get_texts()[0].get_text()
+    )
 
 
 def test_a_run_up_of_a_motor_lasts_eight_time_constants() -> None:
@@ -205,7 +211,10 @@ def test_an_animation_moves_disk_and_platform() -> None:
     seen = []
     for frame in (0, 10, 19):
         platform, platform_dot, _, disk, disk_dot, _ = animation._func(frame)
-        assert disk.get_ydata()[0] == samples.height[frame] and platform.get_ydata()[0] == samples.platform_height[frame]
+        assert (
+            disk.get_ydata()[0] == samples.height[frame]
+            and platform.get_ydata()[0] == samples.platform_height[frame]
+        )
         radius = bd.System.pizza_toss().contact_radius
         assert disk_dot.get_xdata()[0] == pytest.approx(radius * np.cos(samples.angle[frame]))
         seen.append(platform_dot.get_xdata()[0])

@@ -31,7 +31,8 @@ def test_the_map_of_a_hundred_by_a_hundred(tmp_path: Path) -> None:
     assert result.values.dtype == np.uint8 and result.values.shape == (100, 100)
     assert np.array_equal(result.values.ravel(), alone(result, np.arange(10_000)))
     forcings, restitutions = result.axes.values()
-    # Below 1/pi the platform never falls away; below the birth of the period-1 orbit, too, the disk comes to rest.
+    # Below 1/pi the platform never falls away; below the birth of the period-1 orbit, too, the disk comes to
+    # rest.
     weak = forcings[:, np.newaxis] < np.minimum(1.0 / np.pi, (1.0 - restitutions) / (1.0 + restitutions))
     rest = bd.Verdicts.KINDS.index("at-rest")
     assert (result.values[weak] == rest).mean() > 0.99

@@ -30,7 +30,9 @@ def test_chunks_change_nothing(chunk_size: int | None) -> None:
     assert result[1, 2] == 60.0
 
 
-@pytest.mark.parametrize(("function", "pointwise"), [(functions.fields, False), (functions.point_fields, True)])
+@pytest.mark.parametrize(
+    ("function", "pointwise"), [(functions.fields, False), (functions.point_fields, True)]
+)
 def test_mappings_become_fields(function: Any, pointwise: bool) -> None:
     result = serial(function, pointwise=pointwise, chunk_size=5)
     assert result.values.dtype == np.dtype([("sum", "f8"), ("pair", "f8", (2,)), ("count", "i2")])
@@ -69,7 +71,8 @@ def test_one_point() -> None:
 
 
 @pytest.mark.parametrize(
-    "axis", [np.arange(3), np.array([True, False]), np.array(["x", "yy"]), np.array([1e308, 5e-324, np.inf, np.nan])]
+    "axis",
+    [np.arange(3), np.array([True, False]), np.array(["x", "yy"]), np.array([1e308, 5e-324, np.inf, np.nan])],
 )
 def test_axes_of_many_types(axis: Any) -> None:
     result = bd.sweep(lambda a: a, {"a": axis}, "serial")
@@ -137,7 +140,10 @@ def test_a_failed_point_is_named_and_the_others_kept(pointwise: bool, chunk_size
     assert point.place == (2, 1) and point.values == {"a": 3.0, "b": 20.0}
     assert (point.error, point.message) == ("ValueError", "three and twenty")
     assert "refuses_three" in point.traceback
-    assert str(failure.value) == "the function failed at 1 point: a = 3.0, b = 20.0: ValueError: three and twenty"
+    assert (
+        str(failure.value)
+        == "the function failed at 1 point: a = 3.0, b = 20.0: ValueError: three and twenty"
+    )
     result = failure.value.result
     assert result is not None and result.failed.sum() == 1 and result.failed[2, 1]
     assert np.isnan(result.values[2, 1])

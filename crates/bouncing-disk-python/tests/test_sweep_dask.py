@@ -165,7 +165,9 @@ def run_script(tmp_path: Path, guarded: bool) -> subprocess.CompletedProcess[str
     )
     script = tmp_path / "script.py"
     script.write_text(text)
-    return subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run(
+        [sys.executable, str(script)], capture_output=True, text=True, timeout=120, check=False
+    )
 
 
 def test_a_function_of_a_script(tmp_path: Path) -> None:

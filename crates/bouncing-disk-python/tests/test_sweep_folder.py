@@ -129,7 +129,10 @@ def test_a_folder_in_the_place_of_a_chunk(folder: Path, log: Path) -> None:
     swept(folder, log)
     (folder / "chunk-000000.npz").unlink()
     (folder / "chunk-000000.npz").mkdir()
-    with pytest.warns(bd.SweepFolderWarning, match="not a file"), pytest.raises(bd.SweepFolderError) as refusal:
+    with (
+        pytest.warns(bd.SweepFolderWarning, match="not a file"),
+        pytest.raises(bd.SweepFolderError) as refusal,
+    ):
         swept(folder, log)
     assert refusal.value.kind == "cannot-write"
 
@@ -139,7 +142,10 @@ def test_a_folder_in_the_place_of_a_chunk(folder: Path, log: Path) -> None:
     [
         ({"grid": {"a": [1.0, 2.0, 3.0, 4.0], "b": [10.0, 20.0, 30.000001]}}, "grid.b.last is '30.0' there"),
         ({"grid": {"a": [1.0, 2.5, 3.0, 4.0], "b": [10.0, 20.0, 30.0]}}, "the values of grid.a differ"),
-        ({"grid": {"b": [10.0, 20.0, 30.0], "a": [1.0, 2.0, 3.0, 4.0]}}, "the axes are a, b there, b, a here"),
+        (
+            {"grid": {"b": [10.0, 20.0, 30.0], "a": [1.0, 2.0, 3.0, 4.0]}},
+            "the axes are a, b there, b, a here",
+        ),
         ({"chunk_size": 4}, "chunk_size is 5 there, 4 here"),
         ({"arguments": {"log": "/dev/null"}}, "arguments.log is "),
     ],
@@ -229,7 +235,12 @@ def test_failed_points_are_kept_apart_and_tried_again(folder: Path, tmp_path: Pa
 
     def run() -> bd.SweepResult:
         return bd.sweep(
-            functions.refuses_unless_mended, GRID, "serial", folder=folder, chunk_size=4, arguments={"flag": str(flag)}
+            functions.refuses_unless_mended,
+            GRID,
+            "serial",
+            folder=folder,
+            chunk_size=4,
+            arguments={"flag": str(flag)},
         )
 
     for _ in range(2):
@@ -349,7 +360,9 @@ def test_an_ended_process_leaves_its_chunks(folder: Path, log: Path, sent: signa
                  arguments={{"seconds": 0.1, "log": {str(log)!r}}})
         """
     )
-    process = subprocess.Popen([sys.executable, "-c", script], cwd=Path(__file__).parent, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], cwd=Path(__file__).parent, stderr=subprocess.PIPE
+    )
     deadline = time.monotonic() + 60
     while len(list(folder.glob("chunk*.npz"))) < 3:
         assert time.monotonic() < deadline and process.poll() is None
@@ -366,8 +379,12 @@ def test_an_ended_process_leaves_its_chunks(folder: Path, log: Path, sent: signa
     arguments = {"seconds": 0.1, "log": str(log)}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        resumed = bd.sweep(functions.slow_speeds, grid, "serial", folder=folder, chunk_size=1, arguments=arguments)
+        resumed = bd.sweep(
+            functions.slow_speeds, grid, "serial", folder=folder, chunk_size=1, arguments=arguments
+        )
     assert len(calls(log)) - before == 12 - kept
-    whole = bd.sweep(functions.slow_speeds, grid, "serial", chunk_size=12, arguments={**arguments, "seconds": 0.0})
+    whole = bd.sweep(
+        functions.slow_speeds, grid, "serial", chunk_size=12, arguments={**arguments, "seconds": 0.0}
+    )
     assert resumed.values.tobytes() == whole.values.tobytes()
     assert not list(folder.glob("*.unfinished"))

@@ -47,30 +47,33 @@ def sweep(
 ) -> SweepResult:
     """Compute a function at every point of a grid: in processes of this machine, or on a Dask cluster.
 
-    The results have the same bits for any cluster, as long as those of a point do not depend on the points that it is
-    computed with. So it is with every function of this package.
+    The results have the same bits for any cluster, as long as those of a point do not depend on the points
+    that it is computed with. So it is with every function of this package.
 
     Parameters
     ----------
     function : callable
-        Called with keywords: for each axis an array with its values at the points of a chunk (all of one length,
-        at most `chunk_size`), and the `arguments`. It returns one result for each point: an array whose first axis is
-        that of the points, or a mapping of names to such arrays.
+        Called with keywords: for each axis an array with its values at the points of a chunk (all of one
+        length, at most `chunk_size`), and the `arguments`. It returns one result for each point: an array
+        whose first axis is that of the points, or a mapping of names to such arrays.
     grid : mapping of str to (n,) array
-        The axes by their names. The points are their Cartesian product, the last axis fastest. An axis without values
-        makes a grid without points, for which the function is not called.
+        The axes by their names. The points are their Cartesian product, the last axis fastest. An axis
+        without values makes a grid without points, for which the function is not called.
     client : distributed.Client, "serial" or None
-        The client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``, ``SSHCluster`` ...).
-        By default local processes, one for each processor; without Dask, and with ``"serial"``, this process.
+        The client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``,
+        ``SSHCluster`` ...). By default local processes, one for each processor; without Dask, and with
+        ``"serial"``, this process.
     arguments : mapping, optional
         What the function is called with at every point: numbers, text, arrays, objects of this package.
     folder : path, optional
-        Where each finished chunk is stored at once, by the process that calls. The same call goes on where an earlier
-        one was ended, on any cluster. The folder of another sweep is refused; a chunk that is damaged is computed again.
+        Where each finished chunk is stored at once, by the process that calls. The same call goes on where an
+        earlier one was ended, on any cluster. The folder of another sweep is refused; a chunk that is damaged
+        is computed again.
     chunk_size : int, optional
         Points of a chunk; by default so many that there are 256 chunks, at most 65,536.
     pointwise : bool
-        Call the function for each point alone: with plain numbers, for a number, an array, or a mapping of them.
+        Call the function for each point alone: with plain numbers, for a number, an array, or a mapping of
+        them.
     max_failures : int
         Give up when more points fail than this.
     progress : callable, optional
@@ -84,8 +87,8 @@ def sweep(
     Raises
     ------
     SweepFailedError
-        The function raised exceptions. The points are named; all others are computed, kept in the folder, and in the
-        error's `result`. The same call tries the failed points again.
+        The function raised exceptions. The points are named; all others are computed, kept in the folder, and
+        in the error's `result`. The same call tries the failed points again.
     SweepFolderError
         The folder is in use, of another sweep, or cannot be written in.
     SweepFunctionError
@@ -249,8 +252,8 @@ def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
     Returns
     -------
     SweepResult
-        As :func:`sweep` returned it; `arguments` are as they were stored (arrays by their digest). Points that failed
-        are in `failed`.
+        As :func:`sweep` returned it; `arguments` are as they were stored (arrays by their digest). Points
+        that failed are in `failed`.
 
     Raises
     ------

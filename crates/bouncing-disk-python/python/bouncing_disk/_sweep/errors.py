@@ -50,8 +50,8 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
     failures : tuple of FailedPoint
         The points, in the order of the grid.
     result : SweepResult or None
-        What was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up because more
-        points failed than ``max_failures``.
+        What was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up because
+        more points failed than ``max_failures``.
     """
 
     def __init__(
@@ -80,8 +80,8 @@ class SweepFolderError(BouncingDiskError, RuntimeError):
     folder : str
         The folder.
     kind : str
-        Why: ``"in-use"``, ``"another-sweep"``, ``"other-files"``, ``"foreign-chunk"``, ``"damaged"``, ``"newer-format"``,
-        ``"incomplete"``, ``"not-a-sweep"``, ``"cannot-write"`` or ``"cannot-lock"``.
+        Why: ``"in-use"``, ``"another-sweep"``, ``"other-files"``, ``"foreign-chunk"``, ``"damaged"``,
+        ``"newer-format"``, ``"incomplete"``, ``"not-a-sweep"``, ``"cannot-write"`` or ``"cannot-lock"``.
     """
 
     def __init__(self, message: str, folder: str, kind: str) -> None:
@@ -95,7 +95,8 @@ class SweepFolderWarning(UserWarning):
 
 
 class SweepFunctionError(BouncingDiskError, TypeError):
-    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns what has no array.
+    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns what has
+    no array.
 
     Attributes
     ----------

@@ -76,9 +76,7 @@ def write_chunk(path: Path, about: dict[str, Any], values: Array, failed: Array)
     about = {**about, "values_sha256": array_digest(values), "failed_sha256": array_digest(failed)}
     text = json.dumps(about, ensure_ascii=True)
     archive = io.BytesIO()
-    np.savez(
-        archive, about=np.array(text), sha256=np.array(_digest(text)), values=values, failed=failed
-    )
+    np.savez(archive, about=np.array(text), sha256=np.array(_digest(text)), values=values, failed=failed)
     write_whole(path, archive.getvalue())
 
 

@@ -19,7 +19,8 @@ from bouncing_disk._sweep.grid import Grid, array_digest
 
 __all__ = ["Identity", "function_name", "lasting_name"]
 
-#: The name and the version of the files; the version rises when who reads older files could misunderstand newer ones.
+#: The name and the version of the files; the version rises when who reads older files could misunderstand
+#: newer ones.
 FORMAT = "bouncing-disk sweep"
 FORMAT_VERSION = 1
 

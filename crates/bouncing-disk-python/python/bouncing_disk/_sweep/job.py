@@ -1,6 +1,7 @@
 """What a worker does: the function at the points of one chunk.
 
-Nothing here knows of folders, clusters or progress, so that a chunk has the same bits wherever it is computed.
+Nothing here knows of folders, clusters or progress, so that a chunk has the same bits wherever it is
+computed.
 """
 
 from __future__ import annotations
@@ -120,7 +121,9 @@ class Job:
     def _array(self, returned: Any, count: int | None) -> Array:
         """What the function returned for so many points (None: for one of them, without an axis for it)."""
         if isinstance(returned, Mapping):
-            return self._structured({str(name): self._plain(value, count) for name, value in returned.items()})
+            return self._structured(
+                {str(name): self._plain(value, count) for name, value in returned.items()}
+            )
         return self._plain(returned, count)
 
     def _plain(self, returned: Any, count: int | None) -> Array:

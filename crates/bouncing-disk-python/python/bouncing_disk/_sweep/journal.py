@@ -140,7 +140,9 @@ def open_description(folder: Path) -> dict[str, Any]:
         raise SweepFolderError(f"{path}: {damage}", str(folder), "damaged") from damage
     if is_newer(described):
         program = described.get("program")
-        message = f"{path} was written by {program} in version {described['format']['version']}, which is newer"
+        message = (
+            f"{path} was written by {program} in version {described['format']['version']}, which is newer"
+        )
         raise SweepFolderError(message, str(folder), "newer-format")
     digest = described.pop("digest", None)
     if digest != digest_of(described):

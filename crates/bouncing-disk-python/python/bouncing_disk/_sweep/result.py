@@ -29,8 +29,8 @@ class SweepResult:
     Attributes
     ----------
     values : array
-        The results: one axis for each axis of the grid, in its order, and those of one result behind them. A structured
-        array if the function returns a mapping of names.
+        The results: one axis for each axis of the grid, in its order, and those of one result behind them. A
+        structured array if the function returns a mapping of names.
     axes : dict of str to (n,) array
         The axes of the grid.
     failed : bool array
@@ -63,7 +63,9 @@ class SweepResult:
         """The function, the axes and the type of the values."""
         axes = " x ".join(f"{name}[{len(axis)}]" for name, axis in self.axes.items())
         failed = f", {int(self.failed.sum())} failed" if self.failed.any() else ""
-        return f"SweepResult({self.function} over {axes}: {self.values.dtype} array {self.values.shape}{failed})"
+        return (
+            f"SweepResult({self.function} over {axes}: {self.values.dtype} array {self.values.shape}{failed})"
+        )
 
     def to_xarray(self, name: str | None = None) -> xarray.Dataset:
         """The results as a Dataset of xarray, which has the axes as its coordinates.
@@ -88,7 +90,9 @@ class SweepResult:
         elif name is None:
             parts = {field: self.values[field] for field in fields}
         else:
-            message = f"the results have fields with names ({', '.join(fields)}): a name for them is not needed"
+            message = (
+                f"the results have fields with names ({', '.join(fields)}): a name for them is not needed"
+            )
             raise InvalidError(message, "name", {"name": name})
         if doubled := sorted(set(parts) & set(self.axes)):
             message = f"{doubled[0]!r} is an axis and a result: rename one of them"

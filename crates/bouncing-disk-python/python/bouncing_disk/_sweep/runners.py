@@ -73,7 +73,8 @@ def _processors() -> int:
 def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterator[tuple[int, Outcome]]:
     """Chunks in the order in which the cluster finishes them.
 
-    Dask computes those of a worker that died again. What is not finished when the iterator is closed is cancelled.
+    Dask computes those of a worker that died again. What is not finished when the iterator is closed is
+    cancelled.
     """
     _check_sendable(job)
     distributed = import_module("distributed")

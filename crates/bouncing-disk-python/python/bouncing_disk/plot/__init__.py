@@ -1,8 +1,9 @@
 """The paper's figures of a system of one's own, by Matplotlib: ``from bouncing_disk import plot``.
 
-Each function takes a system, a map or a motor, computes what it shows, and draws it; or it takes results that are there
-already. It returns ``(fig, ax)``, and draws into `ax` if that is given. The look is that of a journal: ticks inside on
-all sides, serif text, units on every axis. It is set for these figures alone, not for yours.
+Each function takes a system, a map or a motor, computes what it shows, and draws it; or it takes results that
+are there already. It returns ``(fig, ax)``, and draws into `ax` if that is given. The look is that of a
+journal: ticks inside on all sides, serif text, units on every axis. It is set for these figures alone, not
+for yours.
 
 Matplotlib is an optional dependency: ``pip install 'bouncing-disk[plot]'``.
 """

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 import bouncing_disk as bd
 from bouncing_disk._errors import OutOfRangeError
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, SINGLE_COLUMN, pyplot, style
-from bouncing_disk.plot._toss import InitialSpin, trajectory_of
+from bouncing_disk.plot._toss import trajectory_of
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -23,13 +23,14 @@ _FRAMES_PER_SECOND = 30
 def toss_animation(
     motion: bd.System | bd.Trajectory,
     *,
-    initial_spin: InitialSpin = "absolute-rest",
+    initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
     slow_motion: float = 4.0,
     frames: int | None = None,
 ) -> FuncAnimation:
     """Disk and platform from the side, beside their heights over time.
 
-    Dots at the contact radius, in front of the disk and of the platform, turn with them; they are paler behind.
+    Dots at the contact radius, in front of the disk and of the platform, turn with them; they are paler
+    behind.
 
     Parameters
     ----------
@@ -45,8 +46,8 @@ def toss_animation(
     Returns
     -------
     matplotlib.animation.FuncAnimation
-        ``animation.save("toss.gif")`` writes it, ``HTML(animation.to_jshtml())`` shows it in a notebook. Keep it in a
-        variable: Matplotlib ends an animation that nobody holds.
+        ``animation.save("toss.gif")`` writes it, ``HTML(animation.to_jshtml())`` shows it in a notebook. Keep
+        it in a variable: Matplotlib ends an animation that nobody holds.
     """
     trajectory = trajectory_of(motion, initial_spin)
     duration = trajectory.end_time - trajectory.start_time
@@ -61,7 +62,12 @@ def toss_animation(
     plt: Any = pyplot()
     with style():
         fig, (side, graph) = plt.subplots(
-            1, 2, sharey=True, figsize=(1.6 * SINGLE_COLUMN, 2.8), width_ratios=(1.0, 1.4), layout="constrained"
+            1,
+            2,
+            sharey=True,
+            figsize=(1.6 * SINGLE_COLUMN, 2.8),
+            width_ratios=(1.0, 1.4),
+            layout="constrained",
         )
         (platform,) = side.plot([], [], color=BLUE, linewidth=3.0, solid_capstyle="butt", label="platform")
         (disk,) = side.plot([], [], color=BLACK, linewidth=2.0, solid_capstyle="butt", label="disk")
@@ -87,7 +93,14 @@ def toss_animation(
 
     def show(frame: int) -> tuple[Any, ...]:
         bodies = (
-            (platform, platform_dot, platform_now, curve.platform_height[frame], curve.platform_angle[frame], 1.3),
+            (
+                platform,
+                platform_dot,
+                platform_now,
+                curve.platform_height[frame],
+                curve.platform_angle[frame],
+                1.3,
+            ),
             (disk, disk_dot, disk_now, curve.height[frame], curve.angle[frame], 1.0),
         )
         for line, dot, now, height, angle, width in bodies:

@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 import bouncing_disk as bd
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, pyplot, style
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["basins", "orbit_diagram"]
-
-Quantity = Literal["phase", "speed"]
 
 _COLOURS = (BLACK, GREY, BLUE, ORANGE)
 #: Size of a point (1/72 inch): several of them make a line.
@@ -37,13 +36,13 @@ def orbit_diagram(
     columns: int = 600,
     transient: int = 2000,
     recorded: int = 100,
-    quantity: Quantity = "phase",
+    quantity: Literal["phase", "speed"] = "phase",
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
     """An orbit (bifurcation) diagram, as Fig. 6 of the paper.
 
-    Without a diagram, two starts are followed at each forcing: one a hundredth off the period-1 orbit (black),
-    where there is one, and a slow one (grey), which is drawn above it.
+    Without a diagram, two starts are followed at each forcing: one a hundredth off the period-1 orbit
+    (black), where there is one, and a slow one (grey), which is drawn above it.
 
     Parameters
     ----------
@@ -105,30 +104,39 @@ def orbit_diagram(
 def _two_starts(
     restitution: float, axial_forcing: tuple[float, float], columns: int, transient: int, recorded: int
 ) -> dict[str, bd.OrbitDiagram]:
+    def diagram(forcings: npt.ArrayLike, phases: npt.ArrayLike, speeds: npt.ArrayLike) -> bd.OrbitDiagram:
+        return bd.orbit_diagram(
+            axial_forcing=forcings,
+            restitution=restitution,
+            impact_phase=phases,
+            normalised_speed=speeds,
+            transient=transient,
+            recorded=recorded,
+        )
+
     forcings = np.linspace(*axial_forcing, columns)
-    settings = {"restitution": restitution, "transient": transient, "recorded": recorded}
+    orbits = [
+        bd.ImpactMap(axial_forcing=forcing, restitution=restitution).period_one() for forcing in forcings
+    ]
+    born = np.array([orbit is not None for orbit in orbits], dtype=np.bool_)
     diagrams = {}
-    orbits = [bd.ImpactMap(axial_forcing=forcing, restitution=restitution).period_one() for forcing in forcings]
-    born = np.array([orbit is not None for orbit in orbits])
     if born.any():
         phases, velocities = np.array([orbit for orbit in orbits if orbit is not None]).T
-        diagrams["from the period-1 orbit"] = bd.orbit_diagram(
-            axial_forcing=forcings[born],
-            impact_phase=phases,
-            normalised_speed=-_OFF * velocities / np.pi,
-            **settings,
-        )
+        diagrams["from the period-1 orbit"] = diagram(forcings[born], phases, -_OFF * velocities / np.pi)
     # On top: beyond the crisis both are on the same attractor.
-    diagrams["from a slow impact"] = bd.orbit_diagram(
-        axial_forcing=forcings, impact_phase=0.0, normalised_speed=_SLOW, **settings
-    )
+    diagrams["from a slow impact"] = diagram(forcings, 0.0, _SLOW)
     return diagrams
 
 
 def _dots_legend(ax: Any) -> None:
     """A legend with dots that can be seen, behind which no point is lost."""
     legend = ax.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2, handletextpad=0.1, columnspacing=1.0
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=2,
+        borderaxespad=0.2,
+        handletextpad=0.1,
+        columnspacing=1.0,
     )
     for handle in legend.legend_handles:
         handle.set_marker("o")
@@ -145,7 +153,8 @@ def basins(
     legend: bool = True,
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
-    """Basins of attraction, as Fig. 7 of the paper: white where the disk comes to rest, dark where it bounces for ever.
+    """Basins of attraction, as Fig. 7 of the paper: white where the disk comes to rest, dark where it bounces
+    for ever.
 
     Parameters
     ----------
@@ -208,7 +217,8 @@ def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, 
     patch: Any = import_module("matplotlib.patches").Patch
     shown = [label for label in range(len(basins.meaning)) if basins.share(label) > 0.0]
     handles = [
-        patch(facecolor=colours[label], edgecolor=BLACK, linewidth=0.6, label=_explained(basins, label)) for label in shown
+        patch(facecolor=colours[label], edgecolor=BLACK, linewidth=0.6, label=_explained(basins, label))
+        for label in shown
     ]
     ax.legend(
         handles=handles,

@@ -69,7 +69,9 @@ def motor_transient(
         fig, ax = drawn_on(ax)
         count = runs.speeds.shape[1]
         if count > 1:
-            ax.fill_between(time, low, high, color=BLUE, alpha=0.3, linewidth=0.0, label=f"80 % of {count} runs")
+            ax.fill_between(
+                time, low, high, color=BLUE, alpha=0.3, linewidth=0.0, label=f"80 % of {count} runs"
+            )
         ax.plot(time, runs.speeds[:, member], color=GREY, linewidth=0.7, label="one run")
         fitted = steady.mean * -np.expm1(-smooth / constant.mean)
         ax.plot(smooth, fitted, color=BLACK, linestyle=(0, (4, 2)), label="exponential")

@@ -53,8 +53,9 @@ _STYLE: dict[str, Any] = {
 def style() -> Iterator[None]:
     """The look of these figures, for others of the same document: ``with plot.style(): ...``.
 
-    Only the settings that make it are changed, and put back. (``rc_context`` puts back all. A notebook makes Matplotlib
-    interactive when the first figure is made; if that was undone, the notebook would show no figure any more.)
+    Only the settings that make it are changed, and put back. (``rc_context`` puts back all. A notebook makes
+    Matplotlib interactive when the first figure is made; if that was undone, the notebook would show no
+    figure any more.)
     """
     settings = pyplot().rcParams
     before = {name: settings[name] for name in _STYLE}

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 __all__ = ["toss"]
 
-InitialSpin = Literal["absolute-rest", "with-hand"]
 
-
-def trajectory_of(motion: bd.System | bd.Trajectory, initial_spin: InitialSpin) -> bd.Trajectory:
+def trajectory_of(
+    motion: bd.System | bd.Trajectory, initial_spin: Literal["absolute-rest", "with-hand"]
+) -> bd.Trajectory:
     """The motion that is drawn."""
     if isinstance(motion, bd.System):
         return bd.toss_trajectory(motion, initial_spin=initial_spin)
@@ -31,7 +31,7 @@ def trajectory_of(motion: bd.System | bd.Trajectory, initial_spin: InitialSpin) 
 def toss(
     motion: bd.System | bd.Trajectory,
     *,
-    initial_spin: InitialSpin = "absolute-rest",
+    initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
     samples: int = 2000,
     ax: Sequence[Axes] | np.ndarray[Any, Any] | None = None,
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
@@ -68,7 +68,11 @@ def toss(
             panel.plot(time, disk, color=BLACK, linewidth=1.2, label="disk")
             panel.set_ylabel(label)
             panel.margins(y=0.08)
-        for kind, marker, filled in (("separation", "o", False), ("impact", "o", True), ("attachment", "s", True)):
+        for kind, marker, filled in (
+            ("separation", "o", False),
+            ("impact", "o", True),
+            ("attachment", "s", True),
+        ):
             chosen = [place for place, name in enumerate(names) if name == kind]
             for panel, _, _, values, _ in rows if chosen else ():
                 panel.plot(
@@ -86,5 +90,7 @@ def toss(
                 )
         axes[1].set_xlim(0.0, 1.02 * time[-1])
         axes[1].set_xlabel("time (s)")
-        axes[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, borderaxespad=0.2, columnspacing=1.0)
+        axes[0].legend(
+            loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, borderaxespad=0.2, columnspacing=1.0
+        )
     return fig, axes
