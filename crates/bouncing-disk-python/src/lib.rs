@@ -17,6 +17,7 @@ mod impact_map;
 mod long_call;
 mod motor;
 mod operation;
+mod orbit_batch;
 mod parameter_fit;
 mod periodic_orbit;
 mod results;
@@ -54,6 +55,8 @@ mod _native {
     use crate::motor::Motor;
     #[pymodule_export]
     use crate::operation::{best_phase_lag, operating_point, stall_load, torque_speed_curve};
+    #[pymodule_export]
+    use crate::orbit_batch::iterate_orbits;
     #[pymodule_export]
     use crate::parameter_fit::fit_parameters;
     #[pymodule_export]

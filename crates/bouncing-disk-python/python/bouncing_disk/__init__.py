@@ -43,6 +43,7 @@ from bouncing_disk._native import (
     fit_exponential,
     fit_parameters,
     fit_transients,
+    iterate_orbits,
     lyapunov_exponents,
     multi_toss,
     operating_point,
@@ -145,6 +146,7 @@ __all__ = [
     "fit_exponential",
     "fit_parameters",
     "fit_transients",
+    "iterate_orbits",
     "lyapunov_exponents",
     "multi_toss",
     "operating_point",
@@ -161,4 +163,29 @@ __all__ = [
     "transient",
     "transients",
     "verdicts",
+]
+
+# Sweeps and what they raise: Dask and xarray are imported by the call that needs them.
+from bouncing_disk._sweep import (  # noqa: E402
+    FailedPoint,
+    MissingDependencyError,
+    SweepFailedError,
+    SweepFolderError,
+    SweepFolderWarning,
+    SweepFunctionError,
+    SweepResult,
+    read_sweep,
+    sweep,
+)
+
+__all__ += [
+    "FailedPoint",
+    "MissingDependencyError",
+    "SweepFailedError",
+    "SweepFolderError",
+    "SweepFolderWarning",
+    "SweepFunctionError",
+    "SweepResult",
+    "read_sweep",
+    "sweep",
 ]

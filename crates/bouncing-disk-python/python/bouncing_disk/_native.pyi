@@ -54,6 +54,7 @@ __all__ = [
     "fit_exponential",
     "fit_parameters",
     "fit_transients",
+    "iterate_orbits",
     "lyapunov_exponents",
     "multi_toss",
     "operating_point",
@@ -525,6 +526,15 @@ def fit_transients(
     largest_residual: _Float = 0.1,
     progress: _Progress = None,
 ) -> TransientFit: ...
+def iterate_orbits(
+    *,
+    axial_forcing: npt.ArrayLike,
+    restitution: npt.ArrayLike,
+    impact_phase: npt.ArrayLike,
+    normalised_speed: npt.ArrayLike,
+    impacts: _Int,
+    progress: _Progress = None,
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
 def lyapunov_exponents(
     *,
     axial_forcing: npt.ArrayLike,
