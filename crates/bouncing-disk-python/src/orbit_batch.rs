@@ -64,7 +64,6 @@ fn advanced(
     *, axial_forcing, restitution, impact_phase, normalised_speed, impacts, progress=ProgressCallable(None)
 ), text_signature = "(*, axial_forcing, restitution, impact_phase, normalised_speed, impacts, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
-#[expect(clippy::type_complexity, reason = "two arrays")]
 pub(crate) fn iterate_orbits<'py>(
     py: Python<'py>,
     axial_forcing: &Bound<'py, PyAny>,
