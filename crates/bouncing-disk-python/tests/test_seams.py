@@ -278,6 +278,12 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.best_phase_lag, [MOTOR], quick),
         (bd.fit_exponential, [], {"times": times, "speeds": speeds, "progress": None}),
         (bd.fit_transients, [], {"times": times, "speeds": speeds, "resamples": 200, "seed": 1}),
+        (bd.best_toss, [], {"friction": (0.6, 0.6), "objective": "efficiency", "stroke": 0.2, "progress": None}),
+        (
+            bd.fit_parameters,
+            [MOTOR],
+            {"transients": [(times, speeds, 9.8)], "ranges": {"friction": (0.05, 0.2)}, "progress": None},
+        ),
         (bd.set_threads, [], {"count": 2}),
     ]
 
