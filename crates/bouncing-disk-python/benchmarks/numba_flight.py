@@ -76,7 +76,7 @@ def root_between(low, high, guess, peak, height, speed, angle):
 
 @njit(cache=True)
 def dip(low, high, peak, height, speed, angle):
-    """The end of a bracket of the first root of a convex piece that falls at `low` and rises at `high`; else -1."""
+    """The end of a bracket of the first root of a convex piece that falls, then rises; -1 without a root."""
     for _ in range(100):
         t = 0.5 * (low + high)
         sine = math.sin(angle + t)

@@ -13,6 +13,9 @@ use crate::{long_call, results};
 /// Orbits that one thread advances together: what stays in its cache.
 const TOGETHER: usize = 1024;
 
+/// The last impact of each orbit as Python has it.
+type PhasesAndVelocities<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
 /// The impacts that so many steps lead to, of one share of the orbits.
 fn advanced(
     starts: &[(ImpactMap, ImpactState)],
@@ -63,8 +66,6 @@ fn advanced(
 #[pyo3(signature = (
     *, axial_forcing, restitution, impact_phase, normalised_speed, impacts, progress=ProgressCallable(None)
 ), text_signature = "(*, axial_forcing, restitution, impact_phase, normalised_speed, impacts, progress=None)")]
-#[expect(clippy::too_many_arguments, reason = "they are keywords")]
-#[expect(clippy::type_complexity, reason = "two arrays")]
 pub(crate) fn iterate_orbits<'py>(
     py: Python<'py>,
     axial_forcing: &Bound<'py, PyAny>,
@@ -73,7 +74,7 @@ pub(crate) fn iterate_orbits<'py>(
     normalised_speed: &Bound<'py, PyAny>,
     impacts: Count,
     progress: ProgressCallable,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<PhasesAndVelocities<'py>> {
     let starts = Starts::new(axial_forcing, restitution, impact_phase, normalised_speed)?;
     let impacts = impacts.u64(py, "impacts")?;
     let (phases, velocities) = long_call::run(py, progress.0, |observer| {

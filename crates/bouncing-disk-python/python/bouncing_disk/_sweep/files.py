@@ -72,7 +72,7 @@ def is_newer(described: dict[str, Any]) -> bool:
 
 
 def write_chunk(path: Path, about: dict[str, Any], values: Array, failed: Array) -> None:
-    """The file of a chunk: an NPZ archive that NumPy reads, of `values`, `failed`, and `about` (JSON) with digests."""
+    """The file of a chunk: an NPZ archive of `values`, `failed`, and `about` (JSON) with digests."""
     about = {**about, "values_sha256": array_digest(values), "failed_sha256": array_digest(failed)}
     text = json.dumps(about, ensure_ascii=True)
     archive = io.BytesIO()

@@ -1,0 +1,119 @@
+//! The numbers of the program are those of the library, to the last bit.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::{
+    AttractorSearch, Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, Phase,
+    VerdictSettings, Vibration, doubling_cascade, orbit_diagram, verdicts,
+};
+use bouncing_disk::{
+    InitialSpin, Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, System, TossConstraints,
+    TransientSettings, best_toss, ensemble, single_toss,
+};
+use common::Folder;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// The JSON that a command writes.
+fn written(line: &str) -> Value {
+    let folder = Folder::new();
+    folder.done(&format!("{line} --out a.json"));
+    serde_json::from_slice(&folder.read("a.json")).unwrap()
+}
+
+fn stored(of: &(impl Serialize + ?Sized)) -> Value {
+    serde_json::to_value(of).unwrap()
+}
+
+fn map(forcing: f64, restitution: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(forcing).unwrap(), restitution).unwrap()
+}
+
+/// Of a range, as the library's own figures divide theirs.
+fn value(first: f64, last: f64, count: usize, index: usize) -> f64 {
+    if index + 1 == count { last } else { first + (last - first) * index as f64 / (count - 1) as f64 }
+}
+
+#[test]
+fn tosses_and_designs() {
+    let toss = single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest).unwrap();
+    assert_eq!(written("toss")["performance"], stored(&toss));
+    let design = best_toss(&TossConstraints::pizza_toss()).unwrap();
+    assert_eq!(written("design")["design"], stored(&design));
+}
+
+#[test]
+fn diagrams_from_rest() {
+    let orbits: Vec<_> = (0..9)
+        .map(|index| {
+            let start = ImpactState::new(Phase::new(0.0).unwrap(), 0.0).unwrap();
+            map(value(0.3, 0.6, 9, index), 0.5).orbit(start, ChatterPolicy::Complete)
+        })
+        .collect();
+    let columns = orbit_diagram(&orbits, 100, 40).unwrap();
+    let found = written("diagram -G 0.3:0.6:9 --start rest --transient 100 --recorded 40");
+    for (column, found) in columns.iter().zip(found["columns"].as_array().unwrap()) {
+        let phases: Vec<f64> = column.iter().map(|impact| impact.phase().cycles()).collect();
+        assert_eq!(found["impacts"]["impact_phase_periods"], stored(&phases));
+    }
+}
+
+#[test]
+fn verdicts_on_a_map() {
+    let settings = VerdictSettings { transient: 200, impacts: 2_000, ..VerdictSettings::default() };
+    let mut starts = Vec::new();
+    for row in 0..4 {
+        for column in 0..7 {
+            let restitution = value(0.1, 0.9, 4, row);
+            let start = ImpactState::new(Phase::new(0.0).unwrap(), -TAU / (1.0 + restitution)).unwrap();
+            starts.push((map(value(0.2, 2.0, 7, column), restitution), start));
+        }
+    }
+    let found = written("verdicts -G 0.2:2:7 -r 0.1:0.9:4 --impacts 2000 --transient 200 --details");
+    let cells: Vec<&Value> = found["cells"].as_array().unwrap().iter().map(|cell| &cell["verdict"]).collect();
+    assert_eq!(json!(cells), stored(&verdicts(&starts, settings).unwrap()));
+    // Without details there is the kind of each.
+    let kinds = written("verdicts -G 0.2:2:7 -r 0.1:0.9:4 --impacts 2000 --transient 200");
+    let rows = kinds["kinds_by_restitution"].as_array().unwrap();
+    assert!(rows.len() == 4 && rows.iter().all(|row| row.as_str().unwrap().len() == 7), "{kinds}");
+}
+
+#[test]
+fn basins_with_a_chaotic_attractor() {
+    let search = AttractorSearch::default().with_starts(100).unwrap();
+    let grid = Grid::new(Axis::new(0.0, 1.0, 21).unwrap(), Axis::new(0.0, 5.0, 21).unwrap()).unwrap();
+    let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
+    let basins = map(0.55, 0.5).attractors(&search).unwrap().basins(grid, settings).unwrap();
+    let found = written("basins -G 0.55 --cells 21 --starts 100 --impacts 400");
+    let rows: Vec<String> =
+        (0..21).map(|row| basins.row(row).iter().map(|label| format!("{label:02x}")).collect()).collect();
+    assert_eq!(found["hexadecimal_labels_by_speed"], json!(rows));
+}
+
+#[test]
+fn doublings() {
+    assert_eq!(written("doublings --count 6")["doublings"], stored(&doubling_cascade(0.5, 6).unwrap()));
+}
+
+#[test]
+fn motors() {
+    let motor = Motor::paper_70_khz();
+    let axis = |field, values: [f64; 2]| SweepAxis::new(field, values.to_vec());
+    let settings = OperatingSettings { relative_error: 0.3, members: 4, ..OperatingSettings::default() };
+    // Two vertical motions.
+    let axes = vec![axis(MotorField::Amplitude, [1e-8, 2e-8]), axis(MotorField::LoadTorque, [0.0, 1e-5])];
+    let sweep = MotorSweep::new(motor, axes, settings).unwrap().run().unwrap();
+    let line = "motor sweep --over amplitude=1e-8:2e-8:2 --over load_torque=0:1e-5:2 --relative-error 0.3 --members 4";
+    assert_eq!(written(line)["cells"], stored(sweep.cells()));
+    let transient = TransientSettings { duration: 3.0, intervals: 30, ..TransientSettings::default() };
+    let all = ensemble(motor.system(), &transient, 7).unwrap();
+    let found = written("motor transient --members 7 --duration 3 --intervals 30");
+    assert_eq!((&found["curves"], &found["member_fits"]), (&stored(&all.curves), &stored(&all.fits)));
+    let curve = motor.torque_speed_curve(&[0.0, 1e-5, 2e-5], &settings).unwrap();
+    let line = "motor curve --loads 0:2e-5:3 --relative-error 0.3 --members 4";
+    assert_eq!(written(line)["operations"], stored(&curve));
+}
