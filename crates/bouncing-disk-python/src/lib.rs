@@ -23,6 +23,7 @@ mod periodic_orbit;
 mod results;
 mod start;
 mod system;
+mod system_dict;
 mod text;
 mod threads;
 mod toss;
