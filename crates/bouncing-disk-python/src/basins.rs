@@ -96,11 +96,15 @@ fn known(
     let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
     let radius = match radius {
         Some(radius) => radius,
-        None => orbit.trapping_radius_observed(map, SAMPLES, &quiet)?.ok_or(CoreError::NotSettled {
-            what: "trapping radius of a known orbit",
-            iterations: SAMPLES,
-            residual: orbit.multipliers().spectral_radius(),
-        })?,
+        None => match orbit.trapping_radius_observed(map, SAMPLES, &quiet)? {
+            Some(radius) => radius,
+            // Orbits with strong shear, such as those of two impacts in four periods, trap no circle.
+            None => orbit.attraction_radius_observed(map, &quiet)?.ok_or(CoreError::NotSettled {
+                what: "starts near a known orbit",
+                iterations: SAMPLES,
+                residual: orbit.multipliers().spectral_radius(),
+            })?,
+        },
     };
     Ok(KnownOrbit::new(orbit, radius)?)
 }
@@ -122,7 +126,8 @@ fn known(
 ///     Lowest and highest normalised speed.
 /// known_orbits : iterable, optional
 ///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad) within which
-///     a start counts as caught; without a radius it is the :meth:`PeriodicOrbit.trapping_radius`.
+///     a start counts as caught; without a radius it is the :meth:`PeriodicOrbit.trapping_radius`, or, of an orbit
+///     with strong shear that has none, one within which sampled starts end on the orbit.
 /// max_impacts : int, default 2000
 ///     Impacts after which a start is left undecided.
 /// chatter : ChatterCut, optional

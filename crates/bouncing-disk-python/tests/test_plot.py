@@ -93,7 +93,7 @@ def test_an_orbit_diagram_of_nothing_and_of_one_column() -> None:
 
 def test_basins_are_where_they_were_computed() -> None:
     bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
-    _, ax = plot.basins(bouncing, phases=40, speeds=30, speed_range=(0.0, 5.0), max_period=1)
+    _, ax = plot.basins(bouncing, phases=40, speeds=30, speed_range=(0.0, 5.0))
     image = ax.images[0]
     assert image.get_extent() == [0.0, 1.0, 0.0, 5.0] and image.origin == "lower"
     pixels = np.asarray(image.get_array())
@@ -103,7 +103,17 @@ def test_basins_are_where_they_were_computed() -> None:
     assert pixels[row, column].max() < 0.2
     assert pixels[0].min() == 1.0
     names = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert names[0].startswith("comes to rest (") and names[1].startswith("period 1 (")
+    assert names[0].startswith("comes to rest again and again (") and names[1].startswith("period 1 (")
+
+
+@pytest.mark.parametrize("forcing", [0.34, 0.486, 0.5, 0.55, 0.6])
+def test_basins_of_the_panels_of_fig_7(forcing: float) -> None:
+    bouncing = bd.ImpactMap(axial_forcing=forcing, restitution=0.5)
+    _, ax = plot.basins(bouncing, phases=40, speeds=40, speed_range=(0.0, 5.0))
+    names = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert names[0].startswith("comes to rest"), names
+    expected = {0.34: ["period 1"], 0.486: ["period 1", "period 4"], 0.5: ["period 2"], 0.55: ["chaotic"], 0.6: []}
+    assert [" ".join(name.split()[:2]) if name[0] == "p" else name.split()[0] for name in names[1:]] == expected[forcing]
 
 
 def test_basins_of_many_labels_and_without_a_legend() -> None:

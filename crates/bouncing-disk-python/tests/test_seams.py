@@ -162,7 +162,7 @@ def test_computations_without_a_result_say_why() -> None:
     assert 0.0 < failed.value.details["peak_acceleration"] < 1.0  # type: ignore[operator]
     with pytest.raises(bd.FitRefusedError):
         bd.fit_transients(times=np.linspace(0.1, 1.0, 50), speeds=np.zeros((50, 8)))
-    with pytest.raises(bd.ComputationError, match="trapping radius"):
+    with pytest.raises(bd.ComputationError, match="near a known orbit"):
         saddle = bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)[-1]
         bd.basins(MAP, phases=3, speeds=3, known_orbits=[saddle])
 
@@ -341,3 +341,16 @@ def test_a_fuzzed_call_raises_or_works(part: int) -> None:
         bd.set_threads()
     assert outcomes["raised"] > 300, outcomes
     assert outcomes["worked"] > 50, outcomes
+
+
+def test_an_orbit_with_strong_shear_has_a_radius_in_which_starts_end_on_it() -> None:
+    # Four impacts in two periods, beside period 1 at the forcing of Fig. 7(b).
+    bouncing = bd.ImpactMap(axial_forcing=0.486, restitution=0.5)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=4, max_platform_periods=2)
+    stable = [orbit for orbit in orbits if orbit.is_stable]
+    assert sorted(orbit.period for orbit in stable) == [1, 4]
+    found = bd.basins(bouncing, phases=30, speeds=30, speed_range=(0.0, 5.0), known_orbits=stable)
+    all_found = bd.attractors(bouncing).basins(phases=30, speeds=30, speed_range=(0.0, 5.0))
+    assert len(np.unique(found.labels)) == 3
+    # The orbits come in another order.
+    assert [(found.labels == label).sum() for label in (1,)] == [(all_found.labels == 1).sum()]

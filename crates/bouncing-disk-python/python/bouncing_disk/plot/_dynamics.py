@@ -149,7 +149,6 @@ def basins(
     phases: int = 600,
     speeds: int = 400,
     speed_range: tuple[float, float] = (0.0, 3.0),
-    max_period: int = 4,
     legend: bool = True,
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
@@ -159,13 +158,11 @@ def basins(
     Parameters
     ----------
     basins : Basins or ImpactMap
-        What is drawn; of a map, the basins of its attracting periodic orbits.
+        What is drawn; of a map, the basins of all attractors that :func:`bouncing_disk.attractors` finds.
     phases, speeds : int, default 600, 400
         Cells along the impact phase and speed, of a map.
     speed_range : (float, float), default (0, 3)
         Lowest and highest normalised speed, of a map.
-    max_period : int, default 4
-        The most impacts of the periodic orbits that are looked for, of a map.
     legend : bool, default True
         Whether the colours are explained above the axes.
     ax : Axes, optional
@@ -176,14 +173,7 @@ def basins(
     (Figure, Axes)
     """
     if isinstance(basins, bd.ImpactMap):
-        orbits = bd.periodic_orbits(basins, max_impacts=max_period, max_platform_periods=max_period)
-        basins = bd.basins(
-            basins,
-            phases=phases,
-            speeds=speeds,
-            speed_range=speed_range,
-            known_orbits=[orbit for orbit in orbits if orbit.is_stable],
-        )
+        basins = bd.attractors(basins).basins(phases=phases, speeds=speeds, speed_range=speed_range)
     elif not isinstance(basins, bd.Basins):
         raise TypeError(f"basins must be Basins or an ImpactMap, not {type(basins).__name__}")
     colours = _basin_colours(len(basins.meaning))
@@ -235,7 +225,7 @@ def _explained(basins: bd.Basins, label: int) -> str:
     """What a label means, in a few words, and its share."""
     orbit = re.fullmatch(r"periodic orbit: impacts (\d+), platform periods (\d+)", basins.meaning[label])
     if orbit is None:
-        meaning = basins.meaning[label]
+        meaning = basins.meaning[label].split(":")[0]
     else:
         impacts, periods = orbit.groups()
         meaning = f"period {impacts}" if impacts == periods else f"period {impacts} in {periods} cycles"
