@@ -55,7 +55,9 @@ def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
     assert curve.load_torque.tolist() == loads.tolist()
     assert curve.names() == ["steady", "steady", "runaway"]
     assert curve.speed[0] > curve.speed[1] > 0.0
-    assert abs(curve.speed[0] - stall.no_load_speed) < 5.0 * (curve.speed_error[0] + stall.no_load_speed_error)
+    assert abs(curve.speed[0] - stall.no_load_speed) < 5.0 * (
+        curve.speed_error[0] + stall.no_load_speed_error
+    )
     assert math.isnan(curve.speed[2]) and curve.acceleration[2] < 0.0
     assert curve.mechanical_power[1] == pytest.approx(curve.load_torque[1] * curve.speed[1])
     assert curve.efficiency[1] == pytest.approx(curve.mechanical_power[1] / curve.input_power[1])

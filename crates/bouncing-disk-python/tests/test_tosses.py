@@ -83,7 +83,9 @@ def test_a_toss_that_repeats_is_told_by_its_collisions() -> None:
     # Thrown next to the orbit.
     orbit = bd.multi_toss(bouncing, phase=0.74, relative_velocity=0.5 * 4.2 * 9.8 / 15.0)
     expected = bd.ImpactMap.of_system(bouncing).period_one()
-    assert expected is not None and orbit.kind == "periodic" and (orbit.period, orbit.platform_periods) == (1, 1)
+    assert (
+        expected is not None and orbit.kind == "periodic" and (orbit.period, orbit.platform_periods) == (1, 1)
+    )
     assert orbit.impact_phase == pytest.approx([expected[0]])
     assert orbit.axial_impact_velocity == pytest.approx([expected[1] * 9.8 / 15.0])
     assert np.abs(orbit.multipliers[0]) == pytest.approx(0.5)
@@ -107,7 +109,9 @@ def test_basins_of_attractors_have_their_labels() -> None:
     start = {"impact_phase": 2.0 * np.pi * basins.phase[column], "normalised_speed": basins.speed[row]}
     verdict = bd.verdicts(axial_forcing=0.486, restitution=0.5, **start)
     label = basins.labels[row, column]
-    expected = {1: verdict.rests[0] > 0}.get(int(label), verdict.names()[0] == "periodic" and verdict.rests[0] == 0)
+    expected = {1: verdict.rests[0] > 0}.get(
+        int(label), verdict.names()[0] == "periodic" and verdict.rests[0] == 0
+    )
     assert expected
     if label >= bd.FIRST_ORBIT:
         orbit = found.all[int(label) - 1].orbit
