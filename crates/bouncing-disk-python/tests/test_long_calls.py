@@ -54,7 +54,7 @@ import bouncing_disk as bd
 
 STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 MOTOR = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
-contact_radius=1.25e-3,
+                 contact_radius=1.25e-3,
                  gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
 TIMES = np.linspace(0.01, 4.0, 80)
 RISE = 22.0 * (1.0 - np.exp(-TIMES / 0.9)) + 0.3 * np.sin(40.0 * TIMES)
@@ -230,7 +230,8 @@ def test_a_process_that_was_forked_computes() -> None:
     warnings.simplefilter("ignore")
     import bouncing_disk as bd
     call = lambda: bd.orbit_diagram(axial_forcing=[0.5] * 64, restitution=0.5, impact_phase=1.2,
-    normalised_speed=1.3) before = call()
+                                    normalised_speed=1.3)
+    before = call()
     child = os.fork()
     if child == 0:
         os._exit(0 if call() == before else 1)
@@ -250,7 +251,7 @@ def test_a_call_after_an_interrupted_one_is_whole() -> None:
     threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     try:
         bd.verdicts(axial_forcing=0.56, restitution=0.5, impact_phase=1.2, normalised_speed=1.3,
-        impacts=10**12)
+                    impacts=10**12)
     except KeyboardInterrupt:
         pass
     print(call() == before)
