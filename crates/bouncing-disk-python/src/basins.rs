@@ -125,9 +125,10 @@ fn known(
 /// speed_range : (float, float), default (0, 3)
 ///     Lowest and highest normalised speed.
 /// known_orbits : iterable, optional
-///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad) within which
-///     a start counts as caught; without a radius it is the :meth:`PeriodicOrbit.trapping_radius`, or, of an orbit
-///     with strong shear that has none, one within which sampled starts end on the orbit.
+///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad)
+///     within which a start counts as caught; without a radius it is the
+///     :meth:`PeriodicOrbit.trapping_radius`, or, of an orbit with strong shear that has none, one within
+///     which sampled starts end on the orbit.
 /// max_impacts : int, default 2000
 ///     Impacts after which a start is left undecided.
 /// chatter : ChatterCut, optional

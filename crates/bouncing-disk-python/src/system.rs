@@ -146,7 +146,8 @@ impl System {
         Self(Model::motor())
     }
 
-    /// A system whose platform moves along a stroke that is shared between lift and twist (Eq. 13 of the paper).
+    /// A system whose platform moves along a stroke that is shared between lift and twist (Eq. 13 of the
+    /// paper).
     ///
     /// Parameters
     /// ----------
@@ -154,7 +155,8 @@ impl System {
     ///     Stroke c (m), not negative.
     /// amplitude_angle : float
     ///     Amplitude angle phi_L (rad), in [0, pi/2]: 0 lifts only, pi/2 twists only.
-    /// angular_frequency, phase_lag, contact_radius, gyration_radius, friction, restitution, preload_acceleration,
+    /// angular_frequency, phase_lag, contact_radius, gyration_radius, friction, restitution,
+    /// preload_acceleration,
     /// load_acceleration : float
     ///     As of :class:`System`.
     ///

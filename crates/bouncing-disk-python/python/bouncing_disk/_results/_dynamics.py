@@ -79,7 +79,8 @@ class Basins(Result):
     speed : (speeds,) float64 array
         Normalised impact speed of the cells' centres.
     phase_range, speed_range : (float, float)
-        Ends of the axes: ``(*phase_range, *speed_range)`` is the ``extent`` of a picture with ``origin="lower"``.
+        Ends of the axes: ``(*phase_range, *speed_range)`` is the ``extent`` of a picture with
+        ``origin="lower"``.
     meaning : tuple of str
         What each label means.
 

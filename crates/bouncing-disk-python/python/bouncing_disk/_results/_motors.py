@@ -171,8 +171,8 @@ class MotorReport(Result):
     peak_acceleration : float
         The stator's largest acceleration in units of the preload acceleration.
     regime : str
-        ``"no-lift-off"``, ``"periodic"``, ``"low-period-chattering"``, ``"long-chattering"``, ``"chaotic"`` or
-        ``"undecided"``.
+        ``"no-lift-off"``, ``"periodic"``, ``"low-period-chattering"``, ``"long-chattering"``, ``"chaotic"``
+        or ``"undecided"``.
     regime_impacts : int
         Impacts of a round, or that were looked at.
     regime_platform_periods : float

@@ -176,7 +176,8 @@ class ParameterFit(Result):
     estimates : dict of str to IntervalEstimate or None
         Values and 95 % intervals (SI); None for a parameter that the transients do not determine.
     undetermined : tuple of (dict, float)
-        Directions that they do not determine, as changes of each parameter, and the standard error along each.
+        Directions that they do not determine, as changes of each parameter, and the standard error along
+        each.
     motor : Motor
         The motor with the fitted parameters.
     misfit : float
