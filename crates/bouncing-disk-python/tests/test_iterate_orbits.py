@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import bouncing_disk as bd
 
 
-def starts(count: int) -> dict[str, np.ndarray]:
+def starts(count: int) -> dict[str, Any]:
     random = np.random.default_rng(5)
     return {
         "axial_forcing": random.uniform(0.1, 3.0, count),
@@ -49,7 +51,12 @@ def test_seams() -> None:
         axial_forcing=[], restitution=0.5, impact_phase=0.0, normalised_speed=1.0, impacts=3
     )
     assert [len(values) for values in none] == [0, 0]
-    one = {"axial_forcing": 0.5, "restitution": 0.5, "impact_phase": 0.0, "normalised_speed": 1.0}
+    one: dict[str, Any] = {
+        "axial_forcing": 0.5,
+        "restitution": 0.5,
+        "impact_phase": 0.0,
+        "normalised_speed": 1.0,
+    }
     assert bd.iterate_orbits(**one, impacts=2)[0].shape == (1,)
     for field, value in [("restitution", 1.5), ("normalised_speed", np.nan), ("axial_forcing", -1.0)]:
         with pytest.raises(bd.OutOfRangeError):
