@@ -3,8 +3,8 @@
     cargo build --release -p bouncing-disk-python --example overhead
     python crates/bouncing-disk-python/benchmarks/overhead.py target/release/examples/overhead
 
-Both run alternately, 20 rounds; the least times are compared. It counts as slower only where it exceeds what the Rust
-program shows against itself in the same way.
+Both run alternately, 20 rounds; the least times are compared. It counts as slower only where it exceeds what
+the Rust program shows against itself in the same way.
 """
 
 from __future__ import annotations

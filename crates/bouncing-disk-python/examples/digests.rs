@@ -1,6 +1,8 @@
-//! Prints digests of results as JSON. `tests/test_same_bits.py` makes the same calls from Python and compares.
+//! Prints digests of results as JSON. `tests/test_same_bits.py` makes the same calls from Python and
+//! compares.
 //!
-//!     cargo run --release -p bouncing-disk-python --example digests > crates/bouncing-disk-python/tests/digests.json
+//!     cargo run --release -p bouncing-disk-python --example digests >
+//!     crates/bouncing-disk-python/tests/digests.json
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::numerics::digest::Digest;

@@ -1,4 +1,5 @@
-//! Prints the least time (s) of five basins of 1,000 x 1,000 starts: what `benchmarks/overhead.py` compares with.
+//! Prints the least time (s) of five basins of 1,000 x 1,000 starts: what `benchmarks/overhead.py` compares
+//! with.
 //!
 //!     cargo run --release -p bouncing-disk-python --example overhead
 #![allow(clippy::print_stdout, reason = "an example shows its result")]

@@ -121,8 +121,9 @@ fn known(
 /// speed_range : (float, float), default (0, 3)
 ///     Lowest and highest normalised speed.
 /// known_orbits : iterable, optional
-///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad) within which
-///     a start counts as caught; without a radius it is the :meth:`PeriodicOrbit.trapping_radius`.
+///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad)
+///     within which a start counts as caught; without a radius it is the
+///     :meth:`PeriodicOrbit.trapping_radius`.
 /// max_impacts : int, default 2000
 ///     Impacts after which a start is left undecided.
 /// chatter : ChatterCut, optional

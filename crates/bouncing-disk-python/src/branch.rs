@@ -118,7 +118,8 @@ impl Branch {
         self.impacts(py, |state| state.phase().angle())
     }
 
-    /// Relative velocities of the impacts of each orbit, not positive, in units of g/omega, shape (n, period).
+    /// Relative velocities of the impacts of each orbit, not positive, in units of g/omega, shape (n,
+    /// period).
     #[getter]
     fn axial_impact_velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.impacts(py, ImpactState::velocity)
@@ -322,7 +323,8 @@ pub(crate) fn continued(
         .map(Branch)
 }
 
-/// The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers from them.
+/// The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers
+/// from them.
 ///
 /// Parameters
 /// ----------

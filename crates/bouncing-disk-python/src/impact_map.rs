@@ -14,7 +14,8 @@ use crate::{errors, long_call, results, text};
 /// The map from one impact of a bouncing disk to the next, without units.
 ///
 /// An impact is its phase (rad) and the velocity of the disk relative to the platform just before
-/// (``axial_impact_velocity``, not positive, in units of g/omega); the paper's normalised impact speed is that by -pi.
+/// (``axial_impact_velocity``, not positive, in units of g/omega); the paper's normalised impact speed is
+/// that by -pi.
 ///
 /// Parameters
 /// ----------
@@ -224,7 +225,8 @@ impl ImpactMap {
     /// -------
     /// (float, float) or None
     ///     Phase and velocity of its impact; None below the forcing at which it is born.
-    #[pyo3(signature = (*, platform_periods=Count::Fits(1)), text_signature = "($self, /, *, platform_periods=1)")]
+    #[pyo3(signature = (*, platform_periods=Count::Fits(1)),
+           text_signature = "($self, /, *, platform_periods=1)")]
     fn period_one(&self, py: Python<'_>, platform_periods: Count) -> PyResult<Option<(f64, f64)>> {
         let periods = match platform_periods {
             Count::Fits(0) => return Err(errors::out_of_range(py, "platform_periods", 0.0, "at least 1")),

@@ -1,7 +1,7 @@
 //! The compiled module `bouncing_disk._native` of the Python package `bouncing_disk`.
 //!
-//! It has no physics and no numerics of its own: arguments are checked and turned into those of the Rust library,
-//! results into NumPy arrays and plain Python objects.
+//! It has no physics and no numerics of its own: arguments are checked and turned into those of the Rust
+//! library, results into NumPy arrays and plain Python objects.
 #![cfg(feature = "extension-module")]
 
 mod arguments;
@@ -23,6 +23,7 @@ mod periodic_orbit;
 mod results;
 mod start;
 mod system;
+mod system_dict;
 mod text;
 mod threads;
 mod toss;

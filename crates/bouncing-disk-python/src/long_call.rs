@@ -1,8 +1,9 @@
 //! Long calls: the interpreter's lock is released, Ctrl-C stops them, a callable is told how far they are.
 //!
-//! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets Python
-//! look at its signals, and calls the callable. So the callable is only ever called by the thread that made the call,
-//! as progress bars and notebooks expect, and no thread that computes ever waits for the interpreter.
+//! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets
+//! Python look at its signals, and calls the callable. So the callable is only ever called by the thread that
+//! made the call, as progress bars and notebooks expect, and no thread that computes ever waits for the
+//! interpreter.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -68,7 +69,8 @@ pub(crate) fn run<T: Send>(
         pool.in_place_scope(|scope| {
             scope.spawn(move |_| {
                 *result_of = Some(catch_unwind(AssertUnwindSafe(|| work(shared))));
-                // Nobody listens any more only if the one that waits has gone, which it cannot before this is done.
+                // Nobody listens any more only if the one that waits has gone, which it cannot before this is
+                // done.
                 let _ = sender.send(());
             });
             while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(INTERVAL) {

@@ -10,8 +10,8 @@ use crate::{errors, long_call, results, text};
 
 /// A motor by its data sheet, in SI units.
 ///
-/// Of each pair of alternatives exactly one is given: ``peak_angular_speed`` or ``twist_amplitude``, ``mass`` or
-/// ``density``, ``preload_force`` or ``preload_acceleration``.
+/// Of each pair of alternatives exactly one is given: ``peak_angular_speed`` or ``twist_amplitude``, ``mass``
+/// or ``density``, ``preload_force`` or ``preload_acceleration``.
 ///
 /// Parameters
 /// ----------
@@ -28,7 +28,8 @@ use crate::{errors, long_call, results, text};
 /// mass : float, optional
 ///     Mass m of the rotor (kg), positive.
 /// density : float, optional
-///     Density of the rotor (kg/m^3), positive, with ``rotor_radius`` and ``rotor_thickness`` of a solid disc.
+///     Density of the rotor (kg/m^3), positive, with ``rotor_radius`` and ``rotor_thickness`` of a solid
+///     disc.
 /// rotor_radius, rotor_thickness : float, optional
 ///     Outer radius and thickness of the rotor (m), positive.
 /// contact_radius : float

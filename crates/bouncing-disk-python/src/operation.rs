@@ -105,7 +105,8 @@ impl Settings {
 /// load_torque : float, optional
 ///     Load torque (N m); by default that of the data sheet.
 /// relative_error : float, default 0.01
-///     Standard error of the mean speed that is asked for, relative to the speed without load, in [1e-6, 0.5].
+///     Standard error of the mean speed that is asked for, relative to the speed without load, in [1e-6,
+///     0.5].
 /// members : int, default 16
 ///     Vertical motions that are averaged over, in [4, 4096].
 /// most_impacts : int, default 20000000

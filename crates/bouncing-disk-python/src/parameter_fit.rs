@@ -65,11 +65,11 @@ fn measured(
 /// motor : Motor
 ///     The data sheet, from whose values the search begins.
 /// transients : iterable of (times, speeds, preload_acceleration)
-///     For each preload the times (n,) (s), the speeds (n,) or (n, m) of one or m runs (rad/s), and the preload
-///     acceleration (m/s^2).
+///     For each preload the times (n,) (s), the speeds (n,) or (n, m) of one or m runs (rad/s), and the
+///     preload acceleration (m/s^2).
 /// ranges : dict
-///     The range (low, high) of each parameter that is fitted: of ``friction``, ``restitution``, ``phase_lag``,
-///     ``amplitude`` and ``twist_amplitude``.
+///     The range (low, high) of each parameter that is fitted: of ``friction``, ``restitution``,
+///     ``phase_lag``, ``amplitude`` and ``twist_amplitude``.
 /// speed_error : float, optional
 ///     Standard deviation of the error of one measured speed (rad/s).
 /// members : int, default 64

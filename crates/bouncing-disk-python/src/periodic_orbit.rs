@@ -149,8 +149,8 @@ impl PeriodicOrbit {
 
 /// The periodic orbits of few impacts, stable and unstable.
 ///
-/// Those of one impact come from the closed form and are complete. All others are found from a grid of starts, which
-/// proves nothing about what it did not find.
+/// Those of one impact come from the closed form and are complete. All others are found from a grid of
+/// starts, which proves nothing about what it did not find.
 ///
 /// Parameters
 /// ----------

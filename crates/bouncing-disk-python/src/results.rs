@@ -1,5 +1,5 @@
-//! Results, which are classes of `bouncing_disk._results`: plain Python, so that they pickle, compare and print as
-//! Python's own do.
+//! Results, which are classes of `bouncing_disk._results`: plain Python, so that they pickle, compare and
+//! print as Python's own do.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;

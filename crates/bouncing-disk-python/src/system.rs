@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::{DiskParameters, Platform, PlatformParameters, Stroke, System as Model};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::{errors, text};
+use crate::system_dict::{DISK, PLATFORM};
+use crate::{errors, system_dict, text};
 
 /// A disk on a vibrating and twisting platform, in SI units.
 ///
@@ -47,17 +47,6 @@ use crate::{errors, text};
 #[pyclass(frozen, eq, module = "bouncing_disk")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct System(pub(crate) Model);
-
-/// The names of the arguments, and which part of the system they belong to.
-const PLATFORM: [&str; 4] = ["amplitude", "twist_amplitude", "angular_frequency", "phase_lag"];
-const DISK: [&str; 6] = [
-    "contact_radius",
-    "gyration_radius",
-    "friction",
-    "restitution",
-    "preload_acceleration",
-    "load_acceleration",
-];
 
 fn build(py: Python<'_>, platform: PlatformParameters, disk: DiskParameters) -> PyResult<System> {
     let made = platform.build().and_then(|platform| Model::new(platform, disk.build()?));
@@ -157,7 +146,8 @@ impl System {
         Self(Model::motor())
     }
 
-    /// A system whose platform moves along a stroke that is shared between lift and twist (Eq. 13 of the paper).
+    /// A system whose platform moves along a stroke that is shared between lift and twist (Eq. 13 of the
+    /// paper).
     ///
     /// Parameters
     /// ----------
@@ -165,7 +155,8 @@ impl System {
     ///     Stroke c (m), not negative.
     /// amplitude_angle : float
     ///     Amplitude angle phi_L (rad), in [0, pi/2]: 0 lifts only, pi/2 twists only.
-    /// angular_frequency, phase_lag, contact_radius, gyration_radius, friction, restitution, preload_acceleration,
+    /// angular_frequency, phase_lag, contact_radius, gyration_radius, friction, restitution,
+    /// preload_acceleration,
     /// load_acceleration : float
     ///     As of :class:`System`.
     ///
@@ -349,17 +340,7 @@ impl System {
     /// dict
     ///     ``{"platform": {...}, "disk": {...}}``, each of numbers by the names of the arguments.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (all, platform, disk) = (PyDict::new(py), PyDict::new(py), PyDict::new(py));
-        let numbers = self.numbers();
-        for (name, value) in PLATFORM.iter().zip(numbers) {
-            platform.set_item(name, value)?;
-        }
-        for (name, value) in DISK.iter().zip(&numbers[PLATFORM.len()..]) {
-            disk.set_item(name, value)?;
-        }
-        all.set_item("platform", platform)?;
-        all.set_item("disk", disk)?;
-        Ok(all)
+        system_dict::to(py, self.numbers())
     }
 
     /// The system of such a dictionary.
@@ -381,22 +362,7 @@ impl System {
     /// True
     #[staticmethod]
     fn from_dict<'py>(py: Python<'py>, parameters: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
-        let arguments = PyDict::new(py);
-        for (key, part) in parameters.iter() {
-            let key: String = key.extract()?;
-            let known: &[&str] = match key.as_str() {
-                "platform" => &PLATFORM,
-                "disk" => &DISK,
-                _ => return Err(unknown_key(&key)),
-            };
-            for (name, value) in part.cast::<PyDict>()?.iter() {
-                let name: String = name.extract()?;
-                if !known.contains(&name.as_str()) {
-                    return Err(unknown_key(&format!("{key}.{name}")));
-                }
-                arguments.set_item(name, value)?;
-            }
-        }
+        let arguments = system_dict::arguments(parameters)?;
         py.get_type::<Self>().call((), Some(&arguments))
     }
 
@@ -435,8 +401,4 @@ impl System {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         text::call("System", &self.arguments(py)?)
     }
-}
-
-fn unknown_key(key: &str) -> PyErr {
-    PyTypeError::new_err(format!("the key {key:?} is unknown"))
 }

@@ -25,7 +25,8 @@ pub(crate) fn hash(numbers: &[f64]) -> u64 {
     digest.value()
 }
 
-/// The JSON of a dictionary of plain values, by Python's own writer: its doubles are read back with the same bits.
+/// The JSON of a dictionary of plain values, by Python's own writer: its doubles are read back with the same
+/// bits.
 pub(crate) fn to_json(dictionary: &Bound<'_, PyDict>) -> PyResult<String> {
     dictionary.py().import("json")?.call_method1("dumps", (dictionary,))?.extract()
 }

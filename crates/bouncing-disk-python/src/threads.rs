@@ -1,8 +1,8 @@
 //! The threads that compute.
 //!
-//! Each call borrows a pool of its own, which is kept for the next one: two Python threads compute at the same time and
-//! neither waits for the work of the other. A process that was forked has none of its parent's threads; it makes its
-//! own pools.
+//! Each call borrows a pool of its own, which is kept for the next one: two Python threads compute at the
+//! same time and neither waits for the work of the other. A process that was forked has none of its parent's
+//! threads; it makes its own pools.
 
 use std::mem;
 use std::num::NonZeroUsize;
@@ -87,8 +87,8 @@ impl Drop for Borrowed {
 /// Returns
 /// -------
 /// int
-///     The number that :func:`set_threads` has set, else that of the environment variable ``RAYON_NUM_THREADS``, else
-///     that of the processor's threads. No bit of a result depends on it.
+///     The number that :func:`set_threads` has set, else that of the environment variable
+///     ``RAYON_NUM_THREADS``, else that of the processor's threads. No bit of a result depends on it.
 ///
 /// Examples
 /// --------

@@ -86,8 +86,8 @@ pub(crate) fn single_toss<'py>(
     performance(py, &toss)
 }
 
-/// What a motion is that has settled: its name, impacts and platform periods of a round, long flights of a chattering one,
-/// the multipliers, and the exponent.
+/// What a motion is that has settled: its name, impacts and platform periods of a round, long flights of a
+/// chattering one, the multipliers, and the exponent.
 type Class = (&'static str, usize, u64, usize, [Complex64; 3], Option<f64>);
 
 fn class(class: &OrbitClass) -> Class {

@@ -275,8 +275,8 @@ pub(crate) fn toss_trajectory(
 
 /// The motion of a disk, event by event.
 ///
-/// The disk starts on the platform if neither ``gap`` nor ``relative_velocity`` is given, leaves it if the latter is
-/// given alone, and is in the air if there is a gap.
+/// The disk starts on the platform if neither ``gap`` nor ``relative_velocity`` is given, leaves it if the
+/// latter is given alone, and is in the air if there is a gap.
 ///
 /// Parameters
 /// ----------

@@ -101,7 +101,8 @@ fn numbers(verdict: &Verdict) -> Numbers {
     }
 }
 
-/// What the orbit of each start does for good: periodic, chaotic, chattering, at rest or undecided, with the evidence.
+/// What the orbit of each start does for good: periodic, chaotic, chattering, at rest or undecided, with the
+/// evidence.
 ///
 /// Parameters
 /// ----------

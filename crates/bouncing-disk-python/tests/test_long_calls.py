@@ -18,7 +18,8 @@ import bouncing_disk as bd
 
 STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 
-# One of each kind of work, each of which takes minutes: many orbits, one orbit, a grid, a search, the engine, motors.
+# One of each kind of work, each of which takes minutes: many orbits, one orbit, a grid, a search, the engine,
+# motors.
 ENDLESS = {
     "diagram": "bd.orbit_diagram(axial_forcing=np.full(64, 0.56), transient=10**9, recorded=1, **STARTS)",
     "iterate": "bd.ImpactMap(axial_forcing=0.56, restitution=0.5).iterate("
@@ -52,7 +53,8 @@ import numpy as np
 import bouncing_disk as bd
 
 STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
-MOTOR = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3, contact_radius=1.25e-3,
+MOTOR = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
+                 contact_radius=1.25e-3,
                  gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
 TIMES = np.linspace(0.01, 4.0, 80)
 RISE = 22.0 * (1.0 - np.exp(-TIMES / 0.9)) + 0.3 * np.sin(40.0 * TIMES)
@@ -121,7 +123,9 @@ def test_a_progress_that_raises_stops_the_call_and_comes_through() -> None:
 
     began = time.perf_counter()
     with pytest.raises(Enough):
-        bd.orbit_diagram(axial_forcing=np.full(64, 0.56), transient=10**9, recorded=1, progress=progress, **STARTS)
+        bd.orbit_diagram(
+            axial_forcing=np.full(64, 0.56), transient=10**9, recorded=1, progress=progress, **STARTS
+        )
     assert time.perf_counter() - began < 5.0
 
 
@@ -174,7 +178,9 @@ def test_two_threads_compute_at_once() -> None:
                 both.wait()
                 met.append(True)
 
-        bd.orbit_diagram(axial_forcing=np.full(64, 0.56), transient=200_000, recorded=1, progress=progress, **STARTS)
+        bd.orbit_diagram(
+            axial_forcing=np.full(64, 0.56), transient=200_000, recorded=1, progress=progress, **STARTS
+        )
 
     calls = [threading.Thread(target=call) for _ in range(2)]
     for one in calls:
@@ -223,7 +229,8 @@ def test_a_process_that_was_forked_computes() -> None:
     import os, warnings
     warnings.simplefilter("ignore")
     import bouncing_disk as bd
-    call = lambda: bd.orbit_diagram(axial_forcing=[0.5] * 64, restitution=0.5, impact_phase=1.2, normalised_speed=1.3)
+    call = lambda: bd.orbit_diagram(axial_forcing=[0.5] * 64, restitution=0.5, impact_phase=1.2,
+                                    normalised_speed=1.3)
     before = call()
     child = os.fork()
     if child == 0:
@@ -243,7 +250,8 @@ def test_a_call_after_an_interrupted_one_is_whole() -> None:
     before = call()
     threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     try:
-        bd.verdicts(axial_forcing=0.56, restitution=0.5, impact_phase=1.2, normalised_speed=1.3, impacts=10**12)
+        bd.verdicts(axial_forcing=0.56, restitution=0.5, impact_phase=1.2, normalised_speed=1.3,
+                    impacts=10**12)
     except KeyboardInterrupt:
         pass
     print(call() == before)

@@ -63,7 +63,9 @@ def everything() -> dict[str, Any]:
         "SpeedCurves": bd.transients(bd.System.motor(), seeds=[1, 2], duration=0.01, intervals=5),
         "TransientEnsemble": runs,
         "ExponentialFit": bd.fit_exponential(times=times, speeds=runs.speeds[:, 0]),
-        "TransientFit": bd.fit_transients(times=times, speeds=runs.speeds, resamples=200, largest_residual=0.5),
+        "TransientFit": bd.fit_transients(
+            times=times, speeds=runs.speeds, resamples=200, largest_residual=0.5
+        ),
         "OperatingPoint": bd.operating_point(MOTOR, relative_error=0.1),
         "TorqueSpeedCurve": bd.torque_speed_curve(MOTOR, load_torques=[0.0, 1.0], relative_error=0.1),
         "MotorReport": MOTOR.report(),
@@ -95,7 +97,9 @@ def test_representations_are_one_line(name: str) -> None:
         assert len(text) < 1200
 
 
-@pytest.mark.parametrize("one", [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()], ids=lambda one: type(one).__name__)
+@pytest.mark.parametrize(
+    "one", [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()], ids=lambda one: type(one).__name__
+)
 def test_parameters_are_shown_as_the_call_that_makes_them(one: Any) -> None:
     assert eval(repr(one), vars(bd).copy()) == one
     assert hash(eval(repr(one), vars(bd).copy())) == hash(one)

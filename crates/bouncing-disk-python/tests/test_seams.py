@@ -109,7 +109,9 @@ def test_arrays_of_all_kinds_are_the_same_numbers() -> None:
         contiguous.astype(np.float16),
         contiguous.astype(np.longdouble),
         np.array([0.5, 0.25, 0.5, 0.0])[:3],
-        np.lib.stride_tricks.as_strided(np.frombuffer(b"\0" + contiguous.tobytes(), np.uint8)[1:].view()).view("f8"),
+        np.lib.stride_tricks.as_strided(
+            np.frombuffer(b"\0" + contiguous.tobytes(), np.uint8)[1:].view()
+        ).view("f8"),
     ]
     for kind in kinds:
         assert bd.orbit_diagram(axial_forcing=kind, **STARTS) == expected
@@ -120,7 +122,22 @@ def test_arrays_of_all_kinds_are_the_same_numbers() -> None:
 
 @pytest.mark.parametrize(
     "value",
-    ["0.5", b"0.5", None, [None], ["a"], 1j, [1j], [True], {}, {0.5}, object(), [object()], np.array("x"), lambda: 0],
+    [
+        "0.5",
+        b"0.5",
+        None,
+        [None],
+        ["a"],
+        1j,
+        [1j],
+        [True],
+        {},
+        {0.5},
+        object(),
+        [object()],
+        np.array("x"),
+        lambda: 0,
+    ],
     ids=repr,
 )
 def test_what_is_no_number_is_a_type_error(value: object) -> None:
@@ -136,7 +153,9 @@ def test_arrays_of_other_shapes_are_value_errors(value: Any) -> None:
 
 def test_lengths_that_differ_are_told_by_name() -> None:
     with pytest.raises(ValueError, match="axial_forcing and impact_phase .* 2 and 3"):
-        bd.orbit_diagram(axial_forcing=[0.4, 0.5], restitution=0.5, impact_phase=[1, 2, 3], normalised_speed=1.3)
+        bd.orbit_diagram(
+            axial_forcing=[0.4, 0.5], restitution=0.5, impact_phase=[1, 2, 3], normalised_speed=1.3
+        )
 
 
 def test_an_array_of_the_caller_is_not_kept() -> None:
@@ -249,7 +268,11 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (MAP.iterate, [], impact | {"impacts": 10, "progress": None}),
         (MAP.period_one, [], {"platform_periods": 1}),
         (MAP.refine, [], {"impact_phase": [0.7], "axial_impact_velocity": [-4.2]}),
-        (MAP.settled_orbit, [], {"impact_phase": 1.0, "normalised_speed": 1.0, "transient": 10, "tolerance": 1e-7}),
+        (
+            MAP.settled_orbit,
+            [],
+            {"impact_phase": 1.0, "normalised_speed": 1.0, "transient": 10, "tolerance": 1e-7},
+        ),
         (orbit.trapping_radius, [MAP], {"samples": 4}),
         (bd.PeriodicOrbit.from_json, [orbit.to_json()], {}),
         (bd.orbit_diagram, [], starts | {"transient": 10, "recorded": 3, "chatter": None}),
@@ -258,9 +281,17 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.verdicts, [], starts | {"transient": 10, "impacts": 64, "longest_period": 8, "tolerance": 1e-7}),
         (bd.basins, [MAP], grid | {"known_orbits": [orbit, (orbit, 0.1)]}),
         (bd.periodic_orbits, [MAP], {"max_impacts": 1, "max_platform_periods": 1, "phases": 3, "speeds": 3}),
-        (bd.attractors, [MAP], {"starts": 4, "transient": 10, "impacts": 64, "longest_period": 8, "cells": 8}),
+        (
+            bd.attractors,
+            [MAP],
+            {"starts": 4, "transient": 10, "impacts": 64, "longest_period": 8, "cells": 8},
+        ),
         (found.basins, [], grid),
-        (bd.continued, [MAP, orbit], {"parameter": "axial_forcing", "parameter_range": (0.4, 0.5), "max_points": 5}),
+        (
+            bd.continued,
+            [MAP, orbit],
+            {"parameter": "axial_forcing", "parameter_range": (0.4, 0.5), "max_points": 5},
+        ),
         (branch.switched, [], {"index": 0, "parameter_range": (0.4, 0.5), "max_points": 5}),
         (branch.orbit, [0], {}),
         (bd.doubling_cascade, [], {"restitution": 0.5, "count": 1}),
@@ -278,7 +309,11 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.best_phase_lag, [MOTOR], quick),
         (bd.fit_exponential, [], {"times": times, "speeds": speeds, "progress": None}),
         (bd.fit_transients, [], {"times": times, "speeds": speeds, "resamples": 200, "seed": 1}),
-        (bd.best_toss, [], {"friction": (0.6, 0.6), "objective": "efficiency", "stroke": 0.2, "progress": None}),
+        (
+            bd.best_toss,
+            [],
+            {"friction": (0.6, 0.6), "objective": "efficiency", "stroke": 0.2, "progress": None},
+        ),
         (
             bd.fit_parameters,
             [MOTOR],
