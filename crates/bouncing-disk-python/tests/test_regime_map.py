@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 import bouncing_disk as bd
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
-import regime_map  # noqa: E402
+regime_map: Any = importlib.import_module("regime_map")
 
 
-def alone(result: bd.SweepResult, places: np.ndarray) -> np.ndarray:
+def alone(result: bd.SweepResult, places: npt.NDArray[np.int64]) -> Any:
     """The verdicts on these cells, computed together and without a sweep."""
     forcings, restitutions = result.axes.values()
     return regime_map.regimes(

@@ -235,6 +235,16 @@ def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     assert missing.value.install == "pip install 'bouncing-disk[netcdf]'"
 
 
+def test_a_missing_writer_of_netcdf_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
+    pytest.importorskip("xarray")
+    # Newer h5netcdf comes without the h5py that it writes by.
+    for package in ("netCDF4", "h5py", "scipy"):
+        monkeypatch.setitem(__import__("sys").modules, package, None)
+    with pytest.raises(bd.MissingDependencyError) as missing:
+        serial(functions.product).to_netcdf(tmp_path / "sums.nc")
+    assert missing.value.package == "netCDF4" and not list(tmp_path.iterdir())
+
+
 def test_without_dask_it_computes_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "distributed", None)
     assert np.array_equal(bd.sweep(functions.product, GRID).values, np.outer(GRID["a"], GRID["b"]))

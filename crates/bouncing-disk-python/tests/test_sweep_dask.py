@@ -179,3 +179,39 @@ def test_a_script_without_its_guard_is_told(tmp_path: Path) -> None:
     done = run_script(tmp_path, guarded=False)
     assert done.returncode != 0
     assert 'put the call behind `if __name__ == "__main__":`' in done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_an_interrupt_from_the_terminal_reaches_all_processes(tmp_path: Path) -> None:
+    """As Ctrl-C does: the caller, the workers and those that watch them get the signal together."""
+    folder, log = tmp_path / "sweep", tmp_path / "log"
+    text = textwrap.dedent(
+        f"""
+        import sys
+        sys.path.insert(0, {str(Path(__file__).parent)!r})
+        import numpy as np
+        import bouncing_disk as bd
+        import sweep_functions as functions
+
+        if __name__ == "__main__":
+            grid = {{"axial_forcing": np.linspace(0.45, 2.5, 12), "restitution": np.linspace(0.3, 0.7, 4)}}
+            bd.sweep(functions.slow_speeds, grid, folder={str(folder)!r}, chunk_size=1,
+                     arguments={{"seconds": 0.1, "log": {str(log)!r}}})
+        """
+    )
+    script = tmp_path / "script.py"
+    script.write_text(text)
+    process = subprocess.Popen([sys.executable, str(script)], start_new_session=True, stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 60
+    while len(list(folder.glob("chunk-*.npz"))) < 5:
+        assert time.monotonic() < deadline and process.poll() is None
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    started = time.monotonic()
+    _, errors = process.communicate(timeout=60)
+    assert time.monotonic() - started < 30
+    assert process.returncode != 0 and b"KeyboardInterrupt" in errors
+    kept = len(list(folder.glob("chunk-*.npz")))
+    assert 5 <= kept < CHUNKS
+    resumed = swept("serial", log, 0.1, folder=folder)
+    assert resumed.values.tobytes() == swept("serial", tmp_path / "alone").values.tobytes()

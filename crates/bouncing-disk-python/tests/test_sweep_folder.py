@@ -11,6 +11,7 @@ import sys
 import textwrap
 import time
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -174,6 +175,7 @@ def test_another_function_source_or_version_is_refused(folder: Path, monkeypatch
 
 def test_foreign_and_misplaced_chunks_are_refused(tmp_path: Path, folder: Path, log: Path) -> None:
     swept(folder, log)
+    readers: list[Callable[[], Any]] = [lambda: swept(folder, log), lambda: bd.read_sweep(folder)]
     other = tmp_path / "other"
     bd.sweep(functions.product, GRID, "serial", folder=other, chunk_size=5)
     for source, message in [
@@ -181,7 +183,7 @@ def test_foreign_and_misplaced_chunks_are_refused(tmp_path: Path, folder: Path, 
         (folder / "chunk-000000.npz", "is chunk 0, not 1"),
     ]:
         shutil.copy(source, folder / "chunk-000001.npz")
-        for read in (lambda: swept(folder, log), lambda: bd.read_sweep(folder)):
+        for read in readers:
             with pytest.raises(bd.SweepFolderError, match=message) as refusal:
                 read()
             assert refusal.value.kind == "foreign-chunk"
@@ -195,6 +197,7 @@ def test_other_files_and_descriptions_that_are_none(folder: Path, log: Path) -> 
     assert refusal.value.kind == "other-files"
     (folder / "thesis.tex").unlink()
     swept(folder, log)
+    readers: list[Callable[[], Any]] = [lambda: swept(folder, log), lambda: bd.read_sweep(folder)]
     described = (folder / "sweep.json").read_text()
     for text, kind in [
         (described[:100], "damaged"),
@@ -206,7 +209,7 @@ def test_other_files_and_descriptions_that_are_none(folder: Path, log: Path) -> 
         ("[" * 100_000, "damaged"),
     ]:
         (folder / "sweep.json").write_text(text)
-        for read in (lambda: swept(folder, log), lambda: bd.read_sweep(folder)):
+        for read in readers:
             with pytest.raises(bd.SweepFolderError) as refusal:
                 read()
             assert refusal.value.kind == kind, text[:200]
@@ -259,7 +262,7 @@ def test_functions_without_a_lasting_name_are_refused(folder: Path) -> None:
     def inner(a: Any, b: Any) -> Any:
         return a
 
-    class Callable:
+    class Object:
         def __call__(self, a: Any, b: Any) -> Any:
             return a
 
@@ -269,7 +272,7 @@ def test_functions_without_a_lasting_name_are_refused(folder: Path) -> None:
     for function, message in [
         (lambda a, b: a, "a lambda has no name"),
         (inner, "inside another function"),
-        (Callable(), "inside another function|an object of"),
+        (Object(), "inside another function|an object of"),
         (__import__("functools").partial(functions.scaled, factor=1.0), "an object of partial"),
     ]:
         with pytest.raises(bd.SweepFunctionError, match=message):

@@ -13,6 +13,9 @@ Examples
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from bouncing_disk._errors import (
     BouncingDiskError,
     ComputationError,
@@ -165,18 +168,19 @@ __all__ = [
     "verdicts",
 ]
 
-# Sweeps and what they raise: Dask and xarray are imported by the call that needs them.
-from bouncing_disk._sweep import (  # noqa: E402
-    FailedPoint,
-    MissingDependencyError,
-    SweepFailedError,
-    SweepFolderError,
-    SweepFolderWarning,
-    SweepFunctionError,
-    SweepResult,
-    read_sweep,
-    sweep,
-)
+# Sweeps, and what they raise, are imported when one is asked for: what they need takes longer than all else here.
+if TYPE_CHECKING:
+    from bouncing_disk._sweep import (
+        FailedPoint,
+        MissingDependencyError,
+        SweepFailedError,
+        SweepFolderError,
+        SweepFolderWarning,
+        SweepFunctionError,
+        SweepResult,
+        read_sweep,
+        sweep,
+    )
 
 __all__ += [
     "FailedPoint",
@@ -189,3 +193,13 @@ __all__ += [
     "read_sweep",
     "sweep",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        return getattr(import_module("bouncing_disk._sweep"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

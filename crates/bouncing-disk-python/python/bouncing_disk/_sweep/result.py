@@ -123,17 +123,20 @@ class SweepResult:
             As in `to_xarray`.
         """
         dataset = self.to_xarray(name)
+        engine = next((engine for engine, needs in _ENGINES.items() if all(map(_is_installed, needs))), None)
+        if engine is None:
+            raise MissingDependencyError.of("netCDF4", "a NetCDF file", "netcdf")
         beside = os.fspath(path) + ".unfinished"
         try:
-            dataset.to_netcdf(beside)
+            dataset.to_netcdf(beside, engine=engine)
             os.replace(beside, path)
-        except ValueError as error:
-            if any(_is_installed(backend) for backend in ("netCDF4", "h5netcdf", "scipy")):
-                raise
-            raise MissingDependencyError.of("h5netcdf", "a NetCDF file", "netcdf") from error
         finally:
             if os.path.exists(beside):
                 os.unlink(beside)
+
+
+#: What writes NetCDF files, by the name that xarray knows it by, and the packages that it needs.
+_ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": ("scipy",)}
 
 
 def _is_installed(package: str) -> bool:
