@@ -85,7 +85,10 @@ impl OutputArgs {
     /// # Errors
     /// [`Failure::Usage`] names the file.
     pub(crate) fn check(&self, has_picture: bool) -> Result<(), Failure> {
-        for target in &self.out {
+        for (index, target) in self.out.iter().enumerate() {
+            if self.out[..index].contains(target) {
+                return Err(Failure::usage(format!("{target}: it is asked for twice")));
+            }
             if !has_picture && matches!(target.kind, Kind::Png | Kind::Svg) {
                 return Err(no_picture().in_context(&target.to_string()));
             }
