@@ -304,3 +304,16 @@ fn a_search_of_many_short_rows_can_be_stopped() {
     assert!(matches!(stopped, Err(Error::Stopped { done: 0..4_096, total: 8_192 })), "{stopped:?}");
     assert_eq!(calls.asked(), 10);
 }
+
+/// Every row that was still to come counted thousands of flights before it asked: a stop of a large search took half a
+/// minute.
+#[test]
+fn no_row_begins_after_a_stop() {
+    let (map, search) = (map(0.5, 0.5), OrbitSearch::new(1, 1).expect("legal"));
+    let calls = StopAfter::calls(2);
+    let watch = Watch::begin(&calls, 0, 9_216).expect("goes on");
+    watch.ask().expect_err("stops");
+    let row = map.search_row(&search, &Limits::new(&map, &search), 0, watch.work());
+    assert_eq!(row.err(), Some(Error::Stopped { done: 0, total: 9_216 }));
+    assert_eq!((watch.progress().done, calls.asked()), (0, 2));
+}

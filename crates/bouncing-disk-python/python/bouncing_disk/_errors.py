@@ -1,0 +1,110 @@
+"""The exceptions. Each carries the numbers that are needed to see why, and pickles."""
+
+from __future__ import annotations
+
+__all__ = [
+    "BouncingDiskError",
+    "ComputationError",
+    "FitRefusedError",
+    "InvalidError",
+    "OutOfRangeError",
+    "TooLargeError",
+]
+
+
+class BouncingDiskError(Exception):
+    """What all exceptions of this package are.
+
+    The first argument is the message; all others are attributes.
+    """
+
+    def __str__(self) -> str:
+        """The message."""
+        return str(self.args[0]) if self.args else ""
+
+
+class OutOfRangeError(BouncingDiskError, ValueError):
+    """A value lies outside its legal range.
+
+    Attributes
+    ----------
+    field : str
+        The name of the argument.
+    value : float
+        The value that was given.
+    range : str
+        The legal range, in words.
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> try:
+    ...     bd.System.motor().replace(restitution=1.5)
+    ... except bd.OutOfRangeError as error:
+    ...     print(error.field, error.value, error.range)
+    restitution 1.5 [0, 1)
+    """
+
+    def __init__(self, message: str, field: str, value: float, range: str) -> None:
+        super().__init__(message, field, value, range)
+        self.field = field
+        self.value = value
+        self.range = range
+
+
+class TooLargeError(BouncingDiskError, ValueError):
+    """More was asked for than the limit allows or than there is memory for.
+
+    Attributes
+    ----------
+    what : str
+        What was asked for.
+    count : int
+        How many of it.
+    limit : int
+        The largest number.
+    """
+
+    def __init__(self, message: str, what: str, count: int, limit: int) -> None:
+        super().__init__(message, what, count, limit)
+        self.what = what
+        self.count = count
+        self.limit = limit
+
+
+class InvalidError(BouncingDiskError, ValueError):
+    """Arguments that do not fit together, or a text that cannot be read.
+
+    Attributes
+    ----------
+    kind : str
+        What is wrong, such as ``"not-given"`` or ``"both-given"``.
+    details : dict
+        Its names and numbers.
+    """
+
+    def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:
+        super().__init__(message, kind, details)
+        self.kind = kind
+        self.details = details
+
+
+class FitRefusedError(BouncingDiskError, ValueError):
+    """A curve gives no fit that could be trusted; the message says why."""
+
+
+class ComputationError(BouncingDiskError, RuntimeError):
+    """The computation of legal arguments has no result.
+
+    Attributes
+    ----------
+    kind : str
+        Why, such as ``"never-leaves"`` or ``"not-settled"``.
+    details : dict
+        The numbers.
+    """
+
+    def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:
+        super().__init__(message, kind, details)
+        self.kind = kind
+        self.details = details

@@ -1,0 +1,70 @@
+"""What computations return: plain objects of NumPy arrays and numbers, which never change, compare and pickle."""
+
+from __future__ import annotations
+
+from bouncing_disk._results._base import Result, _restored
+from bouncing_disk._results._dynamics import (
+    Attractor,
+    Basins,
+    Bifurcation,
+    DoublingCascade,
+    OrbitDiagram,
+    Verdicts,
+)
+from bouncing_disk._results._motors import (
+    BestPhaseLag,
+    MotorReport,
+    OperatingPoint,
+    StallLoad,
+    TorqueSpeedCurve,
+)
+from bouncing_disk._results._tosses import (
+    Energy,
+    EventTable,
+    TossDesign,
+    TossOrbit,
+    TossPerformance,
+    TrajectorySamples,
+)
+from bouncing_disk._results._transients import (
+    ExponentialFit,
+    IntervalEstimate,
+    ParameterFit,
+    RiseEstimate,
+    SpeedCurve,
+    SpeedCurves,
+    Spread,
+    TransientEnsemble,
+    TransientFit,
+)
+
+__all__ = [
+    "Attractor",
+    "Basins",
+    "BestPhaseLag",
+    "Bifurcation",
+    "DoublingCascade",
+    "Energy",
+    "EventTable",
+    "ExponentialFit",
+    "IntervalEstimate",
+    "MotorReport",
+    "OperatingPoint",
+    "OrbitDiagram",
+    "ParameterFit",
+    "Result",
+    "RiseEstimate",
+    "SpeedCurve",
+    "SpeedCurves",
+    "Spread",
+    "StallLoad",
+    "TorqueSpeedCurve",
+    "TossDesign",
+    "TossOrbit",
+    "TossPerformance",
+    "TrajectorySamples",
+    "TransientEnsemble",
+    "TransientFit",
+    "Verdicts",
+    "_restored",
+]

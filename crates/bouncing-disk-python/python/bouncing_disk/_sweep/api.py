@@ -1,0 +1,291 @@
+"""The call itself."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, closing
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from bouncing_disk._errors import OutOfRangeError
+from bouncing_disk._sweep.chunks import Assembly, Chunks
+from bouncing_disk._sweep.errors import SweepFailedError, SweepFolderError
+from bouncing_disk._sweep.files import Damaged, StoredChunk, read_chunk
+from bouncing_disk._sweep.grid import Array, Grid
+from bouncing_disk._sweep.identity import Identity, digest_of, function_name, package_version
+from bouncing_disk._sweep.job import Failure, Job, Outcome
+from bouncing_disk._sweep.journal import Journal, check_foreign, chunk_path, open_description, read_axes
+from bouncing_disk._sweep.result import SweepResult
+from bouncing_disk._sweep.runners import (
+    Task,
+    distributed_outcomes,
+    has_distributed,
+    local_client,
+    serial_outcomes,
+)
+
+__all__ = ["read_sweep", "sweep"]
+
+Progress = Callable[[int, int], object]
+
+
+def sweep(
+    function: Callable[..., Any],
+    grid: Mapping[str, npt.ArrayLike],
+    client: Any | Literal["serial"] | None = None,
+    *,
+    arguments: Mapping[str, Any] | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    chunk_size: int | None = None,
+    pointwise: bool = False,
+    max_failures: int = 100,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Compute a function at every point of a grid: in processes of this machine, or on a Dask cluster.
+
+    The results have the same bits for any cluster, as long as those of a point do not depend on the points
+    that it is computed with. So it is with every function of this package.
+
+    Parameters
+    ----------
+    function : callable
+        Called with keywords: for each axis an array with its values at the points of a chunk (all of one
+        length, at most `chunk_size`), and the `arguments`. It returns one result for each point: an array
+        whose first axis is that of the points, or a mapping of names to such arrays.
+    grid : mapping of str to (n,) array
+        The axes by their names. The points are their Cartesian product, the last axis fastest. An axis
+        without values makes a grid without points, for which the function is not called.
+    client : distributed.Client, "serial" or None
+        The client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``,
+        ``SSHCluster`` ...). By default local processes, one for each processor; without Dask, and with
+        ``"serial"``, this process.
+    arguments : mapping, optional
+        What the function is called with at every point: numbers, text, arrays, objects of this package.
+    folder : path, optional
+        Where each finished chunk is stored at once, by the process that calls. The same call goes on where an
+        earlier one was ended, on any cluster. The folder of another sweep is refused; a chunk that is damaged
+        is computed again.
+    chunk_size : int, optional
+        Points of a chunk; by default so many that there are 256 chunks, at most 65,536.
+    pointwise : bool
+        Call the function for each point alone: with plain numbers, for a number, an array, or a mapping of
+        them.
+    max_failures : int
+        Give up when more points fail than this.
+    progress : callable, optional
+        Called with the numbers of points that are done and of all points; an exception of it ends the sweep.
+
+    Returns
+    -------
+    SweepResult
+        The results as one array, with the axes.
+
+    Raises
+    ------
+    SweepFailedError
+        The function raised exceptions. The points are named; all others are computed, kept in the folder, and
+        in the error's `result`. The same call tries the failed points again.
+    SweepFolderError
+        The folder is in use, of another sweep, or cannot be written in.
+    SweepFunctionError
+        The function has no lasting name (with a folder), cannot be sent to workers, or returns no array.
+
+    Notes
+    -----
+    An interrupt (Ctrl-C) leaves the finished chunks in the folder. In a script, call this behind
+    ``if __name__ == "__main__":``, as everything that starts processes.
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> def area(width, height):
+    ...     return width * height
+    >>> bd.sweep(area, {"width": [1.0, 2.0], "height": [3.0, 4.0, 5.0]}, client="serial").values
+    array([[ 3.,  4.,  5.],
+           [ 6.,  8., 10.]])
+    """
+    if client is not None and client != "serial" and not hasattr(client, "submit"):
+        raise TypeError(f'client must be a distributed.Client, "serial" or None, not {type(client).__name__}')
+    run = _Run(function, grid, arguments, folder, chunk_size, pointwise, max_failures, progress)
+    with ExitStack() as stack:
+        if run.journal is not None:
+            stack.callback(run.journal.close)
+        tasks = run.tasks()
+        if tasks:
+            outcomes = stack.enter_context(closing(_outcomes(run.job, tasks, client, stack)))
+            run.collect(outcomes)
+        return run.result()
+
+
+def _outcomes(job: Job, tasks: list[Task], client: Any, stack: ExitStack) -> Any:
+    """Who computes: what the caller said, or what is there."""
+    if client is None and has_distributed():
+        client = stack.enter_context(local_client(len(tasks)))
+    if client is None or client == "serial":
+        return serial_outcomes(job, tasks)
+    return distributed_outcomes(job, tasks, client)
+
+
+class _Run:
+    """One sweep: what is stored already, what is to be done, and what comes in."""
+
+    def __init__(
+        self,
+        function: Callable[..., Any],
+        grid: Mapping[str, npt.ArrayLike],
+        arguments: Mapping[str, Any] | None,
+        folder: str | os.PathLike[str] | None,
+        chunk_size: int | None,
+        pointwise: bool,
+        max_failures: int,
+        progress: Progress | None,
+    ) -> None:
+        if not callable(function):
+            raise TypeError(f"function must be callable, not {type(function).__name__}")
+        if max_failures < 0:
+            message = f"max_failures is {max_failures}, outside [0, infinity)"
+            raise OutOfRangeError(message, "max_failures", float(max_failures), "[0, infinity)")
+        self.grid = Grid(grid)
+        self.arguments = dict(arguments or {})
+        if doubled := [name for name in self.arguments if name in self.grid.axes]:
+            raise TypeError(f"{doubled[0]!r} is an axis of the grid and one of the arguments")
+        self.chunks = Chunks(self.grid, chunk_size)
+        self.job = Job(function, self.grid, self.arguments, bool(pointwise), max_failures)
+        self.assembly = Assembly(self.grid, function_name(function))
+        self.progress = progress
+        self.done = 0
+        self.failures: dict[int, tuple[Failure, ...]] = {}
+        #: Stored chunks with points that failed, which are tried again.
+        self.to_mend: dict[int, StoredChunk] = {}
+        self.journal: Journal | None = None
+        if folder is not None:
+            identity = Identity(function, self.grid, self.arguments, self.chunks.size, bool(pointwise))
+            self.journal = Journal(Path(folder), identity, self.grid)
+
+    def tasks(self) -> list[Task]:
+        """The points of each chunk that must be computed, now that what is stored has been read."""
+        tasks: list[Task] = []
+        for chunk in range(self.chunks.count):
+            start, stop = self.chunks.span(chunk)
+            stored = self.journal.read(chunk) if self.journal is not None else None
+            if stored is None:
+                tasks.append((chunk, np.arange(start, stop, dtype=np.int64)))
+            elif len(stored.failed):
+                self.to_mend[chunk] = stored
+                tasks.append((chunk, start + stored.failed.astype(np.int64)))
+            else:
+                self.assembly.put(chunk, start, stored.values)
+                self.done += stop - start
+        self._tell()
+        return tasks
+
+    def collect(self, outcomes: Iterator[tuple[int, Outcome]]) -> None:
+        """Put together and store what comes in."""
+        failed = 0
+        for chunk, outcome in outcomes:
+            start, stop = self.chunks.span(chunk)
+            if outcome.failures:
+                self.failures[chunk] = outcome.failures
+                failed += len(outcome.failures)
+            if outcome.given_up or failed > self.job.max_failures:
+                raise SweepFailedError.of(self._failed_points(), None)
+            self._keep(chunk, start, stop, outcome)
+            self.done += stop - start
+            self._tell()
+
+    def _keep(self, chunk: int, start: int, stop: int, outcome: Outcome) -> None:
+        values = outcome.values
+        failed = np.array([failure.point - start for failure in outcome.failures], dtype=np.int64)
+        if (mended := self.to_mend.get(chunk)) is not None:
+            whole = mended.values.copy()
+            if values is not None:
+                if values.dtype != whole.dtype or values.shape[1:] != whole.shape[1:]:
+                    # The assembly refuses both in one sweep, with the names of the types.
+                    self.assembly.put(chunk, start, mended.values)
+                    self.assembly.put(chunk, start, values)
+                whole[mended.failed] = values
+            values = whole
+        if values is None:
+            self.assembly.leave_out(start, stop)
+            return
+        self.assembly.put(chunk, start, values)
+        if self.journal is not None:
+            self.journal.write(chunk, start, values, failed)
+
+    def _tell(self) -> None:
+        if self.progress is not None:
+            self.progress(self.done, self.grid.points)
+
+    def _failed_points(self) -> tuple[Any, ...]:
+        failures = [failure for chunk in sorted(self.failures) for failure in self.failures[chunk]]
+        return tuple(failure.at(self.grid) for failure in failures)
+
+    def result(self) -> SweepResult:
+        """The whole, or the error that has it."""
+        failed: npt.NDArray[np.bool_] = np.zeros(self.grid.shape, dtype=np.bool_)
+        points = self._failed_points()
+        for point in points:
+            failed[point.place] = True
+        result = _result(self.assembly.whole(), self.grid, failed, self.job)
+        if points:
+            raise SweepFailedError.of(points, result)
+        return result
+
+
+def _result(values: Array, grid: Grid, failed: npt.NDArray[np.bool_], job: Job) -> SweepResult:
+    name = function_name(job.function)
+    return SweepResult(values, dict(grid.axes), failed, name, dict(job.arguments), package_version())
+
+
+def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
+    """The results that a finished sweep has left in a folder; the function is not needed.
+
+    Parameters
+    ----------
+    folder : path
+        The folder of the sweep.
+
+    Returns
+    -------
+    SweepResult
+        As :func:`sweep` returned it; `arguments` are as they were stored (arrays by their digest). Points
+        that failed are in `failed`.
+
+    Raises
+    ------
+    SweepFolderError
+        No sweep is there, a chunk is missing or damaged, or a file is of another one.
+    """
+    path = Path(folder)
+    described = open_description(path)
+    grid = read_axes(path, described)
+    chunks = Chunks(grid, int(described["chunk_size"]))
+    assembly = Assembly(grid, str(described["function"]))
+    failed: npt.NDArray[np.bool_] = np.zeros(grid.points, dtype=np.bool_)
+    digest = digest_of(described)
+    for chunk in range(chunks.count):
+        start, _ = chunks.span(chunk)
+        file = chunk_path(path, chunk)
+        if not file.exists():
+            missing = sum(not chunk_path(path, number).exists() for number in range(chunks.count))
+            message = f"{path} is not finished: {missing} of {chunks.count} chunks are missing, the first is {file.name}"
+            raise SweepFolderError(message, str(path), "incomplete")
+        try:
+            stored = read_chunk(file)
+        except Damaged as damage:
+            raise SweepFolderError(f"{file}: {damage}", str(path), "damaged") from damage
+        check_foreign(path, file, stored, digest, chunk)
+        assembly.put(chunk, start, stored.values)
+        failed[start + stored.failed] = True
+    return SweepResult(
+        assembly.whole(),
+        dict(grid.axes),
+        failed.reshape(grid.shape),
+        str(described["function"]),
+        dict(described["arguments"]),
+        str(described["program"]["version"]),
+    )

@@ -1,0 +1,132 @@
+"""The exceptions and warnings of sweeps. Each carries what is needed to see why, and pickles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from bouncing_disk._errors import BouncingDiskError
+
+if TYPE_CHECKING:
+    from bouncing_disk._sweep.result import SweepResult
+
+__all__ = [
+    "FailedPoint",
+    "MissingDependencyError",
+    "SweepFailedError",
+    "SweepFolderError",
+    "SweepFolderWarning",
+    "SweepFunctionError",
+]
+
+#: How many failed points a message names.
+_NAMED = 3
+
+
+class FailedPoint(NamedTuple):
+    """A point of the grid at which the function raised an exception."""
+
+    #: The place in the grid, one number for each axis.
+    place: tuple[int, ...]
+    #: The values of the axes there.
+    values: dict[str, bool | int | float | complex | str]
+    #: The name of the exception's class.
+    error: str
+    #: What the exception said.
+    message: str
+    #: The traceback, as Python prints it.
+    traceback: str
+
+    def __str__(self) -> str:
+        """The point and the exception in one line."""
+        point = ", ".join(f"{name} = {value!r}" for name, value in self.values.items())
+        return f"{point}: {self.error}: {self.message}"
+
+
+class SweepFailedError(BouncingDiskError, RuntimeError):
+    """The function raised exceptions at points of the grid; the results of all other points are kept.
+
+    Attributes
+    ----------
+    failures : tuple of FailedPoint
+        The points, in the order of the grid.
+    result : SweepResult or None
+        What was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up because
+        more points failed than ``max_failures``.
+    """
+
+    def __init__(
+        self, message: str, failures: tuple[FailedPoint, ...], result: SweepResult | None = None
+    ) -> None:
+        super().__init__(message, failures, result)
+        self.failures = failures
+        self.result = result
+
+    @classmethod
+    def of(cls, failures: tuple[FailedPoint, ...], result: SweepResult | None) -> SweepFailedError:
+        """The error that names the first of these points."""
+        more = len(failures) - _NAMED
+        named = "; ".join(str(failure) for failure in failures[:_NAMED])
+        tail = f"; and {more} more" if more > 0 else ""
+        given_up = "the sweep was given up: " if result is None else ""
+        points = "1 point" if len(failures) == 1 else f"{len(failures)} points"
+        return cls(f"{given_up}the function failed at {points}: {named}{tail}", failures, result)
+
+
+class SweepFolderError(BouncingDiskError, RuntimeError):
+    """A folder cannot be used for this sweep.
+
+    Attributes
+    ----------
+    folder : str
+        The folder.
+    kind : str
+        Why: ``"in-use"``, ``"another-sweep"``, ``"other-files"``, ``"foreign-chunk"``, ``"damaged"``,
+        ``"newer-format"``, ``"incomplete"``, ``"not-a-sweep"``, ``"cannot-write"`` or ``"cannot-lock"``.
+    """
+
+    def __init__(self, message: str, folder: str, kind: str) -> None:
+        super().__init__(message, folder, kind)
+        self.folder = folder
+        self.kind = kind
+
+
+class SweepFolderWarning(UserWarning):
+    """A damaged chunk was found in the folder of a sweep, and is computed again."""
+
+
+class SweepFunctionError(BouncingDiskError, TypeError):
+    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns what has
+    no array.
+
+    Attributes
+    ----------
+    function : str
+        Its name.
+    """
+
+    def __init__(self, message: str, function: str) -> None:
+        super().__init__(message, function)
+        self.function = function
+
+
+class MissingDependencyError(BouncingDiskError, ImportError):
+    """An optional package is not installed.
+
+    Attributes
+    ----------
+    package : str
+        The package that is missing.
+    install : str
+        The command that installs it.
+    """
+
+    def __init__(self, message: str, package: str, install: str) -> None:
+        super().__init__(message, package, install)
+        self.package = package
+        self.install = install
+
+    @classmethod
+    def of(cls, package: str, purpose: str, extra: str) -> MissingDependencyError:
+        """The error that says what needs this package, and which extra of this one brings it."""
+        install = f"pip install 'bouncing-disk[{extra}]'"
+        return cls(f"{purpose} needs {package}, which is not installed: {install}", package, install)

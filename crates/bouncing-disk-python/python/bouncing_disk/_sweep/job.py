@@ -1,0 +1,189 @@
+"""What a worker does: the function at the points of one chunk.
+
+Nothing here knows of folders, clusters or progress, so that a chunk has the same bits wherever it is
+computed.
+"""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from bouncing_disk._sweep.errors import FailedPoint, SweepFunctionError
+from bouncing_disk._sweep.grid import Array, Grid
+from bouncing_disk._sweep.identity import function_name
+
+__all__ = ["Failure", "Job", "Outcome", "filled"]
+
+Points = npt.NDArray[np.int64]
+
+
+class Failure(NamedTuple):
+    """A point at which the function raised an exception."""
+
+    point: int
+    error: str
+    message: str
+    traceback: str
+
+    def at(self, grid: Grid) -> FailedPoint:
+        """The same with the point's place and values."""
+        return FailedPoint(
+            grid.index(self.point), grid.values(self.point), self.error, self.message, self.traceback
+        )
+
+
+class Outcome(NamedTuple):
+    """The results at some points, in their order."""
+
+    #: What the function returned, filled up where it failed; None if it did so everywhere.
+    values: Array | None
+    #: Points where it failed.
+    failures: tuple[Failure, ...]
+    #: Whether more points failed than are allowed, so that the others were not looked at.
+    given_up: bool
+
+
+class _GivenUp(Exception):
+    """More points failed than are allowed."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A function with all that it is called with."""
+
+    function: Callable[..., Any]
+    grid: Grid
+    arguments: Mapping[str, Any]
+    pointwise: bool
+    max_failures: int
+
+    def compute(self, points: Points) -> Outcome:
+        """The function at these points."""
+        pieces: list[tuple[int, Array]] = []
+        failures: list[Failure] = []
+        try:
+            if self.pointwise:
+                self._one_by_one(points, pieces, failures)
+            else:
+                self._together(points, pieces, failures)
+        except _GivenUp:
+            return Outcome(None, tuple(failures), True)
+        return Outcome(self._joined(len(points), pieces), tuple(failures), False)
+
+    def _one_by_one(self, points: Points, pieces: list[tuple[int, Array]], failures: list[Failure]) -> None:
+        for place, point in enumerate(points.tolist()):
+            try:
+                returned = self.function(**self.grid.values(point), **self.arguments)
+            except (Exception, SystemExit) as error:
+                self._failed(point, error, failures)
+            else:
+                pieces.append((place, self._array(returned, None)))
+
+    def _together(self, points: Points, pieces: list[tuple[int, Array]], failures: list[Failure]) -> None:
+        """All points in one call; where this raises an exception, halves, down to the points that do so."""
+        # The last one is the next to be looked at, so that points come in their order.
+        waiting = [(0, len(points))]
+        first_error: BaseException | None = None
+        while waiting:
+            start, stop = waiting.pop()
+            chosen = points[start:stop]
+            try:
+                returned = self.function(**self.grid.columns(chosen), **self.arguments)
+            except (Exception, SystemExit) as error:
+                first_error = first_error or error
+                if stop - start == 1:
+                    self._failed(int(chosen[0]), error, failures)
+                else:
+                    middle = (start + stop) // 2
+                    waiting += [(middle, stop), (start, middle)]
+            else:
+                pieces.append((start, self._array(returned, stop - start)))
+        if first_error is not None and not failures:
+            name = function_name(self.function)
+            raise SweepFunctionError(
+                f"{name} fails for {len(points)} points ({type(first_error).__name__}: {first_error}) but for none of "
+                "them alone: it must take arrays, or be called with `pointwise=True`",
+                name,
+            ) from first_error
+
+    def _failed(self, point: int, error: BaseException, failures: list[Failure]) -> None:
+        lines = "".join(traceback.format_exception(error))
+        failures.append(Failure(point, type(error).__name__, str(error), lines))
+        if len(failures) > self.max_failures:
+            raise _GivenUp
+
+    def _array(self, returned: Any, count: int | None) -> Array:
+        """What the function returned for so many points (None: for one of them, without an axis for it)."""
+        if isinstance(returned, Mapping):
+            return self._structured(
+                {str(name): self._plain(value, count) for name, value in returned.items()}
+            )
+        return self._plain(returned, count)
+
+    def _plain(self, returned: Any, count: int | None) -> Array:
+        try:
+            array = np.asarray(returned)
+        except ValueError as error:
+            raise self._refused(f"returned what is no array ({error})") from error
+        if array.dtype.hasobject:
+            raise self._refused(f"returned {type(returned).__name__}, which is no array of numbers")
+        if count is None:
+            return array[np.newaxis]
+        if array.ndim == 0 or len(array) != count:
+            raise self._refused(
+                f"returned an array of shape {array.shape} for {count} points: the first axis must be that of the "
+                "points, unless it is called with `pointwise=True`"
+            )
+        return array
+
+    def _structured(self, parts: Mapping[str, Array]) -> Array:
+        if not parts:
+            raise self._refused("returned an empty mapping")
+        fields = [(name, part.dtype, part.shape[1:]) for name, part in parts.items()]
+        array = np.empty(len(next(iter(parts.values()))), dtype=fields)
+        for name, part in parts.items():
+            array[name] = part
+        return array
+
+    def _joined(self, count: int, pieces: list[tuple[int, Array]]) -> Array | None:
+        """Pieces of results put together; what is missing is filled up."""
+        if not pieces:
+            return None
+        kind = pieces[0][1]
+        if len(kind) == count:
+            return np.ascontiguousarray(kind)
+        joined = filled((count, *kind.shape[1:]), kind.dtype)
+        for start, piece in pieces:
+            if piece.dtype != kind.dtype or piece.shape[1:] != kind.shape[1:]:
+                raise self._refused(
+                    f"returned {_described(kind)} for one point and {_described(piece)} for another"
+                )
+            joined[start : start + len(piece)] = piece
+        return joined
+
+    def _refused(self, what: str) -> SweepFunctionError:
+        name = function_name(self.function)
+        return SweepFunctionError(f"{name} {what}", name)
+
+
+def _described(array: Array) -> str:
+    return f"{array.dtype} of shape {array.shape[1:]}"
+
+
+def filled(shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
+    """An array that says nothing yet: NaN where there is such a number, else zeros."""
+    array: Array = np.zeros(shape, dtype)
+    if dtype.names is not None:
+        for name in dtype.names:
+            inner = dtype[name]
+            if inner.base.kind in "fc":
+                array[name] = np.nan
+    elif dtype.kind in "fc":
+        array[...] = np.nan
+    return array

@@ -1,0 +1,144 @@
+"""What a sweep returns."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bouncing_disk._errors import InvalidError
+from bouncing_disk._sweep.errors import MissingDependencyError
+from bouncing_disk._sweep.grid import Array
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["SweepResult"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SweepResult:
+    """The results of a sweep on its grid. NumPy takes it for an array.
+
+    Attributes
+    ----------
+    values : array
+        The results: one axis for each axis of the grid, in its order, and those of one result behind them. A
+        structured array if the function returns a mapping of names.
+    axes : dict of str to (n,) array
+        The axes of the grid.
+    failed : bool array
+        Where the function raised an exception; the shape is that of the grid. `values` is NaN there, or 0.
+    function : str
+        The name of the function.
+    arguments : dict
+        What it was called with at every point.
+    version : str
+        The version of this package.
+    """
+
+    values: Array
+    axes: dict[str, Array]
+    failed: npt.NDArray[np.bool_]
+    function: str
+    arguments: dict[str, Any]
+    version: str
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
+        """The values."""
+        array = np.asarray(self.values, dtype)
+        return array.copy() if copy and array is self.values else array
+
+    def __getitem__(self, key: Any) -> Any:
+        """A part of the values, or a field of them."""
+        return self.values[key]
+
+    def __repr__(self) -> str:
+        """The function, the axes and the type of the values."""
+        axes = " x ".join(f"{name}[{len(axis)}]" for name, axis in self.axes.items())
+        failed = f", {int(self.failed.sum())} failed" if self.failed.any() else ""
+        return (
+            f"SweepResult({self.function} over {axes}: {self.values.dtype} array {self.values.shape}{failed})"
+        )
+
+    def to_xarray(self, name: str | None = None) -> xarray.Dataset:
+        """The results as a Dataset of xarray, which has the axes as its coordinates.
+
+        Parameters
+        ----------
+        name : str, optional
+            The name of the variable, unless the values are structured: that of the function.
+
+        Returns
+        -------
+        xarray.Dataset
+            One variable, or one for each field. Where the function failed, it is what `values` is.
+        """
+        try:
+            xarray_module: Any = import_module("xarray")
+        except ImportError as error:
+            raise MissingDependencyError.of("xarray", "a Dataset", "netcdf") from error
+        fields = self.values.dtype.names
+        if fields is None:
+            parts: Mapping[str, Array] = {name or self.function.rpartition(".")[2]: self.values}
+        elif name is None:
+            parts = {field: self.values[field] for field in fields}
+        else:
+            message = (
+                f"the results have fields with names ({', '.join(fields)}): a name for them is not needed"
+            )
+            raise InvalidError(message, "name", {"name": name})
+        if doubled := sorted(set(parts) & set(self.axes)):
+            message = f"{doubled[0]!r} is an axis and a result: rename one of them"
+            raise InvalidError(message, "doubled-name", {"name": doubled[0]})
+        variables = {part: (self._dimensions(part, array), array) for part, array in parts.items()}
+        if self.failed.any():
+            variables["failed"] = (tuple(self.axes), self.failed)
+        attributes = {
+            "function": self.function,
+            "arguments": json.dumps(self.arguments, default=repr),
+            "program": f"bouncing-disk {self.version}",
+        }
+        dataset: xarray.Dataset = xarray_module.Dataset(variables, coords=self.axes, attrs=attributes)
+        return dataset
+
+    def _dimensions(self, name: str, array: Array) -> tuple[str, ...]:
+        inner = array.ndim - len(self.axes)
+        return (*self.axes, *(f"{name}_{number}" for number in range(inner)))
+
+    def to_netcdf(self, path: str | os.PathLike[str], name: str | None = None) -> None:
+        """Store the results as a NetCDF file, by xarray and one of its backends.
+
+        Parameters
+        ----------
+        path : path
+            The file. It is written beside its place and renamed into it.
+        name : str, optional
+            As in `to_xarray`.
+        """
+        dataset = self.to_xarray(name)
+        beside = os.fspath(path) + ".unfinished"
+        try:
+            dataset.to_netcdf(beside)
+            os.replace(beside, path)
+        except ValueError as error:
+            if any(_is_installed(backend) for backend in ("netCDF4", "h5netcdf", "scipy")):
+                raise
+            raise MissingDependencyError.of("h5netcdf", "a NetCDF file", "netcdf") from error
+        finally:
+            if os.path.exists(beside):
+                os.unlink(beside)
+
+
+def _is_installed(package: str) -> bool:
+    try:
+        import_module(package)
+    except ImportError:
+        return False
+    return True

@@ -1,0 +1,150 @@
+"""Who computes the chunks: this process, or the workers of a Dask cluster."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import uuid
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from bouncing_disk._sweep.errors import SweepFunctionError
+from bouncing_disk._sweep.identity import function_name
+from bouncing_disk._sweep.job import Job, Outcome
+
+__all__ = ["distributed_outcomes", "has_distributed", "local_client", "serial_outcomes"]
+
+Task = tuple[int, np.ndarray[Any, np.dtype[np.int64]]]
+
+#: How many chunks wait for each thread of the cluster, so that none of them idles.
+_AHEAD = 4
+
+
+def serial_outcomes(job: Job, tasks: Sequence[Task]) -> Iterator[tuple[int, Outcome]]:
+    """One chunk after the other, in this process."""
+    for chunk, points in tasks:
+        yield chunk, job.compute(points)
+
+
+def has_distributed() -> bool:
+    """Whether Dask's cluster is installed."""
+    try:
+        import_module("distributed")
+    except ImportError:
+        return False
+    return True
+
+
+@contextmanager
+def local_client(most: int) -> Iterator[Any]:
+    """A client of local processes, one for each processor, but no more than this; they end with it."""
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise RuntimeError(
+            "the script that calls sweep() is being imported by one of its own workers: put the call behind "
+            '`if __name__ == "__main__":`'
+        )
+    distributed = import_module("distributed")
+    workers = max(1, min(most, _processors()))
+    # The processes share the processors already, so that each of them computes with one thread.
+    cluster = distributed.LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        processes=True,
+        dashboard_address="127.0.0.1:0",
+        env={"RAYON_NUM_THREADS": "1"},
+    )
+    try:
+        with distributed.Client(cluster, set_as_default=False) as client:
+            yield client
+    finally:
+        cluster.close()
+
+
+def _processors() -> int:
+    """Processors that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+
+
+def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterator[tuple[int, Outcome]]:
+    """Chunks in the order in which the cluster finishes them.
+
+    Dask computes those of a worker that died again. What is not finished when the iterator is closed is
+    cancelled.
+    """
+    _check_sendable(job)
+    distributed = import_module("distributed")
+    name = f"{function_name(job.function)}-{uuid.uuid4().hex[:12]}"
+    waiting = iter(tasks)
+    # A task like the others, so that the scheduler can make it again when all workers that hold it are lost.
+    shared = client.submit(_itself, job, key=f"job-{name}", pure=False)
+    chunk_of: dict[str, int] = {}
+
+    def submit(task: Task) -> Any:
+        chunk, points = task
+        span = (int(points[0]), int(points[-1]) + 1)
+        # Chunks that are whole are sent by their ends.
+        sent = span if span[1] - span[0] == len(points) else points
+        future = client.submit(_compute, shared, sent, key=f"chunk-{chunk}-{name}", pure=False)
+        chunk_of[future.key] = chunk
+        return future
+
+    def ahead() -> int:
+        threads: int = sum(client.nthreads().values())
+        return _AHEAD * max(1, threads)
+
+    pending: dict[str, Any] = {}
+
+    def fill_up(finished: Any) -> None:
+        room = ahead() - len(pending)
+        for _ in range(room):
+            task = next(waiting, None)
+            if task is None:
+                return
+            future = submit(task)
+            pending[future.key] = future
+            finished.add(future)
+
+    finished = distributed.as_completed(loop=client.loop)
+    try:
+        fill_up(finished)
+        while pending:
+            future = next(finished)
+            outcome = future.result()
+            del pending[future.key]
+            # Released, so that the workers forget what the client has.
+            chunk = chunk_of.pop(future.key)
+            future.release()
+            fill_up(finished)
+            yield chunk, outcome
+    finally:
+        if pending:
+            client.cancel(list(pending.values()))
+        shared.release()
+
+
+def _itself(job: Job) -> Job:
+    return job
+
+
+def _compute(job: Job, points: Any) -> Outcome:
+    if isinstance(points, tuple):
+        points = np.arange(*points, dtype=np.int64)
+    return job.compute(points)
+
+
+def _check_sendable(job: Job) -> None:
+    """Refuse what cannot be sent to workers, before it is tried with all of them."""
+    try:
+        import_module("distributed.protocol.pickle").dumps((job.function, job.arguments))
+    except Exception as error:
+        name = function_name(job.function)
+        raise SweepFunctionError(
+            f"{name} and its arguments cannot be sent to workers ({type(error).__name__}: {error}); define it at the "
+            'top of a module or notebook, or compute in this process with `client="serial"`',
+            name,
+        ) from error

@@ -1,0 +1,17 @@
+"""The paper's figures of a system of one's own, by Matplotlib: ``from bouncing_disk import plot``.
+
+Each function takes a system, a map or a motor, computes what it shows, and draws it; or it takes results that
+are there already. It returns ``(fig, ax)``, and draws into `ax` if that is given. The look is that of a
+journal: ticks inside on all sides, serif text, units on every axis. It is set for these figures alone, not
+for yours.
+
+Matplotlib is an optional dependency: ``pip install 'bouncing-disk[plot]'``.
+"""
+
+from bouncing_disk.plot._animation import toss_animation
+from bouncing_disk.plot._dynamics import basins, orbit_diagram
+from bouncing_disk.plot._motor import motor_transient, torque_speed
+from bouncing_disk.plot._style import style
+from bouncing_disk.plot._toss import toss
+
+__all__ = ["basins", "motor_transient", "orbit_diagram", "style", "torque_speed", "toss", "toss_animation"]

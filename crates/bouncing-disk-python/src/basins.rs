@@ -1,0 +1,181 @@
+//! Basins of attraction on a grid.
+
+use bouncing_disk::core::{
+    Axis, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap as Map, KnownOrbit, Label,
+    PeriodicOrbit as Orbit,
+};
+use bouncing_disk::{Error, Observer, Progress};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::arguments::{Count, ProgressCallable};
+use crate::chatter::{ChatterCut, policy};
+use crate::diagram::room_for;
+use crate::impact_map::ImpactMap;
+use crate::periodic_orbit::PeriodicOrbit;
+use crate::{errors, long_call, results};
+
+/// Starts on each circle that is tried for the radius of a known orbit.
+const SAMPLES: u32 = 64;
+
+/// A grid as Python gives it.
+pub(crate) struct GridArguments {
+    pub(crate) phases: Count,
+    pub(crate) phase_range: (f64, f64),
+    pub(crate) speeds: Count,
+    pub(crate) speed_range: (f64, f64),
+}
+
+impl GridArguments {
+    /// The grid, if it is legal.
+    pub(crate) fn grid(self, py: Python<'_>) -> PyResult<Grid> {
+        let (phases, speeds) = (self.phases.usize(py, "phases")?, self.speeds.usize(py, "speeds")?);
+        let phase = Axis::new(self.phase_range.0, self.phase_range.1, phases);
+        let grid = phase
+            .and_then(|phase| Grid::new(phase, Axis::new(self.speed_range.0, self.speed_range.1, speeds)?));
+        grid.map_err(|error| errors::of(py, error))
+    }
+}
+
+/// The basins as Python has them.
+pub(crate) fn result<'py>(
+    py: Python<'py>,
+    impact_map: &Bound<'py, ImpactMap>,
+    grid: &Grid,
+    labels: Vec<Label>,
+    meaning: Vec<String>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let centres = |axis: &Axis| (0..axis.cells()).map(|cell| axis.centre(cell)).collect();
+    let labels = results::matrix(py, labels, [grid.speed().cells(), grid.phase().cells()])?;
+    let (phase, speed) =
+        (results::array(py, centres(grid.phase())), results::array(py, centres(grid.speed())));
+    let range = |axis: &Axis| (axis.low(), axis.high());
+    let (phases, speeds) = (range(grid.phase()), range(grid.speed()));
+    let meaning = PyTuple::new(py, meaning)?;
+    results::make(py, "Basins", (impact_map, labels, phase, speed, phases, speeds, meaning))
+}
+
+/// The labels in a vector of their own.
+pub(crate) fn labels(basins: &Basins) -> Result<Vec<Label>, Error> {
+    let mut labels = room_for(basins.labels().len())?;
+    labels.extend_from_slice(basins.labels());
+    Ok(labels)
+}
+
+/// What is told of a periodic orbit by a label.
+pub(crate) fn told(orbit: &Orbit) -> String {
+    format!("periodic orbit: impacts {}, platform periods {}", orbit.period(), orbit.platform_periods)
+}
+
+/// The orbits of an argument, each with a radius if one is given.
+fn known_orbits(known: &Bound<'_, PyAny>) -> PyResult<Vec<(Orbit, Option<f64>)>> {
+    let mut orbits = Vec::new();
+    for item in known.try_iter()? {
+        let item = item?;
+        orbits.push(if let Ok(orbit) = item.cast::<PeriodicOrbit>() {
+            (orbit.get().0.clone(), None)
+        } else if let Ok((orbit, radius)) = item.extract::<(Bound<'_, PeriodicOrbit>, f64)>() {
+            (orbit.get().0.clone(), Some(radius))
+        } else {
+            return Err(PyTypeError::new_err(
+                "known_orbits must hold orbits, or pairs of an orbit and a radius",
+            ));
+        });
+    }
+    Ok(orbits)
+}
+
+/// An orbit with its radius, which is sought where it is not given.
+fn known(
+    map: &Map,
+    (orbit, radius): (Orbit, Option<f64>),
+    observer: &dyn Observer,
+) -> Result<KnownOrbit, Error> {
+    // How far the search is says nothing about the rows that are to come.
+    let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
+    let radius = match radius {
+        Some(radius) => radius,
+        None => orbit.trapping_radius_observed(map, SAMPLES, &quiet)?.ok_or(CoreError::NotSettled {
+            what: "trapping radius of a known orbit",
+            iterations: SAMPLES,
+            residual: orbit.multipliers().spectral_radius(),
+        })?,
+    };
+    Ok(KnownOrbit::new(orbit, radius)?)
+}
+
+/// Which starts come to rest and which end on known periodic orbits, on a grid of impacts.
+///
+/// :func:`attractors` finds the orbits by itself; its ``basins`` are of all attractors.
+///
+/// Parameters
+/// ----------
+/// impact_map : ImpactMap
+/// phases : int, default 400
+///     Cells along the impact phase, up to 100000.
+/// phase_range : (float, float), default (0, 1)
+///     Lowest and highest impact phase, in periods.
+/// speeds : int, default 300
+///     Cells along the normalised impact speed, up to 100000.
+/// speed_range : (float, float), default (0, 3)
+///     Lowest and highest normalised speed.
+/// known_orbits : iterable, optional
+///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad) within which
+///     a start counts as caught; without a radius it is the :meth:`PeriodicOrbit.trapping_radius`.
+/// max_impacts : int, default 2000
+///     Impacts after which a start is left undecided.
+/// chatter : ChatterCut, optional
+///     How a chatter ends; ``None`` sums it.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of rows.
+///
+/// Returns
+/// -------
+/// Basins
+///
+/// Examples
+/// --------
+/// >>> import bouncing_disk as bd
+/// >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
+/// >>> phase, velocity = bouncing.period_one()
+/// >>> orbit = bouncing.refine(impact_phase=[phase], axial_impact_velocity=[velocity])
+/// >>> basins = bd.basins(bouncing, phases=64, speeds=20, speed_range=(0.0, 5.0), known_orbits=[orbit])
+/// >>> basins.labels.shape, basins.labels.dtype
+/// ((20, 64), dtype('uint8'))
+/// >>> basins.share(bd.FIRST_ORBIT) + basins.share(bd.ATTACHED)
+/// 1.0
+#[pyfunction]
+#[pyo3(signature = (
+    impact_map, *, phases=Count::Fits(400), phase_range=(0.0, 1.0), speeds=Count::Fits(300),
+    speed_range=(0.0, 3.0), known_orbits=None, max_impacts=Count::Fits(2000), chatter=None,
+    progress=ProgressCallable(None)
+), text_signature = "(impact_map, *, phases=400, phase_range=(0.0, 1.0), speeds=300, speed_range=(0.0, 3.0), \
+                     known_orbits=None, max_impacts=2000, chatter=None, progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn basins<'py>(
+    py: Python<'py>,
+    impact_map: &Bound<'py, ImpactMap>,
+    phases: Count,
+    phase_range: (f64, f64),
+    speeds: Count,
+    speed_range: (f64, f64),
+    known_orbits: Option<&Bound<'py, PyAny>>,
+    max_impacts: Count,
+    chatter: Option<&Bound<'py, ChatterCut>>,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let grid = GridArguments { phases, phase_range, speeds, speed_range }.grid(py)?;
+    let settings =
+        BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
+    let orbits = known_orbits.map_or_else(|| Ok(Vec::new()), self::known_orbits)?;
+    let mut meaning = vec!["undecided".to_owned(), "comes to rest".to_owned()];
+    meaning.extend(orbits.iter().map(|(orbit, _)| told(orbit)));
+    let map = impact_map.get().map;
+    let labels = long_call::run(py, progress.0, |observer| {
+        let known = orbits.into_iter().map(|orbit| known(&map, orbit, observer));
+        let known = known.collect::<Result<Vec<_>, _>>()?;
+        labels(&map.basins_observed(grid, &known, settings, observer)?)
+    })?;
+    result(py, impact_map, &grid, labels, meaning)
+}

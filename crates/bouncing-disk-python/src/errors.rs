@@ -1,0 +1,196 @@
+//! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
+
+use bouncing_disk::core::Error as CoreError;
+use bouncing_disk::{Error, MotorFileError};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyTuple};
+
+/// The numbers of an error, by their names.
+enum Detail {
+    Number(f64),
+    Count(u64),
+    Text(String),
+}
+
+impl From<f64> for Detail {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<u64> for Detail {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<usize> for Detail {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<u32> for Detail {
+    fn from(count: u32) -> Self {
+        Self::Count(count.into())
+    }
+}
+
+impl From<&str> for Detail {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+/// A class of `bouncing_disk._errors` and what it is called with after its message.
+enum Raised {
+    OutOfRange(&'static str, f64, &'static str),
+    TooLarge(&'static str, u64, u64),
+    /// Arguments that do not fit together.
+    Invalid(&'static str, Vec<(&'static str, Detail)>),
+    /// The computation itself.
+    Computation(&'static str, Vec<(&'static str, Detail)>),
+    FitRefused,
+}
+
+macro_rules! details {
+    ($($name:ident),*) => { vec![$((stringify!($name), Detail::from($name))),*] };
+}
+
+fn of_core(error: CoreError) -> Raised {
+    use Raised::{Computation, Invalid, OutOfRange, TooLarge};
+    match error {
+        CoreError::OutOfRange { field, value, legal } => OutOfRange(field, value, legal),
+        CoreError::TooLarge { what, count, limit } => TooLarge(what, count, limit),
+        CoreError::NoLiftOff { phase, peak_acceleration } => {
+            Computation("no-lift-off", details![phase, peak_acceleration])
+        }
+        CoreError::FlightTooLong { relative_speed, duration, limit } => {
+            Computation("flight-too-long", details![relative_speed, duration, limit])
+        }
+        CoreError::NoConvergence { evaluations, time, gap } => {
+            Computation("no-convergence", details![evaluations, time, gap])
+        }
+        CoreError::NotSettled { what, iterations, residual } => {
+            Computation("not-settled", details![what, iterations, residual])
+        }
+        CoreError::ImpactWithoutSpeed { index, phase } => {
+            Computation("impact-without-speed", details![index, phase])
+        }
+        CoreError::NoPlatformPeriods { impacts, speed } => {
+            Computation("no-platform-periods", details![impacts, speed])
+        }
+        CoreError::EarlierImpact { index, sought, found } => {
+            Computation("earlier-impact", details![index, sought, found])
+        }
+        CoreError::IllegalRestitution { restitution, impact_speed } => {
+            Computation("illegal-restitution", details![restitution, impact_speed])
+        }
+        CoreError::Stopped { done, total } => Computation("stopped", details![done, total]),
+        CoreError::NoClosedForm => Invalid("no-closed-form", Vec::new()),
+        CoreError::NoDecimal { at } => Invalid("no-decimal", details![at]),
+        CoreError::Unfitting { what, found, expected } => {
+            Invalid("unfitting", details![what, found, expected])
+        }
+        _ => Computation("other", Vec::new()),
+    }
+}
+
+fn of_model(error: Error) -> Raised {
+    use Raised::{Computation, FitRefused, Invalid, OutOfRange};
+    match error {
+        Error::Core(error) => of_core(error),
+        Error::OutOfRange { field, value, legal } => OutOfRange(field, value, legal),
+        Error::NeverLeaves { peak_acceleration } => Computation("never-leaves", details![peak_acceleration]),
+        Error::SlipTooLong { duration, limit } => Computation("slip-too-long", details![duration, limit]),
+        Error::NotShared { field, one, other } => Invalid("not-shared", details![field, one, other]),
+        Error::DoesNotTurn { speed, standard_error } => {
+            Computation("does-not-turn", details![speed, standard_error])
+        }
+        Error::NotSettled { speed, standard_error } => {
+            Computation("not-settled", details![speed, standard_error])
+        }
+        Error::Overpowered { load } => Computation("overpowered", details![load]),
+        Error::NotAnOrbit { impact, distance } => Invalid("not-an-orbit", details![impact, distance]),
+        Error::TooFewMotors { left, traps, needed } => {
+            Computation("too-few-motors", details![left, traps, needed])
+        }
+        Error::NotGiven { field } => Invalid("not-given", details![field]),
+        Error::NeitherGiven { one, other } => Invalid("neither-given", details![one, other]),
+        Error::BothGiven { one, other } => Invalid("both-given", details![one, other]),
+        Error::EmptyAxis { parameter } => Invalid("empty-axis", details![parameter]),
+        Error::RepeatedAxis { parameter } => Invalid("repeated-axis", details![parameter]),
+        Error::FitRefused { .. } => FitRefused,
+        _ => Computation("other", Vec::new()),
+    }
+}
+
+/// A class of the module of errors.
+fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    MODULE
+        .get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._errors")?.unbind()))?
+        .bind(py)
+        .getattr(name)
+}
+
+fn dictionary<'py>(py: Python<'py>, details: Vec<(&'static str, Detail)>) -> PyResult<Bound<'py, PyDict>> {
+    let dictionary = PyDict::new(py);
+    for (name, detail) in details {
+        match detail {
+            Detail::Number(number) => dictionary.set_item(name, number)?,
+            Detail::Count(count) => dictionary.set_item(name, count)?,
+            Detail::Text(text) => dictionary.set_item(name, text)?,
+        }
+    }
+    Ok(dictionary)
+}
+
+fn exception(py: Python<'_>, message: String, raised: Raised) -> PyResult<PyErr> {
+    let (name, arguments) = match raised {
+        Raised::OutOfRange(field, value, range) => {
+            ("OutOfRangeError", (message, field, value, range).into_pyobject(py)?)
+        }
+        Raised::TooLarge(what, count, limit) => {
+            ("TooLargeError", (message, what, count, limit).into_pyobject(py)?)
+        }
+        Raised::Invalid(kind, details) => {
+            ("InvalidError", (message, kind, dictionary(py, details)?).into_pyobject(py)?)
+        }
+        Raised::Computation(kind, details) => {
+            ("ComputationError", (message, kind, dictionary(py, details)?).into_pyobject(py)?)
+        }
+        Raised::FitRefused => ("FitRefusedError", PyTuple::new(py, [message])?),
+    };
+    Ok(PyErr::from_value(class(py, name)?.call1(arguments)?))
+}
+
+fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
+    exception(py, message, raised).unwrap_or_else(|error| error)
+}
+
+/// The exception of an error of the model or of the core.
+pub(crate) fn of(py: Python<'_>, error: impl Into<Error>) -> PyErr {
+    let error = error.into();
+    raise(py, error.to_string(), of_model(error))
+}
+
+/// The exception of a data sheet that cannot be read.
+pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
+    if let MotorFileError::Illegal { error: illegal, .. } = error {
+        return raise(py, error.to_string(), of_model(*illegal));
+    }
+    raise(py, error.to_string(), Raised::Invalid("data-sheet", Vec::new()))
+}
+
+/// A number outside its range, which the types of Rust would not have let through.
+pub(crate) fn out_of_range(py: Python<'_>, field: &'static str, value: f64, range: &'static str) -> PyErr {
+    of(py, Error::OutOfRange { field, value, legal: range })
+}
+
+/// A defect of the library: it has panicked, which nothing that is passed to it may bring about.
+pub(crate) fn defect() -> PyErr {
+    PyRuntimeError::new_err("a defect of bouncing_disk (a panic, printed above); please report it")
+}

@@ -1,0 +1,139 @@
+//! Fits of transients.
+
+use bouncing_disk::{
+    Error, ExponentialFit, FitSettings, IntervalEstimate, RiseEstimate, RiseForm, TransientFit,
+};
+use pyo3::prelude::*;
+
+use crate::arguments::{Count, ProgressCallable, columns, row};
+use crate::{long_call, results};
+
+/// The exponential rise 1 - exp(-t/t_c) that fits a speed curve best.
+///
+/// Parameters
+/// ----------
+/// times : (n,) array_like
+///     Times (s), rising, not negative.
+/// speeds : (n,) array_like
+///     Speeds (rad/s).
+/// progress : callable, optional
+///     Called as ``progress(done, total)``.
+///
+/// Returns
+/// -------
+/// ExponentialFit
+///
+/// Examples
+/// --------
+/// >>> import bouncing_disk as bd
+/// >>> import numpy as np
+/// >>> times = np.linspace(0.0, 5.0, 100)
+/// >>> fit = bd.fit_exponential(times=times, speeds=30.0 * (1.0 - np.exp(-times / 0.8)))
+/// >>> round(fit.steady_speed, 3), round(fit.time_constant, 3)
+/// (30.0, 0.8)
+#[pyfunction]
+#[pyo3(signature = (*, times, speeds, progress=ProgressCallable(None)),
+       text_signature = "(*, times, speeds, progress=None)")]
+pub(crate) fn fit_exponential<'py>(
+    py: Python<'py>,
+    times: &Bound<'py, PyAny>,
+    speeds: &Bound<'py, PyAny>,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (times, speeds) = (row(times, "times")?, row(speeds, "speeds")?);
+    let fit =
+        long_call::run(py, progress.0, |observer| ExponentialFit::new_observed(&times, &speeds, observer))?;
+    let fields = (fit.steady_speed, fit.time_constant, fit.residual, fit.stall_acceleration());
+    results::make(py, "ExponentialFit", fields)
+}
+
+/// An interval as Python has it.
+pub(crate) fn interval<'py>(py: Python<'py>, estimate: &IntervalEstimate) -> PyResult<Bound<'py, PyAny>> {
+    results::make(py, "IntervalEstimate", (estimate.value, estimate.low, estimate.high))
+}
+
+fn rise<'py>(py: Python<'py>, rise: &RiseEstimate) -> PyResult<Bound<'py, PyAny>> {
+    let fields = (
+        interval(py, &rise.steady_speed)?,
+        interval(py, &rise.constant)?,
+        interval(py, &rise.stall_acceleration)?,
+        rise.residual,
+    );
+    results::make(py, "RiseEstimate", fields)
+}
+
+/// Steady speed, time constant and stall acceleration of a motor, with 95 % intervals, from runs of it.
+///
+/// Parameters
+/// ----------
+/// times : (n,) array_like
+///     Times (s), rising, not negative.
+/// speeds : (n,) or (n, m) array_like
+///     Speeds (rad/s) of one measured run, or of m runs (5 at least), time by member.
+/// resamples : int, default 1000
+///     Resampled fits.
+/// seed : int, default 1
+///     Seed of the resampling.
+/// least_duration : float, default 3
+///     Time constants that a curve must last.
+/// largest_residual : float, default 0.1
+///     The largest residual, relative to the steady speed.
+/// progress : callable, optional
+///     Called as ``progress(done, total)``.
+///
+/// Returns
+/// -------
+/// TransientFit
+///
+/// Examples
+/// --------
+/// >>> import bouncing_disk as bd
+/// >>> import numpy as np
+/// >>> times = np.linspace(0.01, 5.0, 200)
+/// >>> spread = np.array([0.97, 0.98, 0.99, 1.01, 1.02, 1.03])
+/// >>> speeds = 30.0 * (1.0 - np.exp(-times / 0.8))[:, np.newaxis] * spread
+/// >>> fit = bd.fit_transients(times=times, speeds=speeds)
+/// >>> fit.form, fit.members, fit.exponential.steady_speed.low < 30.0 < fit.exponential.steady_speed.high
+/// ('exponential', 6, True)
+#[pyfunction]
+#[pyo3(signature = (
+    *, times, speeds, resamples=Count::Fits(1000), seed=Count::Fits(1), least_duration=3.0, largest_residual=0.1,
+    progress=ProgressCallable(None)
+), text_signature = "(*, times, speeds, resamples=1000, seed=1, least_duration=3.0, largest_residual=0.1, \
+                     progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn fit_transients<'py>(
+    py: Python<'py>,
+    times: &Bound<'py, PyAny>,
+    speeds: &Bound<'py, PyAny>,
+    resamples: Count,
+    seed: Count,
+    least_duration: f64,
+    largest_residual: f64,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let times = row(times, "times")?;
+    let measured = row(speeds, "speeds");
+    let runs = match &measured {
+        Ok(_) => Vec::new(),
+        Err(_) => columns(speeds, "speeds")?,
+    };
+    let (resamples, seed) = (resamples.usize(py, "resamples")?, seed.u64(py, "seed")?);
+    let settings = FitSettings { resamples, seed, least_duration, largest_residual };
+    let fit = long_call::run(py, progress.0, |observer| -> Result<TransientFit, Error> {
+        match &measured {
+            Ok(speeds) => TransientFit::of_measured_observed(&times, speeds, &settings, observer),
+            Err(_) => {
+                let runs: Vec<_> = runs.iter().map(Vec::as_slice).collect();
+                TransientFit::of_runs_observed(&times, &runs, &settings, observer)
+            }
+        }
+    })?;
+    let form = match fit.form {
+        RiseForm::Exponential => "exponential",
+        RiseForm::Ramp => "ramp",
+    };
+    let ramp = fit.ramp.as_ref().map(|ramp| rise(py, ramp)).transpose()?;
+    let fields = (rise(py, &fit.exponential)?, ramp, form, fit.duration, fit.points, fit.members);
+    results::make(py, "TransientFit", fields)
+}

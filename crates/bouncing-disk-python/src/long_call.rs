@@ -1,0 +1,104 @@
+//! Long calls: the interpreter's lock is released, Ctrl-C stops them, a callable is told how far they are.
+//!
+//! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets Python
+//! look at its signals, and calls the callable. So the callable is only ever called by the thread that made the call,
+//! as progress bars and notebooks expect, and no thread that computes ever waits for the interpreter.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::Duration;
+
+use bouncing_disk::{Error, Observer, Progress};
+use pyo3::prelude::*;
+
+use crate::{errors, threads};
+
+/// How often signals are looked at, and the callable is called.
+const INTERVAL: Duration = Duration::from_millis(40);
+
+/// What the threads that compute and the one that waits share.
+#[derive(Default)]
+struct Watched {
+    done: AtomicU64,
+    total: AtomicU64,
+    stop: AtomicBool,
+}
+
+impl Observer for Watched {
+    fn observe(&self, progress: Progress) -> ControlFlow<()> {
+        // Calls of several threads come in no certain order.
+        self.done.fetch_max(progress.done, Ordering::Relaxed);
+        self.total.store(progress.total, Ordering::Relaxed);
+        if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl Watched {
+    /// Lets Python handle its signals, and tells the callable how far the call is.
+    fn look(&self, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+        Python::attach(|py| {
+            py.check_signals()?;
+            let (done, total) = (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed));
+            if let Some(progress) = progress
+                && total > 0
+            {
+                progress.call1(py, (done, total))?;
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the callable raises.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+) -> PyResult<T> {
+    let watched = Watched::default();
+    let callable = progress.as_ref();
+    let outcome = py.detach(|| {
+        let pool = threads::Borrowed::take()?;
+        let (sender, finished) = sync_channel(1);
+        let mut interruption = None;
+        let mut result = None;
+        let (shared, result_of) = (&watched, &mut result);
+        pool.in_place_scope(|scope| {
+            scope.spawn(move |_| {
+                *result_of = Some(catch_unwind(AssertUnwindSafe(|| work(shared))));
+                // Nobody listens any more only if the one that waits has gone, which it cannot before this is done.
+                let _ = sender.send(());
+            });
+            while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(INTERVAL) {
+                if interruption.is_none()
+                    && let Err(error) = shared.look(callable)
+                {
+                    shared.stop.store(true, Ordering::Relaxed);
+                    interruption = Some(error);
+                }
+            }
+        });
+        match (interruption, result) {
+            (Some(error), _) => Err(error),
+            (None, Some(Ok(result))) => Ok(result),
+            (None, Some(Err(_)) | None) => Err(errors::defect()),
+        }
+    })?;
+    let value = outcome.map_err(|error| errors::of(py, error))?;
+    if let Some(progress) = progress {
+        // Of nothing everything is done.
+        let total = watched.total.load(Ordering::Relaxed);
+        progress.call1(py, (total, total))?;
+    }
+    Ok(value)
+}
+
+/// Runs what takes microseconds, where it is.
+pub(crate) fn short<T>(py: Python<'_>, work: impl FnOnce() -> Result<T, Error>) -> PyResult<T> {
+    match catch_unwind(AssertUnwindSafe(work)) {
+        Ok(result) => result.map_err(|error| errors::of(py, error)),
+        Err(_) => Err(errors::defect()),
+    }
+}

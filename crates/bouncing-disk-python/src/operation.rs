@@ -1,0 +1,291 @@
+//! Motors under a load: operating points, curves, stall, the best phase lag.
+
+use bouncing_disk::{Estimate, Motor as Model, OperatingPoint, OperatingSettings, Operation, Shortfall};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::arguments::{Count, ProgressCallable, row};
+use crate::motor::Motor;
+use crate::{long_call, results};
+
+/// The numbers of an operation; NaN where there are none.
+struct Numbers {
+    values: [f64; 18],
+    impacts: i64,
+    status: u8,
+    shortfall: String,
+}
+
+const NONE: Estimate = Estimate { value: f64::NAN, standard_error: f64::NAN };
+
+/// Those of a point, in the order of the fields of `OperatingPoint` in `_results.py`.
+fn of_point(point: &OperatingPoint) -> [f64; 18] {
+    let efficiency = point.efficiency.unwrap_or(NONE);
+    [
+        point.load_torque,
+        point.speed.value,
+        point.speed.standard_error,
+        point.mechanical_power.value,
+        point.mechanical_power.standard_error,
+        point.input_power.value,
+        point.input_power.standard_error,
+        point.restitution_loss.value,
+        point.restitution_loss.standard_error,
+        point.friction_loss.value,
+        point.friction_loss.standard_error,
+        efficiency.value,
+        efficiency.standard_error,
+        point.perturbation_power,
+        point.energy_residual,
+        point.averaged_time,
+        point.start_up,
+        f64::NAN,
+    ]
+}
+
+fn shortfall(shortfall: &Shortfall) -> String {
+    match shortfall {
+        Shortfall::Error { standard_error, wanted } => {
+            format!("standard error of the speed {standard_error:?} rad/s, asked for {wanted:?} rad/s")
+        }
+        Shortfall::Drift { drift, standard_error } => {
+            format!("the speed drifts by {drift:?} rad/s, with a standard error of {standard_error:?} rad/s")
+        }
+        _ => "not settled".to_owned(),
+    }
+}
+
+fn numbers(operation: &Operation) -> Numbers {
+    let impacts = |point: &OperatingPoint| i64::try_from(point.impacts).unwrap_or(i64::MAX);
+    match operation {
+        Operation::Steady(point) => {
+            Numbers { values: of_point(point), impacts: impacts(point), status: 0, shortfall: String::new() }
+        }
+        Operation::Unsettled(point, lack) => Numbers {
+            values: of_point(point),
+            impacts: impacts(point),
+            status: 1,
+            shortfall: shortfall(lack),
+        },
+        Operation::Runaway { load_torque, acceleration, .. } => {
+            let mut values = [f64::NAN; 18];
+            (values[0], values[17]) = (*load_torque, *acceleration);
+            Numbers { values, impacts: 0, status: 2, shortfall: String::new() }
+        }
+        _ => Numbers { values: [f64::NAN; 18], impacts: 0, status: 1, shortfall: "unknown".to_owned() },
+    }
+}
+
+/// The arguments that all these calls have.
+pub(crate) struct Settings {
+    pub(crate) relative_error: f64,
+    pub(crate) members: Count,
+    pub(crate) most_impacts: Count,
+    pub(crate) relaunch_perturbation: f64,
+    pub(crate) seed: Count,
+}
+
+impl Settings {
+    fn checked(self, py: Python<'_>) -> PyResult<OperatingSettings> {
+        Ok(OperatingSettings {
+            relative_error: self.relative_error,
+            members: self.members.usize(py, "members")?,
+            most_impacts: self.most_impacts.u64(py, "most_impacts")?,
+            relaunch_perturbation: self.relaunch_perturbation,
+            seed: self.seed.u64(py, "seed")?,
+        })
+    }
+}
+
+/// How a motor runs under its load.
+///
+/// Parameters
+/// ----------
+/// motor : Motor
+/// load_torque : float, optional
+///     Load torque (N m); by default that of the data sheet.
+/// relative_error : float, default 0.01
+///     Standard error of the mean speed that is asked for, relative to the speed without load, in [1e-6, 0.5].
+/// members : int, default 16
+///     Vertical motions that are averaged over, in [4, 4096].
+/// most_impacts : int, default 20000000
+///     Most impacts of all members together, in [1, 1e15].
+/// relaunch_perturbation : float, default 0.001
+///     Size of the relaunch perturbation in units of g/omega, in (0, 1].
+/// seed : int, default 1
+///     Seed of the perturbations.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of impacts.
+///
+/// Returns
+/// -------
+/// OperatingPoint
+#[pyfunction]
+#[pyo3(signature = (
+    motor, *, load_torque=None, relative_error=0.01, members=Count::Fits(16),
+    most_impacts=Count::Fits(20_000_000), relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+), text_signature = "(motor, *, load_torque=None, relative_error=0.01, members=16, most_impacts=20000000, relaunch_perturbation=0.001, \
+                     seed=1, progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn operating_point<'py>(
+    py: Python<'py>,
+    motor: &Bound<'py, Motor>,
+    load_torque: Option<f64>,
+    relative_error: f64,
+    members: Count,
+    most_impacts: Count,
+    relaunch_perturbation: f64,
+    seed: Count,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let motor = motor.get().0;
+    let load = load_torque.unwrap_or_else(|| motor.load_torque());
+    let operation =
+        long_call::run(py, progress.0, |observer| motor.operating_point_observed(load, &settings, observer))?;
+    let Numbers { values, impacts, status, shortfall } = numbers(&operation);
+    let values = PyTuple::new(py, values)?;
+    let name = ["steady", "unsettled", "runaway"][usize::from(status)];
+    results::make(py, "OperatingPoint", results::joined(py, values, (impacts, name, shortfall))?)
+}
+
+/// Speed, power and efficiency of a motor against its load.
+///
+/// Parameters
+/// ----------
+/// motor : Motor
+/// load_torques : (n,) array_like
+///     Load torques (N m) in place of that of the data sheet.
+/// relative_error, members, most_impacts, relaunch_perturbation, seed : optional
+///     As of :func:`operating_point`.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of impacts.
+///
+/// Returns
+/// -------
+/// TorqueSpeedCurve
+#[pyfunction]
+#[pyo3(signature = (
+    motor, *, load_torques, relative_error=0.01, members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+), text_signature = "(motor, *, load_torques, relative_error=0.01, members=16, most_impacts=20000000, \
+                     relaunch_perturbation=0.001, seed=1, progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn torque_speed_curve<'py>(
+    py: Python<'py>,
+    motor: &Bound<'py, Motor>,
+    load_torques: &Bound<'py, PyAny>,
+    relative_error: f64,
+    members: Count,
+    most_impacts: Count,
+    relaunch_perturbation: f64,
+    seed: Count,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let loads = row(load_torques, "load_torques")?;
+    let motor = motor.get().0;
+    let operations = long_call::run(py, progress.0, |observer| {
+        motor.torque_speed_curve_observed(&loads, &settings, observer)
+    })?;
+    let all: Vec<_> = operations.iter().map(numbers).collect();
+    let columns: Vec<_> = (0..18)
+        .map(|column| results::array(py, all.iter().map(|one| one.values[column]).collect()))
+        .collect();
+    let rest = (
+        results::array(py, all.iter().map(|one| one.impacts).collect()),
+        results::array(py, all.iter().map(|one| one.status).collect()),
+    );
+    results::make(py, "TorqueSpeedCurve", results::joined(py, PyTuple::new(py, columns)?, rest)?)
+}
+
+/// The load at which a motor stops.
+///
+/// Parameters
+/// ----------
+/// motor : Motor
+/// relative_error, members, most_impacts, relaunch_perturbation, seed : optional
+///     As of :func:`operating_point`.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of impacts.
+///
+/// Returns
+/// -------
+/// StallLoad
+#[pyfunction]
+#[pyo3(signature = (
+    motor, *, relative_error=0.01, members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+), text_signature = "(motor, *, relative_error=0.01, members=16, most_impacts=20000000, relaunch_perturbation=0.001, \
+                     seed=1, progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn stall_load<'py>(
+    py: Python<'py>,
+    motor: &Bound<'py, Motor>,
+    relative_error: f64,
+    members: Count,
+    most_impacts: Count,
+    relaunch_perturbation: f64,
+    seed: Count,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let motor: Model = motor.get().0;
+    let stall = long_call::run(py, progress.0, |observer| motor.stall_load_observed(&settings, observer))?;
+    let fields = (
+        stall.torque.value,
+        stall.torque.standard_error,
+        stall.share,
+        (stall.bracket[0], stall.bracket[1]),
+        stall.no_load_speed.value,
+        stall.no_load_speed.standard_error,
+    );
+    results::make(py, "StallLoad", fields)
+}
+
+/// The phase lag at which a motor turns fastest.
+///
+/// Parameters
+/// ----------
+/// motor : Motor
+/// relative_error, members, most_impacts, relaunch_perturbation, seed : optional
+///     As of :func:`operating_point`.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of impacts.
+///
+/// Returns
+/// -------
+/// BestPhaseLag
+#[pyfunction]
+#[pyo3(signature = (
+    motor, *, relative_error=0.01, members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+), text_signature = "(motor, *, relative_error=0.01, members=16, most_impacts=20000000, relaunch_perturbation=0.001, \
+                     seed=1, progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn best_phase_lag<'py>(
+    py: Python<'py>,
+    motor: &Bound<'py, Motor>,
+    relative_error: f64,
+    members: Count,
+    most_impacts: Count,
+    relaunch_perturbation: f64,
+    seed: Count,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let motor: Model = motor.get().0;
+    let best = long_call::run(py, progress.0, |observer| motor.best_phase_lag_observed(&settings, observer))?;
+    let fields = (
+        best.phase_lag.value,
+        best.phase_lag.standard_error,
+        best.speed.value,
+        best.speed.standard_error,
+        (best.good_from_to[0], best.good_from_to[1]),
+    );
+    results::make(py, "BestPhaseLag", fields)
+}

@@ -1,0 +1,162 @@
+//! Parameters of a motor from its measured transients.
+
+use bouncing_disk::{
+    FitParameter, FitRange, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit,
+    ParameterFitSettings, RunPreload,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::arguments::{Count, ProgressCallable, columns, row};
+use crate::fits::interval;
+use crate::motor::Motor;
+use crate::{errors, long_call, results};
+
+/// The parameters that transients may tell.
+const PARAMETERS: [FitParameter; 5] = [
+    FitParameter::Friction,
+    FitParameter::Restitution,
+    FitParameter::PhaseLag,
+    FitParameter::Amplitude,
+    FitParameter::TwistAmplitude,
+];
+
+/// The ranges of a dictionary, in its order.
+fn ranges(given: &Bound<'_, PyDict>) -> PyResult<Vec<FitRange>> {
+    let mut ranges = Vec::new();
+    for (name, range) in given.iter() {
+        let name: String = name.extract()?;
+        let (low, high) = range.extract()?;
+        let Some(parameter) = PARAMETERS.into_iter().find(|parameter| parameter.name() == name) else {
+            let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.name()).collect();
+            let text =
+                format!("the parameter {name:?} cannot be fitted; those that can are {}", known.join(", "));
+            return Err(PyValueError::new_err(text));
+        };
+        ranges.push(FitRange { parameter, low, high });
+    }
+    Ok(ranges)
+}
+
+/// Runs of one preload.
+fn measured(
+    py: Python<'_>,
+    times: &Bound<'_, PyAny>,
+    speeds: &Bound<'_, PyAny>,
+    preload_acceleration: f64,
+    speed_error: Option<f64>,
+) -> PyResult<MeasuredTransient> {
+    let times = row(times, "times")?;
+    let runs = row(speeds, "speeds").map(|run| vec![run]).or_else(|_| columns(speeds, "speeds"))?;
+    let runs = runs.into_iter().zip(0..).map(|(speeds, member)| MeasuredRun {
+        member,
+        times: times.clone(),
+        speeds,
+    });
+    let runs = MeasuredSpeeds::new(runs.collect()).map_err(|error| errors::of(py, error))?;
+    Ok(MeasuredTransient { preload: RunPreload::Acceleration(preload_acceleration), runs, speed_error })
+}
+
+/// Friction, restitution, phase lag or amplitudes of a motor from its transients, with 95 % intervals.
+///
+/// Parameters
+/// ----------
+/// motor : Motor
+///     The data sheet, from whose values the search begins.
+/// transients : iterable of (times, speeds, preload_acceleration)
+///     For each preload the times (n,) (s), the speeds (n,) or (n, m) of one or m runs (rad/s), and the preload
+///     acceleration (m/s^2).
+/// ranges : dict
+///     The range (low, high) of each parameter that is fitted: of ``friction``, ``restitution``, ``phase_lag``,
+///     ``amplitude`` and ``twist_amplitude``.
+/// speed_error : float, optional
+///     Standard deviation of the error of one measured speed (rad/s).
+/// members : int, default 64
+///     Computed members at each preload, in [24, 4096].
+/// windows : int, default 6
+///     Windows of time over whose means a transient is compared, in [1, 12].
+/// relaunch_perturbation : float, default 0.001
+///     Size of the relaunch perturbation in units of g/omega, in (0, 1].
+/// seed : int, default 1
+///     Seed of the perturbations and of the resampling.
+/// most_evaluations : int, default 100
+///     Most evaluations of all motors, in [1, 10000].
+/// resamples : int, default 1000
+///     Resampled fits, in [200, 100000].
+/// largest_misfit : float, default 1
+///     The largest misfit that is accepted, at least 1.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of evaluations.
+///
+/// Returns
+/// -------
+/// ParameterFit
+#[pyfunction]
+#[pyo3(signature = (
+    motor, *, transients, ranges, speed_error=None, members=Count::Fits(64), windows=Count::Fits(6),
+    relaunch_perturbation=1e-3, seed=Count::Fits(1), most_evaluations=Count::Fits(100), resamples=Count::Fits(1000),
+    largest_misfit=1.0, progress=ProgressCallable(None)
+), text_signature = "(motor, *, transients, ranges, speed_error=None, members=64, windows=6, \
+                     relaunch_perturbation=0.001, seed=1, most_evaluations=100, resamples=1000, largest_misfit=1.0, \
+                     progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn fit_parameters<'py>(
+    py: Python<'py>,
+    motor: &Bound<'py, Motor>,
+    transients: &Bound<'py, PyAny>,
+    ranges: &Bound<'py, PyDict>,
+    speed_error: Option<f64>,
+    members: Count,
+    windows: Count,
+    relaunch_perturbation: f64,
+    seed: Count,
+    most_evaluations: Count,
+    resamples: Count,
+    largest_misfit: f64,
+    progress: ProgressCallable,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut all = Vec::new();
+    for transient in transients.try_iter()? {
+        let (times, speeds, preload): (Bound<'_, PyAny>, Bound<'_, PyAny>, f64) = transient?.extract()?;
+        all.push(measured(py, &times, &speeds, preload, speed_error)?);
+    }
+    let ranges = self::ranges(ranges)?;
+    let settings = ParameterFitSettings {
+        members: members.usize(py, "members")?,
+        windows: windows.usize(py, "windows")?,
+        relaunch_perturbation,
+        seed: seed.u64(py, "seed")?,
+        most_evaluations: most_evaluations.usize(py, "most_evaluations")?,
+        resamples: resamples.usize(py, "resamples")?,
+        largest_misfit,
+    };
+    let nominal = motor.get().0;
+    let fit = long_call::run(py, progress.0, |observer| {
+        ParameterFit::new_observed(&nominal, &all, &ranges, &settings, observer)
+    })?;
+    let (nominal, estimates) = (PyDict::new(py), PyDict::new(py));
+    for fitted in &fit.parameters {
+        nominal.set_item(fitted.parameter.name(), fitted.nominal)?;
+        let estimate = fitted.estimate.as_ref().map(|estimate| interval(py, estimate)).transpose()?;
+        estimates.set_item(fitted.parameter.name(), estimate)?;
+    }
+    let mut undetermined = Vec::new();
+    for direction in &fit.undetermined {
+        let changes = PyDict::new(py);
+        for (parameter, change) in &direction.direction {
+            changes.set_item(parameter.name(), change)?;
+        }
+        undetermined.push((changes, direction.standard_error).into_pyobject(py)?);
+    }
+    let fields = (
+        nominal,
+        estimates,
+        PyTuple::new(py, undetermined)?,
+        Motor(fit.motor),
+        fit.misfit,
+        fit.degrees_of_freedom,
+        fit.evaluations,
+    );
+    results::make(py, "ParameterFit", fields)
+}

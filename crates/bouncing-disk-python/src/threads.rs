@@ -1,0 +1,135 @@
+//! The threads that compute.
+//!
+//! Each call borrows a pool of its own, which is kept for the next one: two Python threads compute at the same time and
+//! neither waits for the work of the other. A process that was forked has none of its parent's threads; it makes its
+//! own pools.
+
+use std::mem;
+use std::num::NonZeroUsize;
+use std::ops::Deref;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::arguments::Count;
+use crate::errors;
+
+/// The most threads of a pool.
+const MOST: u64 = 1024;
+
+/// The pools that nobody uses at the moment.
+struct Idle {
+    /// The process that they belong to.
+    process: u32,
+    /// Threads of a pool; `None` for as many as rayon thinks fit.
+    threads: Option<NonZeroUsize>,
+    pools: Vec<ThreadPool>,
+}
+
+static IDLE: Mutex<Idle> = Mutex::new(Idle { process: 0, threads: None, pools: Vec::new() });
+
+fn idle() -> MutexGuard<'static, Idle> {
+    let mut idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if idle.process != process {
+        // The threads of the pools of a parent are not here: to end them would wait for them.
+        mem::forget(mem::take(&mut idle.pools));
+        idle.process = process;
+    }
+    idle
+}
+
+/// A pool, until it is dropped.
+pub(crate) struct Borrowed(Option<ThreadPool>, Option<NonZeroUsize>);
+
+impl Borrowed {
+    /// An idle pool, or a new one.
+    pub(crate) fn take() -> PyResult<Self> {
+        let (pool, threads) = {
+            let mut idle = idle();
+            (idle.pools.pop(), idle.threads)
+        };
+        let pool = match pool {
+            Some(pool) => pool,
+            None => ThreadPoolBuilder::new()
+                .num_threads(threads.map_or(0, NonZeroUsize::get))
+                .thread_name(|index| format!("bouncing-disk-{index}"))
+                .build()
+                .map_err(|error| PyOSError::new_err(error.to_string()))?,
+        };
+        Ok(Self(Some(pool), threads))
+    }
+}
+
+impl Deref for Borrowed {
+    type Target = ThreadPool;
+
+    fn deref(&self) -> &ThreadPool {
+        self.0.as_ref().expect("it is there until it is dropped")
+    }
+}
+
+impl Drop for Borrowed {
+    fn drop(&mut self) {
+        let mut idle = idle();
+        if let Some(pool) = self.0.take()
+            && idle.threads == self.1
+        {
+            idle.pools.push(pool);
+        }
+    }
+}
+
+/// How many threads a call computes with.
+///
+/// Returns
+/// -------
+/// int
+///     The number that :func:`set_threads` has set, else that of the environment variable ``RAYON_NUM_THREADS``, else
+///     that of the processor's threads. No bit of a result depends on it.
+///
+/// Examples
+/// --------
+/// >>> import bouncing_disk as bd
+/// >>> bd.threads() >= 1
+/// True
+#[pyfunction]
+pub(crate) fn threads(py: Python<'_>) -> PyResult<usize> {
+    py.detach(|| Ok(Borrowed::take()?.current_num_threads()))
+}
+
+/// Set how many threads each later call computes with.
+///
+/// Parameters
+/// ----------
+/// count : int, optional
+///     In [1, 1024]; ``None`` for as many as the processor has. No bit of a result depends on it.
+///
+/// Examples
+/// --------
+/// >>> import bouncing_disk as bd
+/// >>> bd.set_threads(count=1)
+/// >>> bd.threads()
+/// 1
+/// >>> bd.set_threads()
+#[pyfunction]
+#[pyo3(signature = (*, count=None))]
+pub(crate) fn set_threads(py: Python<'_>, count: Option<Count>) -> PyResult<()> {
+    let threads = match count {
+        None => None,
+        Some(count) => {
+            let refusal = |value| errors::out_of_range(py, "count", value, "[1, 1024]");
+            let count = count.at_most(py, "count", MOST, "[1, 1024]")?;
+            Some(NonZeroUsize::new(count as usize).ok_or_else(|| refusal(0.0))?)
+        }
+    };
+    let old = {
+        let mut idle = idle();
+        idle.threads = threads;
+        mem::take(&mut idle.pools)
+    };
+    py.detach(|| drop(old));
+    Ok(())
+}

@@ -1,0 +1,216 @@
+"""Objects: equality, hashes, pickles, dictionaries, JSON, representations."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bouncing_disk as bd
+
+STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
+MAP = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+MOTOR = bd.Motor(
+    drive_frequency=70e3,
+    amplitude=1e-8,
+    peak_angular_speed=30.0,
+    mass=1e-3,
+    contact_radius=1.25e-3,
+    gyration_radius=6.3e-3,
+    preload_acceleration=9.8,
+    friction=0.1,
+    restitution=0.5,
+)
+
+
+def orbit() -> bd.PeriodicOrbit:
+    found = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert found is not None
+    return found
+
+
+def everything() -> dict[str, Any]:
+    """One of each kind of object."""
+    found = bd.attractors(MAP, starts=64, impacts=1000)
+    branch = bd.continued(MAP, orbit(), parameter_range=(0.1, 0.6))
+    runs = bd.ensemble(bd.System.motor(), members=6, duration=4.0, intervals=80)
+    times = runs.times[:, 0]
+    return {
+        "System": bd.System.pizza_toss(),
+        "ImpactMap": MAP,
+        "Motor": MOTOR,
+        "ChatterCut": bd.ChatterCut.paper(),
+        "PeriodicOrbit": orbit(),
+        "OrbitDiagram": bd.orbit_diagram(axial_forcing=[0.3, 0.56], **STARTS),
+        "Verdicts": bd.verdicts(axial_forcing=[0.2, 0.45, 0.56], impacts=2000, **STARTS),
+        "Basins": bd.basins(MAP, phases=7, speeds=5, known_orbits=[orbit()]),
+        "Attractors": found,
+        "Attractor": found.all[1],
+        "Branch": branch,
+        "Bifurcation": branch.bifurcations[0],
+        "DoublingCascade": bd.doubling_cascade(restitution=0.5, count=3),
+        "TossPerformance": bd.single_toss(bd.System.pizza_toss()),
+        "Trajectory": bd.simulate(bd.System.pizza_toss(), events=50),
+        "TrajectorySamples": bd.toss_trajectory(bd.System.pizza_toss()).samples(count=10),
+        "EventTable": bd.simulate(bd.System.pizza_toss(), events=50).events(),
+        "TossOrbit": bd.multi_toss(bd.System.pizza_toss(), phase=4.7),
+        "SpeedCurve": bd.transient(bd.System.motor(), duration=0.01, intervals=5),
+        "SpeedCurves": bd.transients(bd.System.motor(), seeds=[1, 2], duration=0.01, intervals=5),
+        "TransientEnsemble": runs,
+        "ExponentialFit": bd.fit_exponential(times=times, speeds=runs.speeds[:, 0]),
+        "TransientFit": bd.fit_transients(times=times, speeds=runs.speeds, resamples=200, largest_residual=0.5),
+        "OperatingPoint": bd.operating_point(MOTOR, relative_error=0.1),
+        "TorqueSpeedCurve": bd.torque_speed_curve(MOTOR, load_torques=[0.0, 1.0], relative_error=0.1),
+        "MotorReport": MOTOR.report(),
+    }
+
+
+EVERYTHING = everything()
+
+
+@pytest.mark.parametrize("name", EVERYTHING)
+def test_pickles_and_copies_are_equal(name: str) -> None:
+    one = EVERYTHING[name]
+    assert type(one).__name__ == name
+    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        assert pickle.loads(pickle.dumps(one, protocol)) == one
+    assert copy.deepcopy(one) == one
+    assert copy.copy(one) == one
+    assert not one != copy.copy(one)
+    assert one != 1
+    assert one != None  # noqa: E711
+
+
+@pytest.mark.parametrize("name", EVERYTHING)
+def test_representations_are_one_line(name: str) -> None:
+    text = repr(EVERYTHING[name])
+    assert name in text
+    if name != "MotorReport":
+        assert "\n" not in text
+        assert len(text) < 1200
+
+
+@pytest.mark.parametrize("one", [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()], ids=lambda one: type(one).__name__)
+def test_parameters_are_shown_as_the_call_that_makes_them(one: Any) -> None:
+    assert eval(repr(one), vars(bd).copy()) == one
+    assert hash(eval(repr(one), vars(bd).copy())) == hash(one)
+
+
+@pytest.mark.parametrize("one", [bd.System.motor(), MAP, MOTOR], ids=lambda one: type(one).__name__)
+def test_parameters_survive_dictionaries_and_json(one: Any) -> None:
+    assert type(one).from_dict(one.to_dict()) == one
+    assert type(one).from_json(one.to_json()) == one
+    assert type(one).from_dict(json.loads(one.to_json())) == one
+
+
+@pytest.mark.parametrize("name", ["PeriodicOrbit", "Attractors", "Branch", "Trajectory"])
+def test_stored_objects_survive_json(name: str) -> None:
+    one = EVERYTHING[name]
+    assert type(one).from_json(one.to_json()) == one
+    for text in ["", "{}", "[]", "null", "1", one.to_json()[:-2], one.to_json().replace("0.", "x.")]:
+        with pytest.raises(ValueError):
+            type(one).from_json(text)
+
+
+def test_results_differ_where_a_field_does() -> None:
+    one = EVERYTHING["OrbitDiagram"]
+    other = bd.orbit_diagram(axial_forcing=[0.3, 0.57], **STARTS)
+    assert one != other
+    with pytest.raises(TypeError):
+        hash(one)
+    with pytest.raises(AttributeError):
+        one.offsets = None
+
+
+def test_a_changed_parameter_is_another_system() -> None:
+    toss = bd.System.pizza_toss()
+    assert toss.replace(friction=0.05) != toss
+    assert toss.replace(friction=0.05).replace(friction=toss.friction) == toss
+    assert toss.replace() == toss
+    assert len({toss, toss.replace(), toss.replace(friction=0.05)}) == 2
+    with pytest.raises(TypeError):
+        toss.replace(frikshun=1.0)
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        toss.replace(restitution=1.0)
+    assert (refused.value.field, refused.value.value, refused.value.range) == ("restitution", 1.0, "[0, 1)")
+
+
+def test_minus_zero_hashes_as_zero() -> None:
+    toss = bd.System.pizza_toss()
+    assert toss.replace(phase_lag=-0.0) == toss.replace(phase_lag=0.0)
+    assert hash(toss.replace(phase_lag=-0.0)) == hash(toss.replace(phase_lag=0.0))
+
+
+def test_maps_of_either_parameter() -> None:
+    for forcing in np.linspace(0.01, 3.0, 300):
+        one = bd.ImpactMap(axial_forcing=forcing, restitution=0.5)
+        assert one.axial_forcing == forcing
+        assert pickle.loads(pickle.dumps(one)).axial_forcing == forcing
+        other = bd.ImpactMap(peak_acceleration=one.peak_acceleration, restitution=0.5)
+        assert other == one and hash(other) == hash(one)
+        assert pickle.loads(pickle.dumps(other)) == one
+    with pytest.raises(bd.InvalidError) as refused:
+        bd.ImpactMap(restitution=0.5)
+    assert refused.value.kind == "neither-given"
+    with pytest.raises(bd.InvalidError) as refused:
+        bd.ImpactMap(axial_forcing=0.5, peak_acceleration=1.0, restitution=0.5)
+    assert refused.value.kind == "both-given"
+
+
+def test_the_map_of_a_system_is_its_vertical_motion() -> None:
+    toss = bd.System.pizza_toss()
+    own = bd.ImpactMap.of_system(toss)
+    assert own.peak_acceleration == toss.peak_acceleration
+    assert math.isclose(own.axial_forcing, toss.axial_forcing, rel_tol=1e-15)
+
+
+def test_data_sheets_that_are_wrong_say_where() -> None:
+    with pytest.raises(bd.InvalidError, match="line 2"):
+        bd.Motor.from_json('{\n  "drive_frequenzy": 1.0\n}')
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.Motor.from_json(MOTOR.to_json().replace('"restitution": 0.5', '"restitution": 1.5'))
+    assert refused.value.field == "restitution"
+    with pytest.raises(bd.InvalidError) as invalid:
+        MOTOR.replace(density=1e3)
+    assert invalid.value.kind == "both-given"
+
+
+def test_systems_of_unknown_keys_are_refused() -> None:
+    wrong: list[Any] = [
+        {"plattform": {}},
+        {"platform": {"amplitud": 1.0}},
+        {"platform": {"friction": 1.0}},
+        {"platform": 1},
+        {1: {}},
+        {},
+    ]
+    for parameters in wrong:
+        with pytest.raises((TypeError, ValueError)):
+            bd.System.from_dict(parameters)
+    for text in ("", "1", "[]", "{", '{"platform": null}'):
+        with pytest.raises((TypeError, ValueError)):
+            bd.System.from_json(text)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        bd.OutOfRangeError("a = 1.0", "a", 1.0, "[2, 3]"),
+        bd.TooLargeError("no room", "cells", 3, 2),
+        bd.InvalidError("both", "both-given", {"one": "a"}),
+        bd.FitRefusedError("the curve is not fitted"),
+        bd.ComputationError("not settled", "not-settled", {"residual": 1.0}),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_errors_pickle_with_their_numbers(error: bd.BouncingDiskError) -> None:
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is type(error)
+    assert vars(again) == vars(error)
+    assert str(again) == str(error) == error.args[0]
+    assert isinstance(error, (ValueError, RuntimeError))

@@ -1,0 +1,59 @@
+"""The worked example of a sweep: the regime map."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bouncing_disk as bd
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
+
+import regime_map  # noqa: E402
+
+
+def alone(result: bd.SweepResult, places: np.ndarray) -> np.ndarray:
+    """The verdicts on these cells, computed together and without a sweep."""
+    forcings, restitutions = result.axes.values()
+    return regime_map.regimes(
+        forcings[places // len(restitutions)],
+        restitutions[places % len(restitutions)],
+        regime_map.TRANSIENT,
+        regime_map.IMPACTS,
+    )
+
+
+def test_the_map_of_a_hundred_by_a_hundred(tmp_path: Path) -> None:
+    result = regime_map.regime_map(100, "serial", tmp_path / "map", chunk_size=1_500)
+    assert result.values.dtype == np.uint8 and result.values.shape == (100, 100)
+    assert np.array_equal(result.values.ravel(), alone(result, np.arange(10_000)))
+    forcings, restitutions = result.axes.values()
+    # Below 1/pi the platform never falls away; below the birth of the period-1 orbit, too, the disk comes to
+    # rest.
+    weak = forcings[:, np.newaxis] < np.minimum(1.0 / np.pi, (1.0 - restitutions) / (1.0 + restitutions))
+    rest = bd.Verdicts.KINDS.index("at-rest")
+    assert (result.values[weak] == rest).mean() > 0.99
+    assert len(np.unique(result.values)) >= 4
+
+
+def test_the_plan_of_a_map_of_four_hundred_million_cells() -> None:
+    plan = regime_map.plan(20_000, 16_000.0)
+    assert plan.points == 400_000_000 and plan.chunks == 6_104
+    assert plan.core_hours == pytest.approx(6.94, abs=0.01)
+    assert plan.seconds_a_chunk == pytest.approx(4.096)
+    assert plan.result_bytes == 400_000_000
+    assert regime_map.measured_rate(256) > 0.0
+
+
+def test_the_map_of_a_thousand_by_a_thousand(tmp_path: Path) -> None:
+    """On local processes, with a folder: a minute of two processors."""
+    pytest.importorskip("distributed")
+    result = regime_map.regime_map(1_000, folder=tmp_path / "map")
+    assert result.values.shape == (1_000, 1_000)
+    places = np.random.default_rng(3).integers(0, 1_000_000, 3_000)
+    assert np.array_equal(result.values.ravel()[places], alone(result, places))
+    assert len(list((tmp_path / "map").glob("chunk-*.npz"))) == 16
+    assert bd.read_sweep(tmp_path / "map").values.tobytes() == result.values.tobytes()

@@ -1,0 +1,126 @@
+"""The same bits as in Rust: the digests of ``examples/digests.rs``, and the same calls from here."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bouncing_disk as bd
+
+DIGESTS = json.loads((Path(__file__).parent / "digests.json").read_text())
+
+
+class Digest:
+    """The 64-bit FNV-1a hash of bytes and doubles, as in the Rust library."""
+
+    def __init__(self) -> None:
+        self.value = 0xCBF2_9CE4_8422_2325
+
+    def bytes(self, data: bytes) -> None:
+        for byte in data:
+            self.value = ((self.value ^ byte) * 0x0100_0000_01B3) & 0xFFFF_FFFF_FFFF_FFFF
+
+    def numbers(self, *numbers: float) -> None:
+        self.bytes(np.array(numbers, dtype="<f8").tobytes())
+
+    def __str__(self) -> str:
+        return f"{self.value:016x}"
+
+
+def forcings(count: int, low: float, step: float) -> list[float]:
+    return [low + index * step for index in range(count)]
+
+
+def diagram(chatter: bd.ChatterCut | None) -> Digest:
+    found = bd.orbit_diagram(
+        axial_forcing=forcings(200, 0.3, 0.002),
+        restitution=0.5,
+        impact_phase=1.2,
+        normalised_speed=1.3,
+        transient=1000,
+        recorded=50,
+        chatter=chatter,
+    )
+    digest = Digest()
+    digest.bytes(np.stack([found.impact_phase, found.axial_impact_velocity], axis=1).astype("<f8").tobytes())
+    return digest
+
+
+def basins() -> Digest:
+    bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert orbit is not None
+    radius = orbit.trapping_radius(bouncing)
+    assert radius is not None
+    found = bd.basins(bouncing, phases=200, speeds=150, speed_range=(0.0, 3.0), known_orbits=[orbit])
+    assert found == bd.basins(bouncing, phases=200, speeds=150, known_orbits=[(orbit, radius)])
+    digest = Digest()
+    digest.numbers(radius)
+    digest.bytes(found.labels.tobytes())
+    return digest
+
+
+def verdicts() -> Digest:
+    found = bd.verdicts(
+        axial_forcing=forcings(100, 0.2, 0.005),
+        restitution=0.5,
+        impact_phase=1.2,
+        normalised_speed=1.3,
+        impacts=20_000,
+    )
+    digest = Digest()
+    for k, kind in enumerate(found.kind):
+        digest.bytes(bytes([kind]))
+        if kind == 0:
+            digest.numbers(found.period[k], found.platform_periods[k])
+        elif kind == 1:
+            digest.numbers(found.exponent[k], found.standard_error[k])
+        elif kind in (2, 3):
+            digest.numbers(found.after[k])
+            if not np.isnan(found.exponent[k]):
+                digest.numbers(found.exponent[k])
+    return digest
+
+
+def tosses() -> Digest:
+    digest = Digest()
+    for lag in forcings(100, -1.5, 0.03):
+        system = bd.System.pizza_toss().replace(phase_lag=lag)
+        for spin in ("absolute-rest", "with-hand"):
+            toss = bd.single_toss(system, initial_spin=spin)
+            digest.numbers(toss.airborne_speed, toss.efficiency, toss.launch_speed, toss.energy.friction_loss)
+    return digest
+
+
+def motors() -> Digest:
+    runs = bd.ensemble(bd.System.motor(), members=16, duration=0.5, intervals=50)
+    digest = Digest()
+    for member in range(16):
+        digest.numbers(*runs.times[:, member], *runs.speeds[:, member])
+    digest.numbers(runs.steady_speed.mean, runs.time_constant.mean, runs.stall_acceleration.standard_error)
+    return digest
+
+
+CALLS = {
+    "diagram": lambda: diagram(None),
+    "diagram with the paper's cut": lambda: diagram(bd.ChatterCut.paper()),
+    "basins": basins,
+    "verdicts": verdicts,
+    "tosses": tosses,
+    "motors": motors,
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_python_and_rust_get_the_same_bits(name: str) -> None:
+    assert str(CALLS[name]()) == DIGESTS[name]
+
+
+def test_every_digest_is_compared() -> None:
+    assert CALLS.keys() == DIGESTS.keys()
+    digest = Digest()
+    digest.bytes(b"foobar")
+    assert str(digest) == "85944171f73967e8"
