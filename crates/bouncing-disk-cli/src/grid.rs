@@ -1,7 +1,8 @@
-//! Computations of many rows: in one go, in parts on several machines, or with a journal that they go on from.
+//! Computations of many rows: in one go, in parts on several machines, or with a journal that they go on
+//! from.
 //!
-//! A row is computed the same, to the last bit, whatever others are computed with it. So the result does not depend on how
-//! the rows were divided.
+//! A row is computed the same, to the last bit, whatever others are computed with it. So the result does not
+//! depend on how the rows were divided.
 
 pub(crate) mod chunk;
 

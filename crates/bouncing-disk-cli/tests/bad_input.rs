@@ -1,4 +1,5 @@
-//! What cannot be used is refused with status 2 and a text that says what is wrong, where, and what would be right.
+//! What cannot be used is refused with status 2 and a text that says what is wrong, where, and what would be
+//! right.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;

@@ -116,7 +116,8 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     let settings = FitSettings { resamples: args.resamples, seed: args.seed, ..FitSettings::default() };
     let watcher = context.watch("fit");
     let runs = speeds.runs();
-    // As `MeasuredSpeeds::fit` does, which takes no observer: one run by its residuals, several by their scatter.
+    // As `MeasuredSpeeds::fit` does, which takes no observer: one run by its residuals, several by their
+    // scatter.
     let fit = match runs {
         [run] => TransientFit::of_measured_observed(&run.times, &run.speeds, &settings, &watcher)?,
         _ => {
