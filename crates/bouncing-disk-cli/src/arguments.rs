@@ -23,8 +23,8 @@ Examples:
 
 /// A disk that bounces on a platform which vibrates and twists: tosses, orbits, attractors, motors
 ///
-/// The model is that of Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009). Results are tables with units on the
-/// terminal, or files by the ending of --out: .csv, .json, .png, .svg.
+/// The model is that of Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009). Results are tables with units on
+/// the terminal, or files by the ending of --out: .csv, .json, .png, .svg.
 #[derive(Debug, Parser)]
 #[command(name = "bouncing-disk", version, after_help = AFTER, max_term_width = 110)]
 pub(crate) struct CommandLine {
@@ -70,8 +70,8 @@ pub(crate) enum Command {
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Result")]
 pub(crate) struct OutputArgs {
-    /// Writes the result to a file in place of the terminal; its ending says how: .csv, .json, .png or .svg. May be
-    /// repeated
+    /// Writes the result to a file in place of the terminal; its ending says how: .csv, .json, .png or .svg.
+    /// May be repeated
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Vec<Target>,
     /// Replaces files that are there already
@@ -85,7 +85,10 @@ impl OutputArgs {
     /// # Errors
     /// [`Failure::Usage`] names the file.
     pub(crate) fn check(&self, has_picture: bool) -> Result<(), Failure> {
-        for target in &self.out {
+        for (index, target) in self.out.iter().enumerate() {
+            if self.out[..index].contains(target) {
+                return Err(Failure::usage(format!("{target}: it is asked for twice")));
+            }
             if !has_picture && matches!(target.kind, Kind::Png | Kind::Svg) {
                 return Err(no_picture().in_context(&target.to_string()));
             }
@@ -130,8 +133,8 @@ impl Chunk {
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Long computations")]
 pub(crate) struct GridArgs {
-    /// Computes the I-th of N parts of the rows and writes it to --out FILE.json; `bouncing-disk merge` puts all parts
-    /// together
+    /// Computes the I-th of N parts of the rows and writes it to --out FILE.json; `bouncing-disk merge` puts
+    /// all parts together
     #[arg(long, value_name = "I/N")]
     pub(crate) chunk: Option<Chunk>,
     /// Keeps finished rows in a file: the same command goes on where it was stopped or killed

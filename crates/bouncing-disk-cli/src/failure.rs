@@ -20,10 +20,11 @@ pub(crate) enum Failure {
     Usage(String),
     /// The computation failed, or the system refused: status 1.
     Failed(String),
-    /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says what is kept and how to
-    /// go on.
+    /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says what is
+    /// kept and how to go on.
     Interrupted(String),
-    /// Whoever read the output has gone, as `head` does: nobody is left to be told anything, and that is no error.
+    /// Whoever read the output has gone, as `head` does: nobody is left to be told anything, and that is no
+    /// error.
     NobodyReads,
 }
 

@@ -1,7 +1,8 @@
-//! Computations of many rows: in one go, in parts on several machines, or with a journal that they go on from.
+//! Computations of many rows: in one go, in parts on several machines, or with a journal that they go on
+//! from.
 //!
-//! A row is computed the same, to the last bit, whatever others are computed with it. So the result does not depend on how
-//! the rows were divided.
+//! A row is computed the same, to the last bit, whatever others are computed with it. So the result does not
+//! depend on how the rows were divided.
 
 pub(crate) mod chunk;
 
@@ -80,6 +81,9 @@ pub(crate) fn run<J: GridJob>(
     if grid.chunk.is_some() && !matches!(&output.out[..], [target] if target.kind == Kind::Json) {
         return Err(Failure::usage("--chunk needs one --out FILE.json for its part"));
     }
+    if let Some(target) = output.out.iter().find(|target| grid.journal.as_ref() == Some(&target.path)) {
+        return Err(Failure::usage(format!("{target}: it cannot be the journal and the result")));
+    }
     let rows = job.rows();
     let range = grid.chunk.map_or(0..rows, |chunk| chunk.rows(rows));
     let mut watcher = context.watch(J::COMMAND);
@@ -152,10 +156,13 @@ impl<R: Serialize + DeserializeOwned> Kept<R> {
                 Failure::Interrupted(_) => self.interrupted(items),
                 other => other,
             })?;
-            self.finished.extend((*first..).zip(computed));
             if let Some(journal) = &mut self.journal {
-                journal.record(&self.finished)?;
+                for (index, row) in (*first..).zip(&computed) {
+                    journal.append(index, row)?;
+                }
+                journal.sync()?;
             }
+            self.finished.extend((*first..).zip(computed));
             left = &left[count..];
             // No row depends on what is computed with it.
             match began.elapsed() {

@@ -14,8 +14,9 @@ static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 /// Of the usual signals: what a shell reports where a process dies of one.
 const BASE: usize = 128;
 
-/// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A computation that does not look
-/// at [`came`] is ended by a second one: files are renamed when they are complete, so that none is torn.
+/// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A computation that does
+/// not look at [`came`] is ended by a second one: files are renamed when they are complete, so that none is
+/// torn.
 ///
 /// # Errors
 /// When the system refuses.

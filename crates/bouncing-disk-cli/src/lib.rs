@@ -1,8 +1,9 @@
 //! The program `bouncing-disk`: what the library `bouncing-disk` computes, on the command line.
 //!
-//! The program is thin. A command reads its parameters (`parameters`), calls the library, and delivers a report: a table on
-//! the terminal, or files (`output`). It has no physics and no numerics of its own. Grids go through `grid`, which divides
-//! them into chunks and keeps journals; pictures are drawn by `pictures` with `bouncing-disk-plot`.
+//! The program is thin. A command reads its parameters (`parameters`), calls the library, and delivers a
+//! report: a table on the terminal, or files (`output`). It has no physics and no numerics of its own. Grids
+//! go through `grid`, which divides them into chunks and keeps journals; pictures are drawn by `pictures`
+//! with `bouncing-disk-plot`.
 //!
 //! The chapter on the command line in the book (`docs/command-line.md`) shows what it does.
 
@@ -26,8 +27,8 @@ use arguments::CommandLine;
 use failure::Failure;
 use output::lines::complain;
 
-/// Runs the command of this process's arguments, and gives its exit status: 0 done, 1 failed, 2 bad usage or input, 130 or
-/// 143 interrupted.
+/// Runs the command of this process's arguments, and gives its exit status: 0 done, 1 failed, 2 bad usage or
+/// input, 130 or 143 interrupted.
 #[must_use]
 pub fn run() -> ExitCode {
     let line = match CommandLine::try_parse() {

@@ -16,7 +16,8 @@ use bouncing_disk_plot::{Axis, Ticks};
 const PHASE: &str = r"$\tau_{imp}/2\pi$";
 const SPEED: &str = r"$|w_A\Gamma/(\omega A)|$";
 
-/// A linear axis between the least and the largest of these numbers, with room beyond them; the same for one number alone.
+/// A linear axis between the least and the largest of these numbers, with room beyond them; the same for one
+/// number alone.
 fn axis(values: impl IntoIterator<Item = f64>) -> Axis {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite

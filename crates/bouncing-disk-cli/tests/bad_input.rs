@@ -1,4 +1,5 @@
-//! What cannot be used is refused with status 2 and a text that says what is wrong, where, and what would be right.
+//! What cannot be used is refused with status 2 and a text that says what is wrong, where, and what would be
+//! right.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
@@ -96,6 +97,8 @@ fn words_of_the_line_that_are_not_legal() {
         ("diagram --chunk 4/3 --out a.json", "I/N"),
         ("diagram --chunk 1/3", "--chunk needs one --out FILE.json"),
         ("diagram --chunk 1/3 --out a.csv", "--chunk needs one --out FILE.json"),
+        ("diagram --journal a.json --out a.json", "a.json: it cannot be the journal and the result"),
+        ("toss --out a.csv --out b.csv --out a.csv", "a.csv: it is asked for twice"),
         ("verdicts --impacts 1", "impacts"),
         ("basins --cells 0", "cells"),
         ("basins -G 0.1:0.2:3", "takes a single number"),

@@ -114,6 +114,32 @@ fn a_part_that_is_damaged_is_refused() {
     }
 }
 
+/// A part goes on from its journal, which is that of no other part.
+#[test]
+fn a_part_has_a_journal_of_its_own() {
+    let folder = Folder::new();
+    let line = "verdicts -G 0:2:6 -r 0:0.9:5 --impacts 200";
+    folder.done(&format!("{line} --chunk 2/2 --out plain.json"));
+    for name in ["first.json", "again.json"] {
+        folder.done(&format!("{line} --chunk 2/2 --journal rows --out {name}"));
+        assert!(folder.read(name) == folder.read("plain.json"), "{name}");
+    }
+    for other in ["--chunk 1/2 --out other.json", "--chunk 3/4 --out other.json", "--out other.csv"] {
+        let text = folder.refused(&format!("{line} {other} --journal rows"), 2);
+        assert!(text.contains("journal of another computation"), "{other}: {text}");
+    }
+    // Half a line, as a power cut may leave it, is cut off; a changed line is seen.
+    let whole = folder.read("rows");
+    std::fs::write(folder.join("rows"), &whole[..whole.len() - 7]).unwrap();
+    folder.done(&format!("{line} --chunk 2/2 --journal rows --out torn.json"));
+    assert!(folder.read("torn.json") == folder.read("plain.json") && folder.read("rows") == whole);
+    let place = whole.iter().rposition(|byte| *byte == b'1').unwrap();
+    let mut changed = whole;
+    changed[place] = b'2';
+    std::fs::write(folder.join("rows"), changed).unwrap();
+    folder.refused(&format!("{line} --chunk 2/2 --journal rows --out changed.json"), 2);
+}
+
 /// As a job array does it, with a shell.
 #[cfg(unix)]
 #[test]

@@ -1,8 +1,8 @@
 //! Every command in the documentation is run by a shell, and its output compared with what stands under it.
 //!
-//! In a block marked `console` a line that begins with `$ ` is a command, the lines after it are what it prints, on either
-//! stream. The blocks of a file are run one after the other in one folder. `UPDATE_DOCUMENTATION=1` writes what is printed
-//! into the file in place of comparing it.
+//! In a block marked `console` a line that begins with `$ ` is a command, the lines after it are what it
+//! prints, on either stream. The blocks of a file are run one after the other in one folder.
+//! `UPDATE_DOCUMENTATION=1` writes what is printed into the file in place of comparing it.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 

@@ -107,7 +107,8 @@ impl BasinsJob {
 impl GridJob for BasinsJob {
     const COMMAND: &'static str = "basins";
 
-    /// The labels of a row by phase, two hexadecimal digits each: a list of numbers takes many times the memory.
+    /// The labels of a row by phase, two hexadecimal digits each: a list of numbers takes many times the
+    /// memory.
     type Row = String;
 
     type Prepared = Attractors;
@@ -117,7 +118,8 @@ impl GridJob for BasinsJob {
     }
 
     fn together(&self) -> usize {
-        // Each time the whole grid takes place in memory, so that few rows of a large one would cost more than they are.
+        // Each time the whole grid takes place in memory, so that few rows of a large one would cost more
+        // than they are.
         TOGETHER.div_ceil(self.cells.max(1)).max(self.cells / 64)
     }
 

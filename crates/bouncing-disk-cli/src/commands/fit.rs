@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use bouncing_disk::{
-    Error, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredSpeeds, MeasuredTransient, Motor,
-    ParameterFit, ParameterFitSettings, RunPreload, TransientFit,
+    Error, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor, ParameterFit,
+    ParameterFitSettings, RunPreload, TransientFit,
 };
 use clap::Args;
 use serde::Serialize;
@@ -116,7 +116,8 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     let settings = FitSettings { resamples: args.resamples, seed: args.seed, ..FitSettings::default() };
     let watcher = context.watch("fit");
     let runs = speeds.runs();
-    // As `MeasuredSpeeds::fit` does, which takes no observer: one run by its residuals, several by their scatter.
+    // As `MeasuredSpeeds::fit` does, which takes no observer: one run by its residuals, several by their
+    // scatter.
     let fit = match runs {
         [run] => TransientFit::of_measured_observed(&run.times, &run.speeds, &settings, &watcher)?,
         _ => {
@@ -146,15 +147,17 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
 
 /// What a fit of a run-up says.
 pub(crate) fn estimates(fit: &TransientFit, list: &mut Quantities) {
-    let mut interval = |names: [&'static str; 3], estimate: IntervalEstimate, unit: &'static str| {
-        let [value, low, high] = names;
-        list.push(value, estimate.value, unit);
-        list.push(low, estimate.low, unit);
-        list.push(high, estimate.high, unit);
-    };
-    interval(["steady_speed", "steady_speed_low", "steady_speed_high"], fit.steady_speed(), "rad/s");
-    interval(["time_constant", "time_constant_low", "time_constant_high"], fit.time_constant(), "s");
-    interval(
+    list.push_interval(
+        ["steady_speed", "steady_speed_low", "steady_speed_high"],
+        fit.steady_speed(),
+        "rad/s",
+    );
+    list.push_interval(
+        ["time_constant", "time_constant_low", "time_constant_high"],
+        fit.time_constant(),
+        "s",
+    );
+    list.push_interval(
         ["stall_acceleration", "stall_acceleration_low", "stall_acceleration_high"],
         fit.stall_acceleration(),
         "rad/s^2",

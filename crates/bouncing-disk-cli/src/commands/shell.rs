@@ -1,4 +1,5 @@
-//! What a shell is told of the program: completions and manual pages, made from the command line's own description.
+//! What a shell is told of the program: completions and manual pages, made from the command line's own
+//! description.
 
 use std::io::{self, Write as _};
 

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::range::number;
 
-/// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the disk leaves it at
-/// once.
+/// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the
+/// disk leaves it at once.
 const BESIDE: f64 = 1.01;
 
 /// A start, of which every map makes its own.

@@ -58,8 +58,8 @@ pub(crate) struct VerdictsArgs {
     /// How near an impact must come to an earlier one for a period to be tried, in (0, 0.01]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
     tolerance: f64,
-    /// Keeps the evidence of each cell of a map in the file, which makes it a hundred times larger; without a range of
-    /// restitutions it is always kept
+    /// Keeps the evidence of each cell of a map in the file, which makes it a hundred times larger; without a
+    /// range of restitutions it is always kept
     #[arg(help_heading = OWN, long)]
     details: bool,
     #[command(flatten)]

@@ -51,7 +51,8 @@ impl Display for Target {
 }
 
 impl Target {
-    /// Whether it can be written, as far as that is seen without writing: better now than after an hour of computing.
+    /// Whether it can be written, as far as that is seen without writing: better now than after an hour of
+    /// computing.
     ///
     /// # Errors
     /// [`Failure::Usage`] if the folder is not there or the file is, unless it may be replaced.

@@ -1,5 +1,5 @@
-//! Results as JSON: the fields of a result one below the other, the elements of a list one a line, so that a file can be
-//! read by people and compared line by line, and is not much longer for it.
+//! Results as JSON: the fields of a result one below the other, the elements of a list one a line, so that a
+//! file can be read by people and compared line by line, and is not much longer for it.
 
 use serde_json::Value;
 

@@ -23,7 +23,8 @@ macro_rules! complain {
 
 pub(crate) use {complain, say};
 
-/// A text from elsewhere (a key, a name of a file) on one line, with everything escaped that a terminal would obey.
+/// A text from elsewhere (a key, a name of a file) on one line, with everything escaped that a terminal would
+/// obey.
 pub(crate) fn visible(text: &str) -> String {
     text.chars()
         .flat_map(|letter| if letter.is_control() { letter.escape_debug().collect() } else { vec![letter] })

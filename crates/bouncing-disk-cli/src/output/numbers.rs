@@ -8,7 +8,8 @@ pub(crate) fn shown(value: f64) -> String {
     rounded(value, DIGITS)
 }
 
-/// A number with so many significant digits at most, without trailing zeros; powers of ten only where they are needed.
+/// A number with so many significant digits at most, without trailing zeros; powers of ten only where they
+/// are needed.
 pub(crate) fn rounded(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return if value.is_nan() { "none".to_owned() } else { format!("{value}") };

@@ -23,7 +23,8 @@ pub(crate) struct Report {
     pub(crate) provenance: Provenance,
     /// What is printed.
     pub(crate) text: String,
-    /// What goes into a comma-separated file, made when it is asked for: that of a large map takes much memory.
+    /// What goes into a comma-separated file, made when it is asked for: that of a large map takes much
+    /// memory.
     pub(crate) table: Box<dyn Fn() -> Table>,
     /// The fields of the JSON file after the provenance, in their order.
     pub(crate) data: Vec<(&'static str, Value)>,

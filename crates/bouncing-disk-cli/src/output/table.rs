@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use bouncing_disk::IntervalEstimate;
 use serde_json::{Value, json};
 
 use super::numbers::{exact, shown};
@@ -190,13 +191,37 @@ impl Table {
     }
 }
 
-/// A list of quantities: name, value and unit in each row.
+/// A quantity with its unit, `1` where it has none.
+#[derive(Debug, Clone)]
+struct Quantity {
+    name: &'static str,
+    value: Cell,
+    unit: &'static str,
+    /// Whether it is an end of the interval of the quantity before.
+    is_end: bool,
+}
+
+/// A list of quantities.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Quantities(Vec<(&'static str, Cell, &'static str)>);
+pub(crate) struct Quantities(Vec<Quantity>);
 
 impl Quantities {
     pub(crate) fn push(&mut self, name: &'static str, value: impl Into<Cell>, unit: &'static str) {
-        self.0.push((name, value.into(), unit));
+        self.0.push(Quantity { name, value: value.into(), unit, is_end: false });
+    }
+
+    /// Adds a quantity with its 95 % interval: its name and those of the two ends.
+    pub(crate) fn push_interval(
+        &mut self,
+        names: [&'static str; 3],
+        estimate: IntervalEstimate,
+        unit: &'static str,
+    ) {
+        let [name, low, high] = names;
+        self.push(name, estimate.value, unit);
+        for (name, end) in [(low, estimate.low), (high, estimate.high)] {
+            self.0.push(Quantity { name, value: end.into(), unit, is_end: true });
+        }
     }
 
     /// Adds all of another list.
@@ -204,14 +229,19 @@ impl Quantities {
         self.0.extend(other.0);
     }
 
-    /// One line each, the unit after the value.
+    /// One line each, the unit after the value, and after it the interval.
     pub(crate) fn to_text(&self) -> String {
-        let width = self.0.iter().map(|(name, ..)| name.len()).max().unwrap_or(0);
+        let lines = || self.0.iter().enumerate().filter(|(_, own)| !own.is_end);
+        let width = lines().map(|(_, own)| own.name.len()).max().unwrap_or(0);
         let mut text = String::new();
-        for (name, value, unit) in &self.0 {
+        for (index, Quantity { name, value, unit, .. }) in lines() {
             let unit = if *unit == "1" || *value == Cell::Nothing { "" } else { unit };
             let line = format!("{:<width$}  {} {unit}", name.replace('_', " "), value.shown());
             text += line.trim_end();
+            let ends = self.0[index + 1..].iter().take_while(|own| own.is_end).map(|own| own.value.shown());
+            if let [low, high] = &ends.collect::<Vec<_>>()[..] {
+                text += &format!(" (95 %: {low} to {high})");
+            }
             text.push('\n');
         }
         text
@@ -219,14 +249,15 @@ impl Quantities {
 
     /// As a list of objects.
     pub(crate) fn to_json(&self) -> Value {
-        let quantity = |(name, value, unit): &(&str, Cell, &str)| json!({ "quantity": name, "value": value.to_json(), "unit": unit });
+        let quantity =
+            |own: &Quantity| json!({ "quantity": own.name, "value": own.value.to_json(), "unit": own.unit });
         self.0.iter().map(quantity).collect::<Vec<_>>().into()
     }
 
     /// As a table of three columns.
     pub(crate) fn to_table(&self) -> Table {
         let mut table = Table::new(&[("quantity", "1"), ("value", "1"), ("unit", "1")]);
-        for (name, value, unit) in &self.0 {
+        for Quantity { name, value, unit, .. } in &self.0 {
             table.push([(*name).into(), value.clone(), (*unit).into()]);
         }
         table
@@ -279,5 +310,17 @@ load_torque_n_m,state,speed_rad_s
         list.push("efficiency", None::<f64>, "1");
         assert_eq!(list.to_text(), "speed       2 rad/s\nefficiency  -\n");
         assert_eq!(list.to_table().to_csv(), "quantity,value,unit\nspeed,2.0,rad/s\nefficiency,,1\n");
+        let mut list = Quantities::default();
+        list.push_interval(
+            ["t", "t_low", "t_high"],
+            IntervalEstimate { value: 2.0, low: 1.5, high: 3.0 },
+            "s",
+        );
+        list.push("u", 1.0, "1");
+        assert_eq!(list.to_text(), "t  2 s (95 %: 1.5 to 3)\nu  1\n");
+        assert_eq!(
+            list.to_table().to_csv(),
+            "quantity,value,unit\nt,2.0,s\nt_low,1.5,s\nt_high,3.0,s\nu,1.0,1\n"
+        );
     }
 }

@@ -4,8 +4,8 @@ use std::str::FromStr;
 
 use crate::output::lines::visible;
 
-/// A key and the number that it is given. Whether there is such a key, and whether the number is legal, is seen where it is
-/// set.
+/// A key and the number that it is given. Whether there is such a key, and whether the number is legal, is
+/// seen where it is set.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
     pub(crate) key: String,

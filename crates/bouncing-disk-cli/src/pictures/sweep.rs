@@ -21,7 +21,8 @@ const SCALE: [Colour; 4] = [
     Colour::rgb(50, 25, 95),
 ];
 
-/// The factor by which numbers of this unit are multiplied, so that they are of the size of 1, and the unit with its prefix.
+/// The factor by which numbers of this unit are multiplied, so that they are of the size of 1, and the unit
+/// with its prefix.
 pub(super) fn prefixed(values: impl Iterator<Item = f64>, unit: &str) -> (f64, String) {
     let size = values.filter(|value| value.is_finite()).fold(0.0_f64, |most, value| most.max(value.abs()));
     let prefixes = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n")];
