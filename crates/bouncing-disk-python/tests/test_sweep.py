@@ -221,6 +221,7 @@ def test_datasets_and_netcdf(tmp_path: Any) -> None:
         assert np.array_equal(stored["a"].values, GRID["a"])
     assert [item.name for item in tmp_path.iterdir()] == ["sums.nc"]
     assert serial(functions.product).to_xarray("area")["area"].shape == (4, 3)
+    assert list(bd.sweep(lambda a, b: a, GRID, "serial").to_xarray()) == ["result"]
     with pytest.raises(bd.InvalidError, match="is an axis and a result"):
         serial(functions.product).to_xarray("a")
     with pytest.raises(bd.InvalidError, match="not needed"):

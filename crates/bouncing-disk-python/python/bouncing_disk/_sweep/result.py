@@ -73,7 +73,8 @@ class SweepResult:
         Parameters
         ----------
         name : str, optional
-            The name of the variable, unless the values are structured: that of the function.
+            The name of the variable, unless the values are structured; by default that of the function,
+            or "result" if it has none.
 
         Returns
         -------
@@ -86,7 +87,8 @@ class SweepResult:
             raise MissingDependencyError.of("xarray", "a Dataset", "netcdf") from error
         fields = self.values.dtype.names
         if fields is None:
-            parts: Mapping[str, Array] = {name or self.function.rpartition(".")[2]: self.values}
+            own = self.function.rpartition(".")[2]
+            parts: Mapping[str, Array] = {name or (own if own.isidentifier() else "result"): self.values}
         elif name is None:
             parts = {field: self.values[field] for field in fields}
         else:
@@ -122,7 +124,7 @@ class SweepResult:
         name : str, optional
             As in `to_xarray`.
         """
-        dataset = self.to_xarray(name)
+        dataset: Any = self.to_xarray(name)
         engine = next((engine for engine, needs in _ENGINES.items() if all(map(_is_installed, needs))), None)
         if engine is None:
             raise MissingDependencyError.of("netCDF4", "a NetCDF file", "netcdf")
