@@ -89,6 +89,10 @@ fn of_core(error: CoreError) -> Raised {
             Computation("illegal-restitution", details![restitution, impact_speed])
         }
         CoreError::Stopped { done, total } => Computation("stopped", details![done, total]),
+        CoreError::NoBranch { what, parameter } => Computation("no-branch", details![what, parameter]),
+        CoreError::NotOfKind { what, index, count, expected } => {
+            Invalid("not-of-kind", details![what, index, count, expected])
+        }
         CoreError::NoClosedForm => Invalid("no-closed-form", Vec::new()),
         CoreError::NoDecimal { at } => Invalid("no-decimal", details![at]),
         CoreError::Unfitting { what, found, expected } => {
