@@ -263,3 +263,44 @@ def test_without_matplotlib_it_is_said_what_to_install(monkeypatch: pytest.Monke
     with pytest.raises(bd.MissingDependencyError) as missing:
         plot.toss(bd.System.pizza_toss())
     assert missing.value.install == "pip install 'bouncing-disk[plot]'"
+
+
+def test_tosses_depend_on_the_hand_as_single_tosses_say() -> None:
+    pizza = bd.System.pizza_toss()
+    lags = [0.0, np.pi / 2.0]
+    _, axes = plot.toss_performance(pizza, phase_lags=lags, points=40)
+    assert [len(panel.lines) for panel in axes] == [2, 2, 2]
+    angles, speeds = drawn(axes[0].lines[1])
+    stroke = np.hypot(pizza.amplitude, pizza.contact_radius * pizza.twist_amplitude)
+    place = 17
+    angle = np.pi * angles[place]
+    toss = bd.single_toss(
+        pizza.replace(
+            amplitude=float(stroke * np.cos(angle)),
+            twist_amplitude=float(stroke * np.sin(angle) / pizza.contact_radius),
+            phase_lag=lags[1],
+        )
+    )
+    assert speeds[place] == pytest.approx(toss.airborne_speed, rel=1e-12)
+    assert drawn(axes[1].lines[1])[1][place] == pytest.approx(toss.efficiency, rel=1e-12)
+    # A hand that hardly rises does not toss.
+    assert np.isnan(speeds[-1]) and np.isfinite(speeds[0])
+    with pytest.raises(TypeError, match="not float"):
+        plot.toss_performance(0.5)  # type: ignore[arg-type]
+
+
+def test_a_motor_depends_on_a_parameter_as_its_ensembles_say() -> None:
+    motor = bd.System.motor()
+    _, ax = plot.motor_dependence(motor, "preload_acceleration", [4.0, 8.0], members=3, rise_times=4.0)
+    values, speeds = drawn(ax.lines[0])
+    assert values.tolist() == [4.0, 8.0]
+    changed = motor.replace(preload_acceleration=8.0)
+    runs = bd.ensemble(changed, members=3, duration=4.0 * changed.rise_time, intervals=200, seed=1)
+    assert speeds[1] == runs.steady_speed.mean
+    plot.motor_dependence(SHEET, "friction", 0.0, members=2)
+    with pytest.raises(ValueError, match="must be one of amplitude"):
+        plot.motor_dependence(motor, "colour", [1.0])
+    with pytest.raises(TypeError, match="not float"):
+        plot.motor_dependence(0.5, "friction", [0.1])  # type: ignore[arg-type]
+    with pytest.raises(bd.OutOfRangeError):
+        plot.motor_dependence(motor, "restitution", [1.0])

@@ -47,8 +47,10 @@ impl BasinRun {
     ) -> Result<Self, Error> {
         check_number_of(known)?;
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
-        let mut labels = room_for("cells of a grid", columns as u64 * rows as u64, MAX_CELLS)?;
-        labels.resize(columns * rows, UNDECIDED);
+        // Zeros that the system gives at once, where writing those of a large grid takes seconds in which nobody is
+        // asked; whether there is room for them is known by then.
+        drop(room_for::<Label>("cells of a grid", columns as u64 * rows as u64, MAX_CELLS)?);
+        let labels = vec![UNDECIDED; columns * rows];
         Ok(Self { map, grid, known: known.to_vec(), settings, labels, finished: vec![false; rows] })
     }
 
@@ -63,7 +65,10 @@ impl BasinRun {
         let outcome = self.label_rows(&watch);
         let rows = self.labels.chunks_exact_mut(self.grid.phase().cells());
         for (row, _) in rows.zip(&self.finished).filter(|(_, finished)| !**finished) {
-            row.fill(UNDECIDED);
+            // Rows that were not begun are left alone: writing all of a large grid takes as long.
+            if row.iter().any(|label| *label != UNDECIDED) {
+                row.fill(UNDECIDED);
+            }
         }
         match outcome {
             // Other threads may have finished rows after the one that was told to stop, or even all.

@@ -13,5 +13,16 @@ from bouncing_disk.plot._dynamics import basins, orbit_diagram
 from bouncing_disk.plot._motor import motor_transient, torque_speed
 from bouncing_disk.plot._style import style
 from bouncing_disk.plot._toss import toss
+from bouncing_disk.plot._trends import motor_dependence, toss_performance
 
-__all__ = ["basins", "motor_transient", "orbit_diagram", "style", "torque_speed", "toss", "toss_animation"]
+__all__ = [
+    "basins",
+    "motor_dependence",
+    "motor_transient",
+    "orbit_diagram",
+    "style",
+    "torque_speed",
+    "toss",
+    "toss_animation",
+    "toss_performance",
+]

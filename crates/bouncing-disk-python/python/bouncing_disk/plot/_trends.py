@@ -1,0 +1,183 @@
+"""How tosses and motors depend on their parameters (Figs. 4, 11 and 13)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+import bouncing_disk as bd
+from bouncing_disk.plot._style import BLACK, ORANGE, drawn_on, drawn_on_rows, pyplot, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["motor_dependence", "toss_performance"]
+
+#: The parameters of a system that a motor may depend on, with what stands at their axis.
+_AXES = {
+    "amplitude": r"axial amplitude $A$ (m)",
+    "twist_amplitude": r"twist amplitude $\Phi$ (rad)",
+    "angular_frequency": r"angular frequency $\omega$ (rad/s)",
+    "phase_lag": r"phase lag $\theta$ (rad)",
+    "contact_radius": r"contact radius $a_\mathrm{e}$ (m)",
+    "gyration_radius": r"radius of gyration $a_\mathrm{g}$ (m)",
+    "friction": r"coefficient of friction $\mu$",
+    "restitution": r"coefficient of restitution $\epsilon$",
+    "preload_acceleration": r"preload $g$ (m/s$^2$)",
+    "load_acceleration": r"load $T/(m a_\mathrm{g}^2)$ (rad/s$^2$)",
+}
+
+
+def toss_performance(
+    system: bd.System,
+    *,
+    phase_lags: npt.ArrayLike = (0.0, np.pi / 8.0, np.pi / 4.0, 3.0 * np.pi / 8.0, np.pi / 2.0),
+    points: int = 200,
+    ax: Sequence[Axes] | np.ndarray[Any, Any] | None = None,
+) -> tuple[Figure, np.ndarray[Any, Any]]:
+    """Airborne speed, efficiency and speed ratio of single tosses against the amplitude angle, as Figs. 4(a)
+    to (c).
+
+    The stroke c = (A^2 + (a_e Phi)^2)^(1/2) of the system is kept, and divided otherwise between height and
+    twist: the amplitude angle is 0 for a vertical motion and pi/2 for a rotary one. Motions that never toss the
+    disk have no point.
+
+    Parameters
+    ----------
+    system : System
+        The tosses have its stroke, frequency and disk.
+    phase_lags : (n,) array_like, default 0 to pi/2 by pi/8
+        The phase lags (rad), a curve each.
+    points : int, default 200
+        Amplitude angles of each curve.
+    ax : three Axes, optional
+        Where speed, efficiency and ratio are drawn.
+
+    Returns
+    -------
+    (Figure, array of three Axes)
+    """
+    if not isinstance(system, bd.System):
+        raise TypeError(f"system must be a System, not {type(system).__name__}")
+    lags = np.atleast_1d(np.asarray(phase_lags, dtype=float))
+    angles = np.pi / 2.0 * (np.arange(points) + 0.5) / points
+    results = np.array([[_toss(system, float(angle), float(lag)) for angle in angles] for lag in lags])
+    with style():
+        fig, axes = drawn_on_rows(ax, 3, 5.0)
+        colours = pyplot().get_cmap("viridis")(np.linspace(0.0, 0.85, max(len(lags), 1)))
+        for column, (panel, label) in enumerate(
+            zip(axes, ("airborne speed (rad/s)", "efficiency", "speed ratio"))
+        ):
+            for lag, colour, curve in zip(lags, colours, results.reshape(len(lags), points, 3)):
+                panel.plot(angles / np.pi, curve[:, column], color=colour, label=rf"{lag / np.pi:.3g}$\pi$")
+            panel.set_ylabel(label)
+            panel.margins(y=0.08)
+        axes[-1].set_xlim(0.0, 0.5)
+        axes[-1].set_xlabel(r"amplitude angle $\varphi_L/\pi$")
+        axes[0].legend(
+            loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, borderaxespad=0.2, columnspacing=0.8,
+            handlelength=1.0, handletextpad=0.3, title=r"phase lag $\theta$", title_fontsize=9.5, alignment="right",
+        )  # fmt: skip
+    return fig, axes
+
+
+def _toss(system: bd.System, angle: float, lag: float) -> tuple[float, float, float]:
+    """Speed, efficiency and ratio of the toss with this amplitude angle and phase lag."""
+    stroke = float(np.hypot(system.amplitude, system.contact_radius * system.twist_amplitude))
+    changed = system.replace(
+        amplitude=stroke * float(np.cos(angle)),
+        twist_amplitude=stroke * float(np.sin(angle)) / system.contact_radius,
+        phase_lag=lag,
+    )
+    try:
+        toss = bd.single_toss(changed)
+    except bd.ComputationError as error:
+        if error.kind != "never-leaves":
+            raise
+        return np.nan, np.nan, np.nan
+    return toss.airborne_speed, toss.efficiency, np.nan if toss.speed_ratio is None else toss.speed_ratio
+
+
+def motor_dependence(
+    motor: bd.Motor | bd.System,
+    parameter: str,
+    values: npt.ArrayLike,
+    *,
+    members: int = 16,
+    rise_times: float = 6.0,
+    seed: int = 1,
+    ax: Axes | None = None,
+) -> tuple[Figure, Axes]:
+    """Steady speed and stall acceleration of a motor against one of its parameters, as Figs. 11 and 13.
+
+    Both are of the exponential fits to its run-ups, with two standard errors over the members. The stall
+    acceleration of such a fit is what the paper takes for the stall torque; the load that stops the motor is
+    ``stall_load``.
+
+    Parameters
+    ----------
+    motor : Motor or System
+        What does not vary is its own.
+    parameter : str
+        The parameter of the system that varies, such as ``"preload_acceleration"`` or ``"friction"``.
+    values : (n,) array_like
+        Its values (SI).
+    members : int, default 16
+        Run-ups at each value.
+    rise_times : float, default 6
+        How long a run-up lasts, in rise times omega Phi a_g^2/(mu a_e g) of the system.
+    seed : int, default 1
+        Seed of the perturbations.
+    ax : Axes, optional
+        Where the speed is drawn; the stall acceleration has an axis of its own on the right.
+
+    Returns
+    -------
+    (Figure, Axes)
+        The axes of the speed.
+    """
+    system = motor.system if isinstance(motor, bd.Motor) else motor
+    if not isinstance(system, bd.System):
+        raise TypeError(f"motor must be a Motor or a System, not {type(motor).__name__}")
+    if parameter not in _AXES:
+        raise ValueError(f"parameter must be one of {', '.join(_AXES)}, not {parameter!r}")
+    given = np.atleast_1d(np.asarray(values, dtype=float))
+    fits = np.array(
+        [_fit(system.replace(**{parameter: float(value)}), members, rise_times, seed) for value in given]
+    )
+    fits = fits.reshape(len(given), 4)
+    with style():
+        fig, ax = drawn_on(ax, 2.5)
+        ax.errorbar(
+            given, fits[:, 0], 2.0 * fits[:, 1], color=BLACK, marker="x", markersize=4.0, capsize=1.5, linewidth=0.8,
+            label="steady speed",
+        )  # fmt: skip
+        ax.set_xlabel(_AXES[parameter])
+        ax.set_ylabel("steady speed (rad/s)")
+        ax.margins(x=0.03, y=0.08)
+        stall = ax.twinx()
+        stall.errorbar(
+            given, fits[:, 2], 2.0 * fits[:, 3], color=ORANGE, marker="o", markersize=2.6, capsize=1.5, linewidth=0.8,
+            linestyle=(0, (4, 2)), label="stall acceleration",
+        )  # fmt: skip
+        stall.set_ylabel(r"stall acceleration (rad/s$^2$)", color=ORANGE)
+        stall.tick_params(axis="y", which="both", colors=ORANGE)
+        stall.margins(x=0.03, y=0.08)
+        ax.tick_params(axis="y", which="both", right=False)
+        handles = [*ax.get_legend_handles_labels()[0], *stall.get_legend_handles_labels()[0]]
+        ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
+    return fig, ax
+
+
+def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple[float, float, float, float]:
+    """Steady speed and stall acceleration with their standard errors, NaN where no fit is meaningful."""
+    # Without twist or friction there is no rise time, and any time will do.
+    rise = system.rise_time
+    duration = rise_times * (rise if np.isfinite(rise) and rise > 0.0 else 0.5)
+    runs = bd.ensemble(system, members=members, duration=duration, intervals=200, seed=seed)
+    speed, stall = runs.steady_speed, runs.stall_acceleration
+    return speed.mean, speed.standard_error, stall.mean, stall.standard_error
