@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import shutil
@@ -391,3 +392,109 @@ def test_an_ended_process_leaves_its_chunks(folder: Path, log: Path, sent: signa
     )
     assert resumed.values.tobytes() == whole.values.tobytes()
     assert not list(folder.glob("*.unfinished"))
+
+
+class Scaled:
+    """Something with methods."""
+
+    def __init__(self, factor: float) -> None:
+        self.factor = factor
+
+    @classmethod
+    def one(cls, a: Any) -> Any:
+        return a
+
+    def times(self, a: Any) -> Any:
+        return self.factor * a
+
+
+def test_what_a_folder_could_take_for_something_else_is_refused(tmp_path: Path) -> None:
+    unread: dict[str, Any] = {}
+    exec("def f(a):\n    return 2 * a", unread)
+    first = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+
+    @functools.wraps(functions.product)
+    def wrapped(a: Any) -> Any:
+        return a
+
+    for function in (Scaled(2.0).times, Scaled.one, unread["f"], wrapped, first.step):
+        with pytest.raises(bd.SweepFunctionError, match="cannot be swept with a folder"):
+            bd.sweep(function, {"a": [1.0, 2.0]}, "serial", folder=tmp_path / "x")
+    assert not (tmp_path / "x").exists()
+
+
+def test_masked_values_are_refused(tmp_path: Path) -> None:
+    masked: Any = np.ma.array([1.0, 2.0], mask=[False, True])
+    with pytest.raises(TypeError, match="axis 'a' has masked values"):
+        bd.sweep(functions.product, {"a": masked, "b": [1.0]}, "serial")
+    with pytest.raises(TypeError, match="masked values"):
+        bd.sweep(
+            functions.product,
+            {"a": [1.0]},
+            "serial",
+            arguments={"b": masked},
+            folder=tmp_path / "x",
+        )
+    unmasked: Any = np.ma.array([1.0, 2.0])
+    assert bd.sweep(functions.product, {"a": unmasked, "b": [1.0]}, "serial").values.tolist() == [
+        [1.0],
+        [2.0],
+    ]
+
+
+def test_the_folder_of_somebody_else_is_left_as_it_was(tmp_path: Path) -> None:
+    for name in ("thesis.unfinished", "notes.txt"):
+        (tmp_path / name).write_text("mine")
+    (tmp_path / "folder.unfinished").mkdir()
+    with pytest.raises(bd.SweepFolderError, match="holds other files"):
+        bd.sweep(functions.product, {"a": [1.0], "b": [1.0]}, "serial", folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "folder.unfinished",
+        "notes.txt",
+        "thesis.unfinished",
+    ]
+    with pytest.raises(bd.SweepFolderError, match="is empty"):
+        bd.sweep(functions.product, {"a": [1.0], "b": [1.0]}, "serial", folder="")
+
+
+def test_a_folder_is_at_home_and_stays_where_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "elsewhere").mkdir()
+    grid = {"a": [1.0, 2.0, 3.0], "b": [1.0]}
+    bd.sweep(functions.product, grid, "serial", folder="~/areas")
+    assert (tmp_path / "areas" / "sweep.json").exists()
+    monkeypatch.chdir(tmp_path)
+    bd.sweep(
+        functions.product,
+        grid,
+        "serial",
+        folder="here",
+        chunk_size=1,
+        progress=lambda done, total: os.chdir(tmp_path / "elsewhere"),
+    )
+    assert len(list((tmp_path / "here").glob("chunk-*.npz"))) == 3
+
+
+def aligned(a: Any) -> Any:
+    """A structured array with padding."""
+    result = np.zeros(len(a), np.dtype([("x", "i1"), ("y", "f8")], align=True))
+    result["y"] = a
+    return result
+
+
+def test_structured_results_and_axes_are_read_again(tmp_path: Path) -> None:
+    grid = {"a": [1.0, 2.0]}
+    first = bd.sweep(aligned, grid, "serial", folder=tmp_path / "x", chunk_size=1)
+    assert bd.read_sweep(tmp_path / "x").values.tobytes() == first.values.tobytes()
+    (tmp_path / "x" / "axes.npz").unlink()
+    assert bd.sweep(aligned, grid, "serial", folder=tmp_path / "x", chunk_size=1).values["y"].tolist() == [
+        1.0,
+        2.0,
+    ]
+    assert bd.read_sweep(tmp_path / "x").axes["a"].tolist() == [1.0, 2.0]
+
+
+def test_a_grid_that_fills_the_memory_is_refused_at_once() -> None:
+    axis = np.arange(2**15)
+    with pytest.raises(bd.TooLargeError, match="chunks of .* points are too large"):
+        bd.sweep(functions.product, {"a": axis, "b": axis, "c": axis}, "serial")

@@ -164,7 +164,7 @@ class _Run:
         self.journal: Journal | None = None
         if folder is not None:
             identity = Identity(function, self.grid, self.arguments, self.chunks.size, bool(pointwise))
-            self.journal = Journal(Path(folder), identity, self.grid)
+            self.journal = Journal(_lasting_path(folder), identity, self.grid)
 
     def tasks(self) -> list[Task]:
         """The points of each chunk that must be computed, now that what is stored has been read."""
@@ -173,7 +173,7 @@ class _Run:
             start, stop = self.chunks.span(chunk)
             stored = self.journal.read(chunk) if self.journal is not None else None
             if stored is None:
-                tasks.append((chunk, np.arange(start, stop, dtype=np.int64)))
+                tasks.append((chunk, range(start, stop)))
             elif len(stored.failed):
                 self.to_mend[chunk] = stored
                 tasks.append((chunk, start + stored.failed.astype(np.int64)))
@@ -236,6 +236,13 @@ class _Run:
         return result
 
 
+def _lasting_path(folder: str | os.PathLike[str]) -> Path:
+    """The folder, wherever the process goes meanwhile."""
+    if not os.fspath(folder):
+        raise SweepFolderError("the name of the folder is empty", "", "cannot-write")
+    return Path(os.path.abspath(Path(folder).expanduser()))
+
+
 def _result(values: Array, grid: Grid, failed: npt.NDArray[np.bool_], job: Job) -> SweepResult:
     name = function_name(job.function)
     return SweepResult(values, dict(grid.axes), failed, name, dict(job.arguments), package_version())
@@ -260,7 +267,7 @@ def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
     SweepFolderError
         No sweep is there, a chunk is missing or damaged, or a file is of another one.
     """
-    path = Path(folder)
+    path = _lasting_path(folder)
     described = open_description(path)
     grid = read_axes(path, described)
     chunks = Chunks(grid, int(described["chunk_size"]))

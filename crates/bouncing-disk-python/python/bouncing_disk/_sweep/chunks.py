@@ -17,6 +17,8 @@ __all__ = ["Assembly", "Chunks"]
 _CHUNKS = 256
 #: The most points of a chunk by default: half a megabyte of numbers for each axis.
 _LARGEST = 65_536
+#: The most points of a chunk: the numbers of its points, and each axis, take 128 MB.
+_MOST_POINTS = 2**24
 #: The most chunks, and so files in a folder.
 _MOST_CHUNKS = 1_000_000
 
@@ -33,6 +35,9 @@ class Chunks:
         elif size < 1:
             message = f"chunk_size is {size}, outside [1, infinity)"
             raise OutOfRangeError(message, "chunk_size", float(size), "[1, infinity)")
+        if min(size, grid.points) > _MOST_POINTS:
+            message = f"chunks of {size} points are too large; the most is {_MOST_POINTS}"
+            raise TooLargeError(message, "points of a chunk", int(size), _MOST_POINTS)
         self.size = int(size)
         self.count = -(-grid.points // self.size)
         self._points = grid.points

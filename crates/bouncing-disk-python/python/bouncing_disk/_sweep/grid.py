@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from bouncing_disk._errors import InvalidError, TooLargeError
 
-__all__ = ["Array", "Grid", "array_digest"]
+__all__ = ["Array", "Grid", "array_digest", "refuse_masked"]
 
 Array = npt.NDArray[Any]
 
@@ -28,6 +28,12 @@ def array_digest(array: Array) -> str:
     digest = hashlib.sha256(repr((array.dtype.descr, array.shape)).encode())
     digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()
+
+
+def refuse_masked(values: object, what: str) -> None:
+    """Refuse an array with masked values, which would count as if they were not masked."""
+    if np.ma.is_masked(values):
+        raise TypeError(f"{what} has masked values: take them out, or fill them, before")
 
 
 class Grid:
@@ -70,6 +76,7 @@ def _axis(name: object, values: npt.ArrayLike) -> Array:
         raise InvalidError(
             f"the name of an axis is handed on as a keyword, which {name!r} cannot be", "axis-name", {}
         )
+    refuse_masked(values, f"axis {name!r}")
     axis = np.array(values)
     if axis.ndim != 1:
         message = f"axis {name!r} must be a 1-d array, not one of {axis.ndim} dimensions"

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bouncing_disk._sweep.errors import SweepFunctionError
-from bouncing_disk._sweep.grid import Grid, array_digest
+from bouncing_disk._sweep.grid import Grid, array_digest, refuse_masked
 
 __all__ = ["Identity", "function_name", "lasting_name"]
 
@@ -35,14 +35,20 @@ def function_name(function: Callable[..., Any]) -> str:
 def lasting_name(function: Callable[..., Any]) -> str:
     """The full name of a function by which a later run knows it again."""
     name = function_name(function)
+    # Of a compiled function this is its module.
+    owner = getattr(function, "__self__", None)
     if "<lambda>" in name:
         why = "a lambda has no name by which a resumed sweep would know it"
     elif "<locals>" in name:
         why = "it is defined inside another function, whose variables a resumed sweep would not know"
     elif not inspect.isroutine(function):
         why = f"an object of {type(function).__name__} has no name by which a resumed sweep would know it"
-    elif inspect.ismethod(function) and not inspect.isclass(function.__self__):
-        why = "it is the method of an object, which a resumed sweep would not know"
+    elif owner is not None and not inspect.ismodule(owner):
+        why = "it is the method of an object or a class, which a resumed sweep would not know"
+    elif hasattr(function, "__wrapped__"):
+        why = "it is wrapped by a decorator, whose settings a resumed sweep would not know"
+    elif inspect.isfunction(function) and _source_digest(function) is None:
+        why = "its source text cannot be read, so that a change of it would not be seen"
     else:
         return name
     advice = "define a function at the top of a module or notebook, and hand constants on by `arguments`"
@@ -67,6 +73,7 @@ def _plain(value: Any, where: str) -> Any:
         return float(value) if np.isfinite(value) else repr(float(value))
     if isinstance(value, complex):
         return {"complex": [_plain(value.real, where), _plain(value.imag, where)]}
+    refuse_masked(value, where)
     if isinstance(value, np.ndarray) and value.dtype.kind != "O":
         return {"array": [value.dtype.str, list(value.shape), array_digest(value)]}
     if isinstance(value, (list, tuple)):

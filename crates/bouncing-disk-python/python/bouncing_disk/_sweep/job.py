@@ -63,8 +63,12 @@ class Job:
     pointwise: bool
     max_failures: int
 
-    def compute(self, points: Points) -> Outcome:
+    def compute(self, chosen: Points | range) -> Outcome:
         """The function at these points."""
+        if isinstance(chosen, range):
+            points: Points = np.arange(chosen.start, chosen.stop, dtype=np.int64)
+        else:
+            points = chosen
         pieces: list[tuple[int, Array]] = []
         failures: list[Failure] = []
         try:
@@ -127,10 +131,14 @@ class Job:
         return self._plain(returned, count)
 
     def _plain(self, returned: Any, count: int | None) -> Array:
+        if np.ma.is_masked(returned):
+            raise self._refused("returned masked values: fill them, with NaN for example")
         try:
             array = np.asarray(returned)
         except ValueError as error:
             raise self._refused(f"returned what is no array ({error})") from error
+        if array.dtype.names is not None:
+            array = _packed(array)
         if array.dtype.hasobject:
             raise self._refused(f"returned {type(returned).__name__}, which is no array of numbers")
         if count is None:
@@ -170,6 +178,15 @@ class Job:
     def _refused(self, what: str) -> SweepFunctionError:
         name = function_name(self.function)
         return SweepFunctionError(f"{name} {what}", name)
+
+
+def _packed(array: Array) -> Array:
+    """A structured array without padding and titles, so that its type is the same after it was stored."""
+    plain: list[Any] = [(name, array.dtype[name]) for name in array.dtype.names or ()]
+    packed = np.empty(array.shape, np.dtype(plain))
+    for name, _ in plain:
+        packed[name] = array[name]
+    return packed
 
 
 def _described(array: Array) -> str:

@@ -30,7 +30,8 @@ __all__ = ["Journal", "chunk_path", "open_description", "read_axes"]
 
 DESCRIPTION = "sweep.json"
 AXES = "axes.npz"
-_CHUNK = re.compile(r"chunk-(\d{6,})\.npz")
+#: Files of ours that a process has left which was killed, and no file of anybody else.
+_UNFINISHED = re.compile(r"(chunk-\d{6,}\.npz|axes\.npz|sweep\.json)" + re.escape(UNFINISHED))
 
 
 def chunk_path(folder: Path, chunk: int) -> Path:
@@ -48,11 +49,15 @@ class Journal:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise self._refused(f"cannot be made: {error.strerror or error}", "cannot-write") from error
+        found = (folder / LOCK_FILE).exists()
         self._lock = FolderLock(folder)
         try:
             self._open(grid)
-        except BaseException:
+        except BaseException as error:
             self.close()
+            if not found and isinstance(error, SweepFolderError) and error.kind == "other-files":
+                # The folder of somebody else is left as it was.
+                (folder / LOCK_FILE).unlink(missing_ok=True)
             raise
 
     def close(self) -> None:
@@ -61,15 +66,16 @@ class Journal:
 
     def _open(self, grid: Grid) -> None:
         names = {path.name for path in self.folder.iterdir()}
+        unfinished = {name for name in names if _UNFINISHED.fullmatch(name)}
+        if DESCRIPTION not in names and (others := sorted(names - unfinished - {LOCK_FILE, AXES})):
+            raise self._refused(f"holds other files, such as {others[0]}, and no sweep", "other-files")
         # Under the lock an unfinished file is that of a process that was killed.
-        for name in [name for name in names if name.endswith(UNFINISHED)]:
+        for name in unfinished:
             (self.folder / name).unlink(missing_ok=True)
-            names.discard(name)
         if DESCRIPTION in names:
             self._compare()
-            return
-        if others := sorted(names - {LOCK_FILE, AXES}):
-            raise self._refused(f"holds other files, such as {others[0]}, and no sweep", "other-files")
+            if AXES in names:
+                return
         axes = io.BytesIO()
         # As `axis_NAME`, because NumPy has names of its own for two arguments.
         members: dict[str, Any] = {f"axis_{name}": axis for name, axis in grid.axes.items()}
@@ -77,7 +83,8 @@ class Journal:
         described = json.dumps({**self.identity.described, "digest": self.identity.digest}, indent=1)
         try:
             write_whole(self.folder / AXES, axes.getvalue())
-            write_whole(self.folder / DESCRIPTION, described.encode())
+            if DESCRIPTION not in names:
+                write_whole(self.folder / DESCRIPTION, described.encode())
         except OSError as error:
             raise self._refused(f"cannot be written in: {error.strerror or error}", "cannot-write") from error
 

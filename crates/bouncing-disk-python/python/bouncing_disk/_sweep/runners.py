@@ -18,7 +18,8 @@ from bouncing_disk._sweep.job import Job, Outcome
 
 __all__ = ["distributed_outcomes", "has_distributed", "local_client", "serial_outcomes"]
 
-Task = tuple[int, np.ndarray[Any, np.dtype[np.int64]]]
+#: A chunk and its points: all of them, or those that failed before.
+Task = tuple[int, "range | np.ndarray[Any, np.dtype[np.int64]]"]
 
 #: How many chunks wait for each thread of the cluster, so that none of them idles.
 _AHEAD = 4
@@ -86,10 +87,7 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
 
     def submit(task: Task) -> Any:
         chunk, points = task
-        span = (int(points[0]), int(points[-1]) + 1)
-        # Chunks that are whole are sent by their ends.
-        sent = span if span[1] - span[0] == len(points) else points
-        future = client.submit(_compute, shared, sent, key=f"chunk-{chunk}-{name}", pure=False)
+        future = client.submit(_compute, shared, points, key=f"chunk-{chunk}-{name}", pure=False)
         chunk_of[future.key] = chunk
         return future
 
@@ -132,8 +130,6 @@ def _itself(job: Job) -> Job:
 
 
 def _compute(job: Job, points: Any) -> Outcome:
-    if isinstance(points, tuple):
-        points = np.arange(*points, dtype=np.int64)
     return job.compute(points)
 
 

@@ -225,7 +225,7 @@ def _explained(basins: bd.Basins, label: int) -> str:
     """What a label means, in a few words, and its share."""
     orbit = re.fullmatch(r"periodic orbit: impacts (\d+), platform periods (\d+)", basins.meaning[label])
     if orbit is None:
-        meaning = re.sub(r"(:| again and again| for ever).*", "", basins.meaning[label])
+        meaning = re.sub(r"(:|, then| again and again| for ever).*", "", basins.meaning[label])
     else:
         impacts, periods = orbit.groups()
         meaning = f"period {impacts}" if impacts == periods else f"period {impacts} in {periods} cycles"

@@ -73,8 +73,11 @@ def motor_transient(
                 time, low, high, color=BLUE, alpha=0.3, linewidth=0.0, label=f"80 % of {count} runs"
             )
         ax.plot(time, runs.speeds[:, member], color=GREY, linewidth=0.7, label="one run")
-        fitted = steady.mean * -np.expm1(-smooth / constant.mean)
-        ax.plot(smooth, fitted, color=BLACK, linestyle=(0, (4, 2)), label="exponential")
+        # A rise that takes longer than the run-up is not known from it.
+        known = 0.0 < constant.mean <= end / 3.0
+        if known:
+            fitted = steady.mean * -np.expm1(-smooth / constant.mean)
+            ax.plot(smooth, fitted, color=BLACK, linestyle=(0, (4, 2)), label="exponential")
         ax.set_xlim(0.0, end)
         ax.set_ylim(bottom=min(0.0, float(runs.speeds.min())))
         ax.set_xlabel("time $t$ (s)")
@@ -82,7 +85,7 @@ def motor_transient(
         ax.legend(
             loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2, columnspacing=0.9,
             handlelength=1.3, handletextpad=0.4,
-            title=_values(steady, constant), title_fontsize=9.5, alignment="right",
+            title=_values(steady, constant) if known else None, title_fontsize=9.5, alignment="right",
         )  # fmt: skip
     return fig, ax
 
@@ -98,6 +101,8 @@ def _with_error(spread: bd.Spread) -> str:
     if not (np.isfinite(error) and error > 0.0):
         return f"{spread.mean:.3g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
+    if digits > 6 or error > 0.3 * abs(spread.mean):
+        return f"{spread.mean:.3g} \\pm {error:.1g}"
     return f"{spread.mean:.{digits}f}({error * 10**digits:.0f})"
 
 

@@ -55,6 +55,8 @@ def toss(
     trajectory = trajectory_of(motion, initial_spin)
     curve, events = trajectory.samples(count=samples), trajectory.events()
     began = trajectory.start_time
+    if len(curve.time) == 0:
+        raise bd.InvalidError("a motion without events has no trajectory to draw", "no-events", {})
     time = curve.time - began
     names = events.names()
     with style():
@@ -90,7 +92,12 @@ def toss(
                 )
         axes[1].set_xlim(0.0, 1.02 * time[-1])
         axes[1].set_xlabel("time (s)")
+        entries = len(axes[0].get_legend_handles_labels()[0])
         axes[0].legend(
-            loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, borderaxespad=0.2, columnspacing=1.0
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            ncols=4 if entries <= 4 else 3,
+            borderaxespad=0.2,
+            columnspacing=1.0,
         )
     return fig, axes

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["motor_dependence", "toss_performance"]
 
+#: Time constants that a run-up must last for its fit to be shown, as ``fit_transients`` asks for.
+_SHORTEST = 3.0
+
 #: The parameters of a system that a motor may depend on, with what stands at their axis.
 _AXES = {
     "amplitude": r"axial amplitude $A$ (m)",
@@ -127,7 +130,7 @@ def motor_dependence(
     values : (n,) array_like
         Its values (SI).
     members : int, default 16
-        Run-ups at each value.
+        Run-ups at each value, two at least: their scatter gives the errors.
     rise_times : float, default 6
         How long a run-up lasts, in rise times omega Phi a_g^2/(mu a_e g) of the system.
     seed : int, default 1
@@ -145,6 +148,9 @@ def motor_dependence(
         raise TypeError(f"motor must be a Motor or a System, not {type(motor).__name__}")
     if parameter not in _AXES:
         raise ValueError(f"parameter must be one of {', '.join(_AXES)}, not {parameter!r}")
+    if members < 2:
+        message = f"members is {members}, outside [2, infinity)"
+        raise bd.OutOfRangeError(message, "members", float(members), "[2, infinity)")
     given = np.atleast_1d(np.asarray(values, dtype=float))
     fits = np.array(
         [_fit(system.replace(**{parameter: float(value)}), members, rise_times, seed) for value in given]
@@ -180,4 +186,7 @@ def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple
     duration = rise_times * (rise if np.isfinite(rise) and rise > 0.0 else 0.5)
     runs = bd.ensemble(system, members=members, duration=duration, intervals=200, seed=seed)
     speed, stall = runs.steady_speed, runs.stall_acceleration
+    # A rise that takes longer than the run-up is not known from it: of a rotor that a load drives, for example.
+    if not 0.0 <= runs.time_constant.mean <= duration / _SHORTEST:
+        return np.nan, np.nan, np.nan, np.nan
     return speed.mean, speed.standard_error, stall.mean, stall.standard_error
