@@ -21,11 +21,14 @@ const BASE: usize = 128;
 /// # Errors
 /// When the system refuses.
 pub(crate) fn listen() -> io::Result<()> {
+    // Either is a second one of the other, too. What ends the process is registered, and so runs, first.
+    let again = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        flag::register_conditional_shutdown(signal, signal + BASE as i32, Arc::clone(&again))?;
+    }
     for signal in [SIGINT, SIGTERM] {
         let number = usize::try_from(signal).unwrap_or_default();
-        let again = Arc::new(AtomicBool::new(false));
-        flag::register_conditional_shutdown(signal, signal + BASE as i32, Arc::clone(&again))?;
-        flag::register(signal, again)?;
+        flag::register(signal, Arc::clone(&again))?;
         flag::register_usize(signal, Arc::clone(&SIGNAL), number)?;
     }
     Ok(())

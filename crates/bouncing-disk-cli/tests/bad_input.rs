@@ -20,7 +20,12 @@ fn files_of_parameters_that_cannot_be_read() {
     std::fs::write(folder.join("bytes.toml"), b"a = \xff").unwrap();
     folder.write("empty.json", "");
     folder.write("a.txt", "");
+    folder.write("deep.json", &format!("{{\"disk\":{}1{}", "{\"a\":".repeat(100_000), "}".repeat(100_001)));
+    let keys: Vec<String> = (0..2_000).map(|key| format!("\"{key}\":1")).collect();
+    folder.write("wide.json", &format!("{{{}}}", keys.join(",")));
     for (line, told) in [
+        ("toss deep.json", "error: deep.json: line 1"),
+        ("toss wide.json", "there are more than 1000 keys"),
         ("toss missing.toml", "missing.toml cannot be read"),
         ("toss folder.toml", "legal is a regular file"),
         ("toss bytes.toml", "no text in UTF-8"),

@@ -101,9 +101,11 @@ fn a_part_that_is_damaged_is_refused() {
         (whole.replace("\"start\":\"rise\"", "\"start\":\"rest\""), "it is damaged: its job_digest"),
         (
             whole.replace("\"index\":1", "\"index\":0").replace("\"index\": 1", "\"index\": 0"),
-            "does not fit together",
+            "it is damaged: its rows_digest",
         ),
-        (whole.replace("\"first_row\": 0", "\"first_row\": 1"), "does not fit together"),
+        (whole.replace("\"first_row\": 0", "\"first_row\": 1"), "it is damaged: its rows_digest"),
+        // One of very many parts, which nobody lists.
+        (whole.replace("\"count\": 2", "\"count\": 2000000000000"), "it is damaged: its rows_digest"),
         ("{}".to_owned(), "its format is \"\""),
         ("[]".to_owned(), "its format is \"\""),
     ] {

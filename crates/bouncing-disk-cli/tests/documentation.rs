@@ -127,6 +127,10 @@ fn completions_and_manual_pages_know_the_commands() {
         let text = folder.done(&format!("completions {shell}"));
         assert!(text.contains("verdicts") && text.contains("phase-lag"), "{shell}");
     }
+    // The cases of the function are those that it looks for.
+    let bash = folder.done("completions bash");
+    assert!(bash.contains("cmd=\"bouncing__disk__subcmd__motor\""), "{bash}");
+    assert!(bash.contains("bouncing__disk__subcmd__motor)") && !bash.contains("bouncing__subcmd__disk"));
     assert!(folder.done("man").contains(".TH bouncing"));
     let page = folder.done("man motor sweep");
     assert!(page.contains("bouncing\\-disk") && page.contains("\\-\\-over"), "{page}");

@@ -94,6 +94,14 @@ fn as_array<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     static AS_ARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = object.py();
     let import = || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind());
+    // NumPy takes the values below a mask for values: gaps of measurements would count.
+    static IS_MASKED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let masked = || Ok::<_, PyErr>(py.import("numpy.ma")?.getattr("is_masked")?.unbind());
+    if object.hasattr(intern!(py, "_mask"))?
+        && IS_MASKED.get_or_try_init(py, masked)?.bind(py).call1((object,))?.is_truthy()?
+    {
+        return Err(PyTypeError::new_err("an array has masked values: take them out, or fill them, before"));
+    }
     AS_ARRAY.get_or_try_init(py, import)?.bind(py).call1((object,))
 }
 

@@ -389,3 +389,20 @@ def test_an_orbit_with_strong_shear_has_a_radius_in_which_starts_end_on_it() -> 
     assert len(np.unique(found.labels)) == 3
     # The orbits come in another order.
     assert [(found.labels == label).sum() for label in (1,)] == [(all_found.labels == 1).sum()]
+
+
+def test_masked_values_are_refused() -> None:
+    times = np.linspace(0.01, 5.0, 200)
+    speeds: Any = np.ma.array(30.0 * (1.0 - np.exp(-times / 0.8)))
+    expected = bd.fit_exponential(times=times, speeds=speeds.data).steady_speed
+    assert bd.fit_exponential(times=times, speeds=speeds).steady_speed == expected
+    speeds[50] = np.ma.masked
+    with pytest.raises(TypeError, match="masked values"):
+        bd.fit_exponential(times=times, speeds=speeds)
+    with pytest.raises(TypeError, match="masked values"):
+        bd.orbit_diagram(
+            axial_forcing=np.ma.array([0.45, 0.5], mask=[True, False]),
+            restitution=0.5,
+            impact_phase=1.2,
+            normalised_speed=1.3,
+        )

@@ -74,6 +74,9 @@ pub(crate) fn run(args: &DiagramArgs, context: Context) -> Result<(), Failure> {
     grid::run(job, &args.grid, &args.output, context)
 }
 
+/// Phases nearer than this count as one (periods).
+const SAME_PHASE: f64 = 1e-6;
+
 /// What a diagram depends on.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -101,13 +104,14 @@ impl Impacts {
         }
     }
 
-    /// How many phases differ by a millionth of a period.
+    /// How many phases differ by more than a millionth of a period from the next one.
     fn distinct(&self) -> usize {
-        let mut millionths: Vec<i64> =
-            self.impact_phase_periods.iter().map(|phase| (phase * 1e6).floor() as i64).collect();
-        millionths.sort_unstable();
-        millionths.dedup();
-        millionths.len()
+        let mut phases = self.impact_phase_periods.clone();
+        phases.sort_unstable_by(f64::total_cmp);
+        let (Some(first), Some(last)) = (phases.first(), phases.last()) else { return 0 };
+        let gaps = phases.windows(2).filter(|pair| pair[1] - pair[0] > SAME_PHASE).count();
+        // The end of a period is the beginning of the next.
+        (gaps + usize::from(first + 1.0 - last > SAME_PHASE)).max(1)
     }
 }
 
@@ -220,5 +224,26 @@ impl GridJob for DiagramJob {
             data: vec![("columns", data.into())],
             figure: Some(Box::new(move || pictures::diagram::draw(ends, &names, &layers))),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_are_counted_whatever_millionth_they_are_next_to() {
+        let counted = |phases: &[f64]| {
+            let speeds = vec![1.0; phases.len()];
+            Impacts { impact_phase_periods: phases.to_vec(), normalised_impact_speed: speeds }.distinct()
+        };
+        assert_eq!(counted(&[]), 0);
+        assert_eq!(counted(&[0.3]), 1);
+        let ulp = f64::EPSILON;
+        assert_eq!(counted(&[0.125, 0.125 - ulp, 0.125 + ulp]), 1);
+        assert_eq!(counted(&[0.05 * (1.0 - ulp), 0.05, 0.7, 0.7]), 2);
+        // One place at the seam of the phase.
+        assert_eq!(counted(&[0.0, 1.0 - ulp, ulp]), 1);
+        assert_eq!(counted(&[0.0, 0.5, 1.0 - ulp]), 2);
     }
 }

@@ -41,7 +41,9 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
     let mut command = CommandLine::command();
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "bouncing-disk", &mut text);
-    Ok(io::stdout().write_all(&text)?)
+    // For bash clap_complete writes the hyphen of the program's name in two ways, and finds no subcommand.
+    let text = String::from_utf8_lossy(&text).replace("bouncing__subcmd__disk", "bouncing__disk");
+    Ok(io::stdout().write_all(text.as_bytes())?)
 }
 
 /// Writes a manual page.

@@ -15,7 +15,7 @@ use crate::output::json;
 use crate::output::report::{PROGRAM, Report, VERSION, value};
 
 /// The format of such a file.
-const CHUNK: Format = Format { name: "bouncing-disk chunk", version: 1, oldest: 1 };
+const CHUNK: Format = Format { name: "bouncing-disk chunk", version: 2, oldest: 2 };
 
 /// The largest file of a part that is read (bytes).
 const LARGEST: u64 = 1 << 34;
@@ -39,10 +39,16 @@ pub(super) fn text<J: GridJob>(
         ("chunk", json!({ "index": chunk.index, "count": chunk.count })),
         ("first_row", json!(range.start)),
         ("end_row", json!(range.end)),
-        ("rows_digest", json!(digest(&rows))),
+        ("rows_digest", json!(rows_digest(chunk, &range, &rows))),
         ("rows", rows),
     ];
     Ok(json::object(fields.iter().map(|(name, value)| (*name, value))))
+}
+
+/// The digest of rows with their place, so that those of two parts cannot be changed for each other.
+fn rows_digest(chunk: Chunk, range: &Range<usize>, rows: &Value) -> String {
+    let place = json!([chunk.index, chunk.count, range.start, range.end]).to_string();
+    Digest::of((place + &rows.to_string()).as_bytes()).to_string()
 }
 
 /// The digest of a value as compact JSON, whose keys are sorted.
@@ -80,17 +86,20 @@ impl Part {
         let parameter = |name: &str| provenance.parameters().get(name).cloned().unwrap_or_default();
         let (command, job) = (parameter("command"), parameter("job"));
         let rows = stored["rows"].take();
-        for (what, of) in [("job_digest", &job), ("rows_digest", &rows)] {
-            if stored[what] != json!(digest(of)) {
-                return Err(refuse(&format!("it is damaged: its {what} is not that of its content")));
-            }
-        }
         let count = |value: &Value| value.as_u64().and_then(|whole| usize::try_from(whole).ok());
         let (index, of) = (count(&stored["chunk"]["index"]), count(&stored["chunk"]["count"]));
         let (first, end) = (count(&stored["first_row"]), count(&stored["end_row"]));
         let (Some(index), Some(of), Some(first), Some(end)) = (index, of, first, end) else {
             return Err(refuse("it does not say which part it is"));
         };
+        let (chunk, range) = (Chunk { index, count: of }, first..end);
+        for (what, found) in
+            [("job_digest", digest(&job)), ("rows_digest", rows_digest(chunk, &range, &rows))]
+        {
+            if stored[what] != json!(found) {
+                return Err(refuse(&format!("it is damaged: its {what} is not that of its content")));
+            }
+        }
         let Value::Array(rows) = rows else { return Err(refuse("it has no rows")) };
         if index == 0 || index > of || first.checked_add(rows.len()) != Some(end) {
             return Err(refuse(&format!(
@@ -102,8 +111,8 @@ impl Part {
             command: command.as_str().unwrap_or_default().to_owned(),
             job,
             version: provenance.version().to_owned(),
-            chunk: Chunk { index, count: of },
-            range: first..end,
+            chunk,
+            range,
             rows,
             name,
         })
@@ -180,13 +189,12 @@ fn sorted(parts: Vec<Part>) -> Result<Vec<Part>, Failure> {
         }
     }
     let count = first.map_or(0, |(.., count)| count);
-    let missing: Vec<String> = (1..=count)
-        .filter(|index| !by_index.contains_key(index))
-        .map(|index| format!("{index}/{count}"))
-        .collect();
-    if !missing.is_empty() {
-        let shown = missing.iter().take(20).cloned().collect::<Vec<_>>().join(", ");
-        let more = missing.len().saturating_sub(20);
+    let missing = count - by_index.len();
+    if missing > 0 {
+        let absent = (1..=count).filter(|index| !by_index.contains_key(index)).take(20);
+        let shown: Vec<_> = absent.map(|index| format!("{index}/{count}")).collect();
+        let more = missing - shown.len();
+        let shown = shown.join(", ");
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         return Err(Failure::usage(format!("chunks are missing: {shown}{more}")));
     }

@@ -47,6 +47,9 @@ fn line_of(text: &str, place: usize) -> usize {
     1 + text.as_bytes().iter().take(place).filter(|byte| **byte == b'\n').count()
 }
 
+/// More keys than any table of parameters has.
+const MOST_KEYS: usize = 1_000;
+
 /// The entries of an object, which is a part of `whole`.
 fn of_json(part: &str, whole: &str) -> Result<Vec<Entry>, String> {
     let place = |inner: &str| inner.as_ptr() as usize - whole.as_ptr() as usize;
@@ -59,6 +62,9 @@ fn of_json(part: &str, whole: &str) -> Result<Vec<Entry>, String> {
         let line = line_of(whole, place(part)) + error.line().max(1) - 1;
         format!("line {line}, column {}: no JSON: {}", error.column().max(1), visible(reason))
     })?;
+    if keys.len() > MOST_KEYS {
+        return Err(format!("line {}: there are more than {MOST_KEYS} keys", line_of(whole, place(part))));
+    }
     let mut entries: Vec<Entry> = Vec::new();
     for (key, raw) in keys {
         let line = line_of(whole, place(raw.get()));
@@ -69,7 +75,9 @@ fn of_json(part: &str, whole: &str) -> Result<Vec<Entry>, String> {
         let text = raw.get();
         let value = match text.as_bytes().first() {
             Some(b'"') => Value::Other("a text"),
-            Some(b'{') => Value::Table(of_json(text, whole)?),
+            // What is in a table of a table is nobody's parameter, and may be as deep as it likes.
+            Some(b'{') if part.as_ptr() == whole.as_ptr() => Value::Table(of_json(text, whole)?),
+            Some(b'{') => Value::Other("a table"),
             Some(b'[') => Value::Other("a list"),
             Some(b't' | b'f') => Value::Other("true or false"),
             Some(b'n') => Value::Nothing,

@@ -11,10 +11,12 @@ use super::spanned;
 const AREA: Rect = Rect::new(44.0, 12.0, 190.0, 150.0);
 const HEIGHT: f64 = 202.0;
 
-/// Computed runs.
-pub(crate) fn draw(ensemble: &TransientEnsemble, fit: Option<&TransientFit>) -> Figure {
+/// Computed runs with their fit; of runs too few for a fit that can be judged, with that of the first. A fit that was
+/// judged and refused is not drawn.
+pub(crate) fn draw(ensemble: &TransientEnsemble, fit: Option<&TransientFit>, judged: bool) -> Figure {
     let curves = &ensemble.curves;
-    let shown = fit.map_or_else(|| ensemble.fits[0], exponential);
+    let own = (!judged).then(|| ensemble.fits[0]);
+    let shown = fit.map(exponential).or(own);
     let times = &curves[0].times;
     let lines = || curves.iter().map(|curve| curve.speeds.as_slice());
     figure(times, lines, shown, "one run", fit.is_some())
@@ -24,7 +26,7 @@ pub(crate) fn draw(ensemble: &TransientEnsemble, fit: Option<&TransientFit>) -> 
 pub(crate) fn measured(speeds: &MeasuredSpeeds, fit: &TransientFit) -> Figure {
     let runs = speeds.runs();
     let lines = || runs.iter().map(|run| run.speeds.as_slice());
-    figure(&runs[0].times, lines, exponential(fit), "measured", true)
+    figure(&runs[0].times, lines, Some(exponential(fit)), "measured", true)
 }
 
 fn exponential(fit: &TransientFit) -> ExponentialFit {
@@ -38,16 +40,17 @@ fn exponential(fit: &TransientFit) -> ExponentialFit {
 fn figure<'a, I: Iterator<Item = &'a [f64]>>(
     times: &[f64],
     runs: impl Fn() -> I,
-    fit: ExponentialFit,
+    fit: Option<ExponentialFit>,
     name: &str,
     of_mean: bool,
 ) -> Figure {
     let end = times.last().copied().unwrap_or(1.0);
-    let all = || runs().flatten().copied().chain([fit.speed(end), 0.0]).filter(|speed| speed.is_finite());
+    let at_end = fit.map_or(0.0, |fit| fit.speed(end));
+    let all = || runs().flatten().copied().chain([at_end, 0.0]).filter(|speed| speed.is_finite());
     let (low, high) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
     let span = (high - low).max(f64::MIN_POSITIVE);
     // The words stand where the curve does not go: below it, or above one that falls.
-    let falls = fit.steady_speed < 0.0;
+    let falls = fit.map_or(low < -high, |fit| fit.steady_speed < 0.0);
     let (low, high) =
         if falls { (low - 0.06 * span, high + 0.42 * span) } else { (low - 0.02 * span, high + 0.42 * span) };
     let corner = if falls { Corner::BottomLeft } else { Corner::TopLeft };
@@ -65,10 +68,6 @@ fn figure<'a, I: Iterator<Item = &'a [f64]>>(
         .collect();
     let first: Vec<(f64, f64)> =
         runs().next().map(|run| times.iter().copied().zip(run.iter().copied()).collect()).unwrap_or_default();
-    let smooth = (0..=200).map(|step| {
-        let time = end * f64::from(step) / 200.0;
-        (time, fit.speed(time))
-    });
     let mut panel = Panel::new(AREA)
         .x(spanned(0.0, end).label("$t$ (s)"))
         .y(spanned(low, high).label(r"$\dot{\alpha}$ (rad/s)"));
@@ -76,11 +75,16 @@ fn figure<'a, I: Iterator<Item = &'a [f64]>>(
         panel = panel.layer(Band::new(band).colour(Colour::BLUE).opacity(0.25).name("all runs"));
     }
     let fitted = if of_mean { "fit of the mean" } else { "fit of the run" };
-    panel = panel
-        .layer(Line::new(first).colour(Colour::GREY).width(0.6).name(name))
-        .layer(Line::new(smooth).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed).name(fitted))
-        .layer(note(0.0, format!(r"$\dot{{\alpha}}_{{ss}} = {:.2}$ rad/s", fit.steady_speed)))
-        .layer(note(1.0, format!("$t_c = {:.3}$ s", fit.time_constant)))
-        .legend(Legend::at(corner).without_frame().inset(4.0));
-    Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel)
+    panel = panel.layer(Line::new(first).colour(Colour::GREY).width(0.6).name(name));
+    if let Some(fit) = fit {
+        let smooth = (0..=200).map(|step| {
+            let time = end * f64::from(step) / 200.0;
+            (time, fit.speed(time))
+        });
+        panel = panel
+            .layer(Line::new(smooth).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed).name(fitted))
+            .layer(note(0.0, format!(r"$\dot{{\alpha}}_{{ss}} = {:.2}$ rad/s", fit.steady_speed)))
+            .layer(note(1.0, format!("$t_c = {:.3}$ s", fit.time_constant)));
+    }
+    Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(corner).without_frame().inset(4.0)))
 }

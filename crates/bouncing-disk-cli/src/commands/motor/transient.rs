@@ -132,7 +132,8 @@ impl GridJob for TransientJob {
             Some(Err(error)) => Some(refusal(error)?),
             None => Some(format!("no intervals: they need {LEAST_MEMBERS} members")),
         };
-        if refused.is_some() {
+        // A fit that was refused gives no numbers; of members too few to judge it, each has one of its own.
+        if fit.is_none() {
             list.push("steady_speed", ensemble.steady_speed.mean, "rad/s");
             list.push("time_constant", ensemble.time_constant.mean, "s");
             list.push("stall_acceleration", ensemble.stall_acceleration.mean, "rad/s^2");
@@ -144,6 +145,7 @@ impl GridJob for TransientJob {
             }
         }
         let text = list.to_text() + &refused.map_or_else(String::new, |refused| format!("{refused}\n"));
+        let judged = fit.is_some();
         let fit = fit.and_then(Result::ok);
         let policy = self.settings.policy;
         Ok(Report {
@@ -157,7 +159,7 @@ impl GridJob for TransientJob {
                 ("curves", value(&ensemble.curves)?),
                 ("member_fits", value(&ensemble.fits)?),
             ],
-            figure: Some(Box::new(move || pictures::transient::draw(&ensemble, fit.as_ref()))),
+            figure: Some(Box::new(move || pictures::transient::draw(&ensemble, fit.as_ref(), judged))),
         })
     }
 }
