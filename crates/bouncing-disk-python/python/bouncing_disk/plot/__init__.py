@@ -11,6 +11,7 @@ Matplotlib is an optional dependency: ``pip install 'bouncing-disk[plot]'``.
 from bouncing_disk.plot._animation import toss_animation
 from bouncing_disk.plot._dynamics import basins, orbit_diagram
 from bouncing_disk.plot._motor import motor_transient, torque_speed
+from bouncing_disk.plot._path import platform_path
 from bouncing_disk.plot._style import style
 from bouncing_disk.plot._toss import toss
 from bouncing_disk.plot._trends import motor_dependence, toss_performance
@@ -20,6 +21,7 @@ __all__ = [
     "motor_dependence",
     "motor_transient",
     "orbit_diagram",
+    "platform_path",
     "style",
     "torque_speed",
     "toss",
