@@ -10,7 +10,7 @@ import numpy.typing as npt
 import bouncing_disk as bd
 from bouncing_disk.plot._checks import whole_number
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, style
-from bouncing_disk.plot._words import labelled, legend_above, note, number, unit_of
+from bouncing_disk.plot._words import labelled, legend_above, note, unit_of, with_error
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -113,19 +113,8 @@ def _is_known(steady: bd.Spread, constant: bd.Spread, end: float) -> bool:
 
 
 def _values(steady: bd.Spread, constant: bd.Spread) -> str:
-    speed = rf"$\dot\alpha_\mathrm{{ss}} = {_with_error(steady)}$ rad/s"
-    return speed + rf",  $t_\mathrm{{c}} = {_with_error(constant)}$ s"
-
-
-def _with_error(spread: bd.Spread) -> str:
-    """A mean and in brackets its standard error, two digits in units of the last one of the mean."""
-    error = spread.standard_error
-    if not (np.isfinite(error) and error > 0.0):
-        return number(spread.mean)
-    digits = max(0, 1 - int(np.floor(np.log10(error))))
-    if digits > 6 or error > 0.3 * abs(spread.mean) or abs(spread.mean) >= 1e6:
-        return f"{number(spread.mean)} \\pm {number(error, 1)}"
-    return f"{spread.mean:.{digits}f}({error * 10**digits:.0f})"
+    speed = rf"$\dot\alpha_\mathrm{{ss}} = {with_error(steady.mean, steady.standard_error)}$ rad/s"
+    return speed + rf",  $t_\mathrm{{c}} = {with_error(constant.mean, constant.standard_error)}$ s"
 
 
 def _run_up_time(system: bd.System) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy.typing as npt
 
 import bouncing_disk as bd
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, drawn_on_grid, style
-from bouncing_disk.plot._words import number, of_pi, with_unit
+from bouncing_disk.plot._words import equation, number, of_pi
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,7 +81,7 @@ def platform_path(
             _motion(panel, angle, height)
             letter = f"({chr(ord('a') + place)})" if 1 < len(named) <= 26 else ""
             panel.set_title(f"{letter} {name}".strip(), loc="left", fontsize=10.0, pad=2.0)
-            words = [_shape(system), _size(system)]
+            words = [_shape(system), *_sizes(system)]
             if magnification != 1.0:
                 words.append(rf"drawn $\times\,{number(magnification)}$")
             panel.text(
@@ -121,7 +122,7 @@ def _magnification(size: float) -> float:
     """How many times larger than in truth motions are drawn, the largest of which has this many contact radii."""
     if size == 0.0 or _TRUE_SIZE[0] <= size <= _TRUE_SIZE[1]:
         return 1.0
-    wanted = 1.2 / size
+    wanted = 1.5 / size
     power = 10.0 ** np.floor(np.log10(wanted))
     return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted))
 
@@ -196,9 +197,13 @@ def _motion(ax: Axes, angle: _Array, height: _Array) -> None:
                 "alpha": 1.0 if front[end] >= 0.0 else 0.4, "shrinkA": 0.0, "shrinkB": 0.0,
             },
         )  # fmt: skip
-    ax.plot(
-        x[:1], y[:1], "o", color=BLACK if front[0] >= 0.0 else GREY, markersize=3.6, zorder=4, label=r"$\tau = 0$"
-    )
+    colour = BLACK if front[0] >= 0.0 else GREY
+    ax.plot(x[:1], y[:1], "o", color=colour, markersize=3.6, zorder=4)
+    halo = import_module("matplotlib.patheffects").withStroke(linewidth=2.0, foreground="#efefef")
+    ax.annotate(
+        r"$\tau = 0$", (x[0], y[0]), (5.0, -4.0), textcoords="offset points", va="top", fontsize=8.0, color=colour,
+        path_effects=[halo], zorder=3,
+    )  # fmt: skip
 
 
 def _shape(system: bd.System) -> str:
@@ -208,7 +213,8 @@ def _shape(system: bd.System) -> str:
     return rf"$\theta = {of_pi(system.phase_lag)}$, {angle}"
 
 
-def _size(system: bd.System) -> str:
-    """The amplitudes along and around the cylinder."""
-    around = with_unit(system.contact_radius * system.twist_amplitude, "m")
-    return rf"$A =$ {with_unit(system.amplitude, 'm')}, $a_\mathrm{{e}}\Phi =$ {around}"
+def _sizes(system: bd.System) -> list[str]:
+    """The amplitudes along and around the cylinder, in one line unless they are long."""
+    along = equation("A", system.amplitude, "m")
+    around = equation(r"a_\mathrm{e}\Phi", system.contact_radius * system.twist_amplitude, "m")
+    return [along, around] if "times" in along + around else [f"{along}, {around}"]

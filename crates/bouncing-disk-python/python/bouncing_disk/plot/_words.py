@@ -12,7 +12,7 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["labelled", "legend_above", "note", "number", "of_pi", "unit_of", "with_unit"]
+__all__ = ["equation", "labelled", "legend_above", "note", "number", "of_pi", "unit_of", "with_error", "with_unit"]
 
 #: By powers of 1000 below the unit.
 _SMALL = ("", "m", "µ", "n", "p", "f")
@@ -50,7 +50,14 @@ def labelled(words: str, unit: str) -> str:
 def with_unit(value: float, unit: str) -> str:
     """A number with its unit, in one that fits, for a text with mathematics."""
     factor, fitting = unit_of(value, unit, least=0.99999)
-    return f"${number(factor * value)}$ {fitting}".replace("$ $", r"\,\times\,").strip()
+    if fitting.startswith("$"):
+        return f"${number(value)}$ {unit}".strip()
+    return f"${number(factor * value)}$ {fitting}".strip()
+
+
+def equation(symbol: str, value: float, unit: str) -> str:
+    """A symbol, its value and the unit, as a text with mathematics."""
+    return f"${symbol} = {with_unit(value, unit)[1:]}"
 
 
 def number(value: float, digits: int = 3) -> str:
@@ -60,6 +67,16 @@ def number(value: float, digits: int = 3) -> str:
         return mantissa
     factor = "" if mantissa == "1" else "-" if mantissa == "-1" else mantissa + r"\times "
     return factor + f"10^{{{int(exponent)}}}"
+
+
+def with_error(value: float, error: float) -> str:
+    """A value and in brackets its standard error, two digits in units of the last one of the value."""
+    if not (np.isfinite(error) and error > 0.0):
+        return number(value)
+    digits = max(0, 1 - int(np.floor(np.log10(error))))
+    if digits > 6 or error > 0.3 * abs(value) or abs(value) >= 1e6:
+        return rf"({number(value)} \pm {number(error, 1)})"
+    return f"{value:.{digits}f}({error * 10**digits:.0f})"
 
 
 def of_pi(angle: float) -> str:
