@@ -44,7 +44,7 @@ def quiet_and_clean() -> Iterator[None]:
         warnings.simplefilter("error")
         yield
         for number in plt.get_fignums():
-            plt.figure(number).savefig(io.BytesIO(), format="png")
+            plt.figure(number).savefig(io.BytesIO(), format="png", dpi=60)
             plt.figure(number).savefig(io.BytesIO(), format="svg")
     plt.close("all")
     assert dict(matplotlib.rcParams) == before

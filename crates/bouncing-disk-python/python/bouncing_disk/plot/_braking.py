@@ -11,7 +11,7 @@ import numpy.typing as npt
 import bouncing_disk as bd
 from bouncing_disk.plot._checks import finite_array, number, out_of_range, rising_array, same_length
 from bouncing_disk.plot._style import BLACK, COLOURS, GREY, drawn_on_columns, style
-from bouncing_disk.plot._words import equation, labelled, legend_above, unit_of
+from bouncing_disk.plot._words import equation, in_words, labelled, legend_above, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +51,8 @@ def braking(
         The preloads (m/s^2), a curve each; by default those of the measured curves, or half, once and twice that
         of the motor.
     first_speed : float, optional
-        Angular speed at the beginning (rad/s); by default the largest one of the stator, omega Phi.
+        Angular speed at the beginning (rad/s); by default that of the first measured point, or without
+        measurements the largest one of the stator, omega Phi.
     measured : iterable of (times, speeds, preload_acceleration)
         Curves of your own: times (s) from the switching off, angular speeds (rad/s), and the preload (m/s^2).
     frictions : (preload_accelerations, frictions), optional
@@ -82,20 +83,23 @@ def braking(
         preloads = np.unique([preload for _, _, preload in own_curves])
     else:
         preloads = np.array([share * system.preload_acceleration for share in _SHARES])
-    if first_speed is None:
-        first_speed = _first_speed(motor, own_curves)
-    first_speed = number("first_speed", first_speed)
-    if first_speed == 0.0:
-        raise out_of_range("first_speed", first_speed, "a number other than 0")
-    curves = [_curve(system, float(preload), first_speed) for preload in preloads]
+    if not len(preloads):
+        message = "preload_accelerations is empty; give one at least"
+        raise bd.InvalidError(message, "empty", {"field": "preload_accelerations"})
+    if first_speed is not None and number("first_speed", first_speed) == 0.0:
+        raise out_of_range("first_speed", 0.0, "(-infinity, 0) or (0, infinity)")
+    curves = [
+        _curve(system, float(preload), *_beginning(motor, float(preload), first_speed, own_curves))
+        for preload in preloads
+    ]
     points = None if frictions is None else _frictions(frictions)
     with style():
         fig, panels = drawn_on_columns(ax, 1 if points is None else 2, 2.5)
         _speeds(panels[0], preloads, curves, own_curves)
-        legend_above(panels[0], own=False, most=2)
         if points is not None:
             _coefficients(panels[1], system.friction, *points)
-            legend_above(panels[1], own=False, most=2)
+            legend_above(panels[1], own=ax is None, most=2)
+        legend_above(panels[0], own=ax is None, most=3)
     return fig, panels
 
 
@@ -109,25 +113,37 @@ def _measured(curve: Any) -> tuple[_Array, _Array, float]:
     return times, speeds, number("preload_acceleration", preload, positive=True)
 
 
-def _first_speed(motor: bd.Motor | bd.System, own: list[tuple[_Array, _Array, float]]) -> float:
-    """The largest measured speed, or the largest one of the stator."""
-    largest = max((float(speeds[np.abs(speeds).argmax()]) for _, speeds, _ in own if len(speeds)), key=abs, default=0.0)
-    if largest != 0.0:
-        return largest
+def _beginning(
+    motor: bd.Motor | bd.System,
+    preload: float,
+    first_speed: float | None,
+    own: list[tuple[_Array, _Array, float]],
+) -> tuple[float, float]:
+    """Time and speed from which the model goes on: those given, or those measured, or the stator's largest speed."""
+    if first_speed is not None:
+        return 0.0, float(first_speed)
+    for times, speeds, measured_preload in own:
+        if measured_preload == preload and len(speeds) and speeds[0] != 0.0:
+            return float(times[0]), float(speeds[0])
     if isinstance(motor, bd.Motor):
-        return motor.peak_angular_speed
-    return motor.angular_frequency * motor.twist_amplitude
+        return 0.0, motor.peak_angular_speed
+    return 0.0, motor.angular_frequency * motor.twist_amplitude
 
 
-def _curve(system: bd.System, preload: float, first_speed: float) -> tuple[_Array, _Array]:
+def _curve(system: bd.System, preload: float, begin: float, first_speed: float) -> tuple[_Array, _Array]:
     """Time and speed on the platform at rest, until the rotor stops."""
+    if first_speed == 0.0:
+        message = "the stator does not turn, so that the first speed of the rotor must be given"
+        raise bd.InvalidError(message, "not-given", {"field": "first_speed"})
     still = system.replace(amplitude=0.0, twist_amplitude=0.0, preload_acceleration=preload)
     motion = bd.simulate(still, angular_speed=first_speed, events=1)
     if len(motion) == 0:
         message = f"at a preload of {preload} m/s^2 the rotor never stops"
-        raise bd.InvalidError(message, "never-stops", {"preload_acceleration": preload, "friction": system.friction})
+        raise bd.InvalidError(
+            message, "never-stops", {"preload_acceleration": preload, "friction": system.friction}
+        )
     samples = motion.samples(count=_SAMPLES)
-    return samples.time - motion.start_time, samples.angular_speed
+    return begin + (samples.time - motion.start_time), samples.angular_speed
 
 
 def _speeds(
@@ -170,14 +186,22 @@ def _frictions(frictions: Any) -> tuple[_Array, _Array]:
 
 def _coefficients(ax: Axes, friction: float, preloads: _Array, coefficients: _Array) -> None:
     factor, unit = unit_of(preloads, "m/s$^2$")
-    ax.axhline(friction, color=BLACK, linewidth=0.8, linestyle=(0, (4, 2)), label="the motor's")
+    ax.axhline(friction, color=BLACK, linewidth=0.8, linestyle=(0, (4, 2)), label=r"the motor's $\mu$")
     if len(coefficients) > 1:
         mean, deviation = float(coefficients.mean()), float(coefficients.std(ddof=1))
         ax.axhspan(
             mean - deviation, mean + deviation, color=GREY, alpha=0.35, linewidth=0.0,
-            label=rf"${mean:.2g} \pm {deviation:.1g}$",
+            label=rf"mean ${in_words(mean, 2)} \pm {in_words(deviation, 2)}$",
         )  # fmt: skip
-    ax.plot(factor * preloads, coefficients, linestyle="", marker="x", markersize=4.0, color=BLACK, label="measured")
+    ax.plot(
+        factor * preloads,
+        coefficients,
+        linestyle="",
+        marker="x",
+        markersize=4.0,
+        color=BLACK,
+        label="measured",
+    )
     ax.margins(x=0.06)
     lowest = min(0.0, float(coefficients.min(initial=0.0)))
     ax.set_ylim(1.2 * lowest, 1.15 * max(friction, float(coefficients.max(initial=0.0))) or 1.0)

@@ -80,7 +80,9 @@ def orbit_diagram(
     named = diagram if isinstance(diagram, Mapping) else {"": diagram}
     for orbits in named.values():
         if not isinstance(orbits, bd.OrbitDiagram):
-            raise TypeError(f"diagram must be an OrbitDiagram or a mapping to them, not {type(orbits).__name__}")
+            raise TypeError(
+                f"diagram must be an OrbitDiagram or a mapping to them, not {type(orbits).__name__}"
+            )
     # The diagrams, not what is asked for, if there are any forcings.
     forcings = np.concatenate([orbits.axial_forcing for orbits in named.values()] or [ends])
     impacts = sum(len(orbits.impact_phase) for orbits in named.values())
@@ -220,9 +222,7 @@ def _basin_colours(labels: int) -> list[tuple[float, float, float]]:
     return [to_rgb(colour) for colour in named[:labels]]
 
 
-def _label_legend(
-    ax: Any, basins: bd.Basins, colours: list[tuple[float, float, float]], own: bool
-) -> None:
+def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, float]], own: bool) -> None:
     """The labels that occur, of which the rarest share one line if there are many."""
     patch: Any = import_module("matplotlib.patches").Patch
     shares = {label: basins.share(label) for label in range(len(basins.meaning))}

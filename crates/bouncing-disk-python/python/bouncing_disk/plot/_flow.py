@@ -199,7 +199,16 @@ def _chart(ax: Axes, counts: Counter[_Transition], first_mode: str) -> None:
         _arrow(ax, way.points, colour)
         across, up = _SIDES[way.side]
         words = way.words.replace("{}", rf"($\times$ {number})" if number else "(never)")
-        ax.text(*way.at, words, ha=across, va=up, fontsize=8.0, color=colour, linespacing=1.25, multialignment="center")
+        ax.text(
+            *way.at,
+            words,
+            ha=across,
+            va=up,
+            fontsize=8.0,
+            color=colour,
+            linespacing=1.25,
+            multialignment="center",
+        )
     for centre, name, words, colour, rounding in (
         (_FLIGHT, "Flight", r"$\ddot x = -g$", SKY, 2.0),
         (_IMPACT, "Impact", "Eqs. (6), (10)", YELLOW, 19.0),
@@ -231,23 +240,37 @@ def _box(ax: Axes, centre: _Point, words: str, colour: str, rounding: float) -> 
 
 def _cycle(ax: Axes, motion: bd.Trajectory, table: bd.EventTable, own: bool) -> None:
     begin, end, marks, zero = _shown(table, motion.start_time)
-    share = max(end - begin, 1e-12 * (motion.end_time - motion.start_time)) / (motion.end_time - motion.start_time)
+    share = max(end - begin, 1e-12 * (motion.end_time - motion.start_time)) / (
+        motion.end_time - motion.start_time
+    )
     samples = motion.samples(count=int(np.clip(_CYCLE_SAMPLES / share, 2, _MOST_SAMPLES)))
-    # The instants of the events are among the points, so that corners are sharp.
+    # The instants of the events are among the points, so that corners are sharp; the disk is on the platform in all of
+    # them.
     inside = (samples.time >= begin) & (samples.time <= end)
     happened = (table.time >= begin) & (table.time <= end)
     time = np.concatenate([samples.time[inside], table.time[happened]])
     order = np.argsort(time, kind="stable")
-    disk = np.concatenate([samples.height[inside], table.height[happened]])[order]
-    seconds, second = unit_of(np.array([begin - zero, end - zero]), "s")
-    metres, metre = unit_of(np.concatenate([disk, samples.platform_height[inside]]), "m")
-    ax.plot(
-        seconds * (samples.time[inside] - zero), metres * samples.platform_height[inside], color=BLACK, label="platform"
+    disk, platform = (
+        np.concatenate([heights[inside], table.height[happened]])[order]
+        for heights in (samples.height, samples.platform_height)
     )
-    ax.plot(seconds * (time[order] - zero), metres * disk, color=ORANGE, linestyle=(0, (4, 2)), label="disk")
+    seconds, second = unit_of(np.array([begin - zero, end - zero]), "s")
+    metres, metre = unit_of(np.concatenate([disk, platform]), "m")
+    shown = seconds * (time[order] - zero)
+    ax.plot(shown, metres * platform, color=BLACK, label="platform")
+    ax.plot(shown, metres * disk, color=ORANGE, linestyle=(0, (4, 2)), label="disk")
     for letter, event in marks:
         x, y = seconds * (table.time[event] - zero), metres * table.height[event]
-        ax.plot(x, y, "o", markersize=4.0, markerfacecolor="white", markeredgecolor=BLACK, markeredgewidth=0.8, zorder=3)
+        ax.plot(
+            x,
+            y,
+            "o",
+            markersize=4.0,
+            markerfacecolor="white",
+            markeredgecolor=BLACK,
+            markeredgewidth=0.8,
+            zorder=3,
+        )
         # The letters of events at one place do not cover each other.
         away, across, up = _LETTERS[letter]
         ax.annotate(f"({letter})", (x, y), away, textcoords="offset points", ha=across, va=up, fontsize=8.5)
@@ -282,7 +305,9 @@ def _shown(table: bd.EventTable, start_time: float) -> _Shown:
         # A disk without rebound attaches in its first collision.
         marks = [("c", collision), ("a", attachment)] if collision < attachment else [("c", attachment)]
         marks.append(("s", separation))
-        return _Shown(float(table.time[begin]), float(table.time[separation]), marks, float(table.time[collision]))
+        return _Shown(
+            float(table.time[begin]), float(table.time[separation]), marks, float(table.time[collision])
+        )
     letters = {"impact": "c", "attachment": "a", "separation": "s"}
     shown = max(len(names) - 4, 0)
     chosen = [(letters[name], shown + place) for place, name in enumerate(names[shown:]) if name in letters]

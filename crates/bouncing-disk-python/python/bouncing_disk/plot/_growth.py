@@ -11,7 +11,7 @@ import numpy.typing as npt
 import bouncing_disk as bd
 from bouncing_disk.plot._checks import finite_array, number, rising_array, same_length
 from bouncing_disk.plot._style import BLACK, BLUE, drawn_on, style
-from bouncing_disk.plot._words import labelled, legend_above, unit_of, with_error
+from bouncing_disk.plot._words import in_words, labelled, legend_above, unit_of, with_error
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,6 +23,10 @@ _Array = npt.NDArray[np.float64]
 
 #: A line and the scatter about it need so many points.
 _LEAST_POINTS = 3
+#: Relative changes below this are rounding.
+_ROUNDING = 1.0e-12
+#: So many tosses have numbers at most.
+_MOST_NUMBERS = 24
 #: Length of the arrows and their distance from the line, in shares of the height of the axes.
 _ARROW, _AWAY = 0.09, 0.06
 
@@ -97,7 +101,13 @@ def dough_growth(
         axes.set_xlabel(labelled("time $t$", second))
         axes.set_ylabel("relative diameter $d/d_0$")
         _arrows(axes, numbers, seconds * starts, line.at(starts))
-        legend_above(axes, own=ax is None, title=_equation(line), title_fontsize=9.5, alignment="right")
+        legend_above(
+            axes,
+            own=ax is None,
+            title=_equation(line, seconds, second),
+            title_fontsize=9.5,
+            alignment="right",
+        )
     return fig, axes
 
 
@@ -107,15 +117,22 @@ def _line(times: _Array, sizes: _Array, start: float) -> _Line:
     This value and the slope come from the same points, so that their errors are correlated.
     """
     # Sizes and times near 1 cannot overflow.
-    scale, length = float(sizes.max()), float(times[-1] - times[0])
+    scale, length = float(sizes.max()), 0.5 * float(times[-1]) - 0.5 * float(times[0])
     (slope, first), covariance = np.polyfit((times - start) / length, sizes / scale, 1, cov=True)
     if not first > 0.0:
         message = f"the line gives a diameter of {first * scale} at {start} s; legal is a positive one"
-        raise bd.InvalidError(message, "no-first-diameter", {"start": start, "diameter": float(first * scale)})
+        raise bd.InvalidError(
+            message, "no-first-diameter", {"start": start, "diameter": float(first * scale)}
+        )
     relative = slope / first
     gradient = np.array([1.0, -relative]) / first
-    error = np.sqrt(max(float(gradient @ covariance @ gradient), 0.0))
-    return _Line(start, float(first * scale), float(relative / length), float(error / length))
+    error = float(np.sqrt(max(float(gradient @ covariance @ gradient), 0.0)))
+    # What rounding leaves of exact values is no slope and no scatter.
+    relative, error = (value if abs(value) > _ROUNDING else 0.0 for value in (float(relative), error))
+    if not np.isfinite(relative / length):
+        message = f"the times differ by {2.0 * length} s only, in which the diameters change"
+        raise bd.InvalidError(message, "too-close", {"duration": 2.0 * length})
+    return _Line(start, float(first * scale), relative / length, error / length)
 
 
 def _tosses(toss_starts: npt.ArrayLike | Mapping[int, float]) -> tuple[list[str], _Array]:
@@ -131,22 +148,29 @@ def _arrows(ax: Axes, numbers: list[str], times: _Array, heights: _Array) -> Non
     if not numbers:
         return
     low, high = ax.get_ylim()
-    low = min(low, float(heights.min()) - (_AWAY + _ARROW + 0.08) * (high - low) / (1.0 - _AWAY - _ARROW - 0.08))
+    low = min(
+        low, float(heights.min()) - (_AWAY + _ARROW + 0.08) * (high - low) / (1.0 - _AWAY - _ARROW - 0.08)
+    )
     left, right = ax.get_xlim()
     room = 0.05 * (right - left)
     ax.set_ylim(low, max(high, float(heights.max())))
     ax.set_xlim(min(left, float(times.min()) - room), max(right, float(times.max()) + room))
     height = ax.get_ylim()[1] - low
-    for name, time, at in zip(numbers, times, heights):
+    every = -(-len(numbers) // _MOST_NUMBERS)
+    for place, (name, time, at) in enumerate(zip(numbers, times, heights)):
         ax.annotate(
-            name, (time, at - _AWAY * height), (time, at - (_AWAY + _ARROW) * height), ha="center", va="top",
+            "" if place % every else name, (time, at - _AWAY * height), (time, at - (_AWAY + _ARROW) * height), ha="center", va="top",
             fontsize=8.5,
             arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0},
         )  # fmt: skip
 
 
-def _equation(line: _Line) -> str:
-    """The equation of the line, its slope with the standard error in brackets or behind."""
-    slope = with_error(line.slope, line.error)
-    since = "t" if line.start == 0.0 else f"(t - {line.start:.4g}\\ \\mathrm{{s}})"
-    return f"$d/d_0 = 1 + {slope}\\ \\mathrm{{s}}^{{-1}}\\, {since}$"
+def _equation(line: _Line, seconds: float, second: str) -> str:
+    """The equation of the line with times in this unit, its slope with the standard error."""
+    slope = with_error(abs(line.slope) / seconds, line.error / seconds)
+    # Units by powers of ten are those of no clock.
+    unit = rf"\ \mathrm{{{second}}}" if second.isalpha() else ""
+    per_unit = rf"{unit}^{{-1}}" if unit else ""
+    start = in_words(abs(seconds * line.start), 4)
+    since = "t" if line.start == 0.0 else f"(t {'+' if line.start < 0.0 else '-'} {start}{unit})"
+    return rf"$d/d_0 = 1 {'-' if line.slope < 0.0 else '+'} {slope}{per_unit}\ {since}$"

@@ -87,7 +87,9 @@ def motor_transient(
         axes.set_xlim(0.0, seconds * end)
         bottom, top = axes.get_ylim()
         if runs.speeds.any():
-            axes.set_ylim(bottom if runs.speeds.min() < 0.0 else 0.0, top if runs.speeds.max() > 0.0 else -0.05 * bottom)
+            axes.set_ylim(
+                bottom if runs.speeds.min() < 0.0 else 0.0, top if runs.speeds.max() > 0.0 else -0.05 * bottom
+            )
         else:
             axes.set_ylim(-1.0, 1.0)
         axes.set_xlabel(labelled("time $t$", second))

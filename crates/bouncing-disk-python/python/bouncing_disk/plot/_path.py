@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 import bouncing_disk as bd
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, drawn_on_grid, style
-from bouncing_disk.plot._words import equation, number, of_pi
+from bouncing_disk.plot._words import equation, in_words, of_pi
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,7 +83,7 @@ def platform_path(
             panel.set_title(f"{letter} {name}".strip(), loc="left", fontsize=10.0, pad=2.0)
             words = [_shape(system), *_sizes(system)]
             if magnification != 1.0:
-                words.append(rf"drawn $\times\,{number(magnification)}$")
+                words.append(rf"drawn $\times\,{in_words(magnification)}$")
             panel.text(
                 0.5, 0.0, "\n".join(words), transform=panel.transAxes, ha="center", va="top", fontsize=8.5,
                 linespacing=1.3,
@@ -132,7 +132,10 @@ def _path(system: bd.System, magnification: float) -> tuple[_Array, _Array]:
     # The platform is sampled below a disk in flight. One that is launched at the crest, where the platform rests, with the
     # speed by which it returns after a period, lands at the next crest: a flight of one period, for all systems.
     launched = bd.simulate(
-        system, phase=0.5 * np.pi, relative_velocity=0.5 * system.preload_acceleration * system.period, events=1
+        system,
+        phase=0.5 * np.pi,
+        relative_velocity=0.5 * system.preload_acceleration * system.period,
+        events=1,
     )
     samples = launched.samples(count=_POINTS + 1)
     # From the crest on, phase 0 comes after three quarters. The last point is the first one.
@@ -158,7 +161,13 @@ def _curve(ax: Axes, angle: npt.ArrayLike, height: npt.ArrayLike, colour: str, w
     behind = ~in_front
     behind[1:] |= ~in_front[:-1]
     behind[:-1] |= ~in_front[1:]
-    ax.plot(np.where(behind, x, np.nan), np.where(behind, y, np.nan), color=colour, linewidth=0.6 * width, linestyle=":")
+    ax.plot(
+        np.where(behind, x, np.nan),
+        np.where(behind, y, np.nan),
+        color=colour,
+        linewidth=0.6 * width,
+        linestyle=":",
+    )
     ax.plot(np.where(in_front, x, np.nan), np.where(in_front, y, np.nan), color=colour, linewidth=width)
 
 
@@ -169,7 +178,10 @@ def _cylinder(ax: Axes, half: float) -> None:
     top_x, top_y, _ = _seen(front, half)
     # The side, its edge, and the face.
     ax.fill(
-        np.concatenate([bottom_x, top_x[::-1]]), np.concatenate([bottom_y, top_y[::-1]]), color="#efefef", linewidth=0.0
+        np.concatenate([bottom_x, top_x[::-1]]),
+        np.concatenate([bottom_y, top_y[::-1]]),
+        color="#efefef",
+        linewidth=0.0,
     )
     ax.plot(
         np.concatenate([top_x[:1], bottom_x, top_x[-1:]]), np.concatenate([top_y[:1], bottom_y, top_y[-1:]]),
@@ -193,7 +205,7 @@ def _motion(ax: Axes, angle: _Array, height: _Array) -> None:
         ax.annotate(
             "", (x[end], y[end]), (x[begin], y[begin]),
             arrowprops={
-                "arrowstyle": "-|>,head_length=0.45,head_width=0.18", "color": BLUE, "linewidth": 0.0,
+                "mutation_scale": 15.0, "arrowstyle": "-|>,head_length=0.45,head_width=0.18", "color": BLUE, "linewidth": 0.0,
                 "alpha": 1.0 if front[end] >= 0.0 else 0.4, "shrinkA": 0.0, "shrinkB": 0.0,
             },
         )  # fmt: skip

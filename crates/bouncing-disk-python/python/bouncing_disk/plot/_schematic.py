@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import bouncing_disk as bd
 from bouncing_disk.plot._style import BLACK, GREY, ORANGE, SINGLE_COLUMN, SKY, YELLOW, drawn_on, style
-from bouncing_disk.plot._words import equation, number, of_pi, with_unit
+from bouncing_disk.plot._words import equation, in_words, of_pi, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,14 +56,16 @@ def motor_schematic(motor: bd.Motor | bd.System, *, ax: Axes | None = None) -> t
     >>> from bouncing_disk import plot
     >>> fig, ax = plot.motor_schematic(bd.System.motor())
     >>> [text.get_text() for text in ax.texts if "contact" in text.get_text()]
-    ['contact radius $a_\\mathrm{e} =$ $1.25$ mm']
+    ['contact radius $a_\\mathrm{e} = 1.25$ mm']
     """
     if not isinstance(motor, (bd.Motor, bd.System)):
         raise TypeError(f"motor must be a Motor or a System, not {type(motor).__name__}")
     contact, gyration = _drawn_radii(motor.contact_radius, motor.gyration_radius)
     with style():
         fig, axes = drawn_on(ax, _HEIGHT)
-        axes.plot([0.0, 0.0], [_BOTTOM + 0.1, _TOP - 0.1], color=GREY, linewidth=0.7, linestyle=(0, (6, 2, 1, 2)))
+        axes.plot(
+            [0.0, 0.0], [_BOTTOM + 0.1, _TOP - 0.1], color=GREY, linewidth=0.7, linestyle=(0, (6, 2, 1, 2))
+        )
         _stator(axes, contact)
         _rotor(axes, contact, gyration)
         _motions(axes)
@@ -107,8 +109,15 @@ def _words(motor: bd.Motor | bd.System, contact: float, gyration: float) -> list
         rotary = equation(r"\Phi", motor.twist_amplitude, "rad")
     gyration_words = "radius of gyration " + equation(r"a_\mathrm{g}", motor.gyration_radius, "m")
     contact_words = "contact radius " + equation(r"a_\mathrm{e}", motor.contact_radius, "m")
-    impact_words = rf"friction $\mu = {number(motor.friction)}$," "\n" rf"restitution $\epsilon = {number(motor.restitution)}$"
-    stator_words = f"stator, {equation('A', motor.amplitude, 'm')},\n{rotary}, " + rf"$\theta = {of_pi(motor.phase_lag)}$"
+    impact_words = (
+        rf"friction $\mu = {in_words(motor.friction)}$,"
+        "\n"
+        rf"restitution $\epsilon = {in_words(motor.restitution)}$"
+    )
+    stator_words = (
+        f"stator, {equation('A', motor.amplitude, 'm')},\n{rotary}, "
+        + rf"$\theta = {of_pi(motor.phase_lag)}$"
+    )
     words = [
         ((0.05, 2.2), 2.6, f"preload {preload}{spring}"),
         ((_ROTOR, _GAP + 0.2), 1.25, rotor),
@@ -131,7 +140,9 @@ def _pale(colour: str) -> tuple[float, ...]:
     return tuple(0.4 * part + 0.6 for part in import_module("matplotlib.colors").to_rgb(colour))
 
 
-def _arrow(ax: Axes, begin: _Point, end: _Point, colour: str = BLACK, style_: str = "-|>", bend: float = 0.0) -> None:
+def _arrow(
+    ax: Axes, begin: _Point, end: _Point, colour: str = BLACK, style_: str = "-|>", bend: float = 0.0
+) -> None:
     ax.annotate(
         "", end, begin, zorder=3,
         arrowprops={
@@ -167,14 +178,18 @@ def _stator(ax: Axes, contact: float) -> None:
     rim = contact + 0.12
     _patch(ax, [(-rim, -0.25), (rim, -0.25), (rim, 0.0), (-rim, 0.0)], GREY)
     half, high = _TRANSDUCER
-    _patch(ax, [(-half, -_STATOR - high), (half, -_STATOR - high), (half, -_STATOR), (-half, -_STATOR)], YELLOW)
+    _patch(
+        ax, [(-half, -_STATOR - high), (half, -_STATOR - high), (half, -_STATOR), (-half, -_STATOR)], YELLOW
+    )
     # The voltage between its faces.
     x, y, size = -half - 0.45, -_STATOR - 0.5 * high, 0.2
     ax.plot([-half, x, x], [-_STATOR - 0.06, -_STATOR - 0.06, y + size], color=BLACK, linewidth=0.8)
     ax.plot([-half, x, x], [-_STATOR - high + 0.06] * 2 + [y - size], color=BLACK, linewidth=0.8)
     around = np.linspace(0.0, 2.0 * np.pi, 60)
     ax.plot(x + size * np.cos(around), y + size * np.sin(around), color=BLACK, linewidth=0.8)
-    ax.plot(x + size * 0.65 * (around / np.pi - 1.0), y + 0.45 * size * np.sin(around), color=BLACK, linewidth=0.8)
+    ax.plot(
+        x + size * 0.65 * (around / np.pi - 1.0), y + 0.45 * size * np.sin(around), color=BLACK, linewidth=0.8
+    )
 
 
 def _motions(ax: Axes) -> None:

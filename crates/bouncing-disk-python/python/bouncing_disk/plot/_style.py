@@ -120,7 +120,10 @@ def drawn_on_columns(
 
 
 def drawn_on_grid(
-    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None, panels: int, columns: int, size: tuple[float, float]
+    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None,
+    panels: int,
+    columns: int,
+    size: tuple[float, float],
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """The axes of a figure with many panels of a size (inches), row by row."""
     columns = max(1, min(panels, columns))

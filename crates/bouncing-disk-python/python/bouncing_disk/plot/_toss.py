@@ -86,7 +86,9 @@ def toss(
     radians, radian = unit_of(np.concatenate([curve.angle, curve.platform_angle]), "rad")
     time = seconds * (curve.time - began)
     # Of many oscillations, thick lines would leave a black area.
-    of_platform, of_disk = (float(np.clip(40.0 / max(count, 1.0), 0.3, 1.0)) for count in (periods, len(names)))
+    of_platform, of_disk = (
+        float(np.clip(40.0 / max(count, 1.0), 0.3, 1.0)) for count in (periods, len(names))
+    )
     with style():
         fig, axes = drawn_on_rows(ax, 2, 3.6)
         rows = [

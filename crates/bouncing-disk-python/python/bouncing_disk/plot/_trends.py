@@ -82,7 +82,11 @@ def toss_performance(
     with style():
         fig, axes = drawn_on_rows(ax, 3, 5.0)
         colours = pyplot().get_cmap("viridis")(np.linspace(0.0, 0.85, len(lags)))
-        labels = (labelled(r"airborne speed $\dot\alpha_\mathrm{f}$", unit), r"efficiency $\eta$", r"speed ratio $\nu$")
+        labels = (
+            labelled(r"airborne speed $\dot\alpha_\mathrm{f}$", unit),
+            r"efficiency $\eta$",
+            r"speed ratio $\nu$",
+        )
         for column, (panel, label) in enumerate(zip(axes, labels)):
             for lag, colour, curve in zip(lags, colours, results):
                 panel.plot(
@@ -186,8 +190,7 @@ def motor_dependence(
         axes.set_xlabel(labelled(words, unit))
         axes.set_ylabel(labelled("steady speed", speed))
         axes.margins(x=0.03, y=0.08)
-        if len(given) > 1 and given.min() > 0.0 and given.max() >= _DECADES * given.min():
-            axes.set_xscale("log")
+        _span(axes, across * given)
         stall = axes.twinx()
         stall.errorbar(
             across * given, stalls * fits[:, 2], 2.0 * stalls * fits[:, 3], color=ORANGE, marker="o", markersize=2.6,
@@ -195,13 +198,27 @@ def motor_dependence(
         )  # fmt: skip
         stall.set_ylabel(labelled("stall acceleration", acceleration), color=ORANGE)
         stall.tick_params(axis="y", which="both", colors=ORANGE)
-        stall.margins(x=0.03, y=0.08)
+        stall.margins(y=0.08)
         axes.tick_params(axis="y", which="both", right=False)
         if not np.isfinite(fits[:, 0]).any():
             note(axes, "no exponential run-up" if len(given) else "no values")
         handles = [*axes.get_legend_handles_labels()[0], *stall.get_legend_handles_labels()[0]]
         legend_above(axes, handles, own=ax is None)
     return fig, axes
+
+
+def _span(ax: Axes, values: npt.NDArray[np.float64]) -> None:
+    """The abscissa from the lowest to the highest value, also where there is no fit."""
+    low, high = values.min(initial=np.inf), values.max(initial=-np.inf)
+    if not low < high:
+        return
+    if low > 0.0 and high >= _DECADES * low:
+        room = (high / low) ** 0.03
+        ax.set_xlim(low / room, high * room)
+        ax.set_xscale("log")
+    else:
+        room = 0.03 * (high - low)
+        ax.set_xlim(low - room, high + room)
 
 
 def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple[float, float, float, float]:

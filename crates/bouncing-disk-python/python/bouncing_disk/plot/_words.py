@@ -12,7 +12,17 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["equation", "labelled", "legend_above", "note", "number", "of_pi", "unit_of", "with_error", "with_unit"]
+__all__ = [
+    "equation",
+    "labelled",
+    "legend_above",
+    "note",
+    "in_words",
+    "of_pi",
+    "unit_of",
+    "with_error",
+    "with_unit",
+]
 
 #: By powers of 1000 below the unit.
 _SMALL = ("", "m", "µ", "n", "p", "f")
@@ -51,8 +61,8 @@ def with_unit(value: float, unit: str) -> str:
     """A number with its unit, in one that fits, for a text with mathematics."""
     factor, fitting = unit_of(value, unit, least=0.99999)
     if fitting.startswith("$"):
-        return f"${number(value)}$ {unit}".strip()
-    return f"${number(factor * value)}$ {fitting}".strip()
+        return f"${in_words(value)}$ {unit}".strip()
+    return f"${in_words(factor * value)}$ {fitting}".strip()
 
 
 def equation(symbol: str, value: float, unit: str) -> str:
@@ -60,11 +70,15 @@ def equation(symbol: str, value: float, unit: str) -> str:
     return f"${symbol} = {with_unit(value, unit)[1:]}"
 
 
-def number(value: float, digits: int = 3) -> str:
+def in_words(value: float, digits: int = 3) -> str:
     """A number of some digits, for a text between dollar signs."""
-    mantissa, _, exponent = f"{value:.{digits}g}".partition("e")
-    if not exponent:
-        return mantissa
+    rounded = float(f"{value:.{digits}g}")
+    # Python's own switch to powers of ten depends on the digits, too.
+    if rounded == 0.0 or 1.0e-4 <= abs(rounded) < _LONG:
+        return f"{rounded:.12g}"
+    mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
     factor = "" if mantissa == "1" else "-" if mantissa == "-1" else mantissa + r"\times "
     return factor + f"10^{{{int(exponent)}}}"
 
@@ -72,10 +86,10 @@ def number(value: float, digits: int = 3) -> str:
 def with_error(value: float, error: float) -> str:
     """A value and in brackets its standard error, two digits in units of the last one of the value."""
     if not (np.isfinite(error) and error > 0.0):
-        return number(value)
+        return in_words(value)
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     if digits > 6 or error > 0.3 * abs(value) or abs(value) >= 1e6:
-        return rf"({number(value)} \pm {number(error, 1)})"
+        return rf"({in_words(value)} \pm {in_words(error, 1)})"
     return f"{value:.{digits}f}({error * 10**digits:.0f})"
 
 
@@ -86,7 +100,7 @@ def of_pi(angle: float) -> str:
         return str(angle)
     simple = Fraction(share).limit_denominator(12)
     if abs(share - simple) > 1.0e-4 or abs(simple) > 99:
-        return number(share) + r"\pi"
+        return in_words(share) + r"\pi"
     if simple == 0:
         return "0"
     sign, above = "-" if simple < 0 else "", abs(simple.numerator)
@@ -112,7 +126,8 @@ def legend_above(
     if not handles:
         return None
     fig: Any = ax.get_figure()
-    room = 0.97 * fig.bbox.width if own else 1.1 * ax.get_window_extent().width
+    place: Any = ax.get_subplotspec()
+    room = 0.97 * fig.bbox.width / place.get_gridspec().ncols if own else 1.1 * ax.get_window_extent().width
     settings = {"borderaxespad": 0.2, "columnspacing": 1.0, **options}
     legend: Any = None
     for columns in range(min(len(handles), most), 0, -1):
@@ -123,6 +138,7 @@ def legend_above(
             break
     if own:
         rows = -(-len(handles) // columns)
+        below_first = legend.get_window_extent().height / fig.dpi * (rows - 1) / rows
         width, height = fig.get_size_inches()
-        fig.set_size_inches(width, height + 0.17 * (rows - 1))
+        fig.set_size_inches(width, height + below_first)
     return legend
