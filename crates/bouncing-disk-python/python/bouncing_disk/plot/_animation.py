@@ -10,7 +10,7 @@ import numpy as np
 import bouncing_disk as bd
 from bouncing_disk.plot._checks import number, whole_number
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, SINGLE_COLUMN, pyplot, style
-from bouncing_disk.plot._toss import trajectory_of
+from bouncing_disk.plot._toss import enough_samples, trajectory_of
 from bouncing_disk.plot._words import labelled, unit_of
 
 if TYPE_CHECKING:
@@ -57,10 +57,12 @@ def toss_animation(
     if frames is None:
         frames = round(min(max(duration * slow_motion * _FRAMES_PER_SECOND, 2.0), _MOST_FRAMES))
     curve = trajectory.samples(count=whole_number("frames", frames, 2))
+    # The curves do not get coarser with the film.
+    graphs = trajectory.samples(count=enough_samples(trajectory))
     if len(curve.time) == 0:
         raise bd.InvalidError("a motion without events has nothing to show", "no-events", {})
     across, across_unit = unit_of(trajectory.system.contact_radius, "m")
-    metres, metre = unit_of(np.concatenate([curve.height, curve.platform_height]), "m")
+    metres, metre = unit_of(np.concatenate([graphs.height, graphs.platform_height]), "m")
     seconds, second = unit_of(duration, "s")
     radius = across * trajectory.system.contact_radius
     time = seconds * (curve.time - trajectory.start_time)
@@ -82,16 +84,17 @@ def toss_animation(
         side.set_xlim(-1.6 * radius, 1.6 * radius)
         side.set_xlabel(labelled("across", across_unit))
         side.set_ylabel(labelled("height", metre))
-        graph.plot(time, platform_heights, color=GREY, linewidth=0.8)
-        graph.plot(time, heights, color=GREY, linewidth=0.8)
+        instants = seconds * (graphs.time - trajectory.start_time)
+        graph.plot(instants, metres * graphs.platform_height, color=GREY, linewidth=0.8)
+        graph.plot(instants, metres * graphs.height, color=GREY, linewidth=0.8)
         (platform_now,) = graph.plot([], [], "o", color=BLUE, markersize=3.6, label="platform")
         (disk_now,) = graph.plot([], [], "o", color=BLACK, markersize=3.6, label="disk")
         graph.set_xlim(0.0, time[-1])
         graph.set_xlabel(labelled("time", second))
         # Above the axes, where it hides no flight.
         graph.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
-        low = min(platform_heights.min(), heights.min())
-        high = max(platform_heights.max(), heights.max())
+        low = metres * min(graphs.platform_height.min(), graphs.height.min())
+        high = metres * max(graphs.platform_height.max(), graphs.height.max())
         room = 0.08 * (high - low) or 1.0
         side.set_ylim(low - room, high + room)
         # Laid out once and not in every picture, which takes ten times as long as the picture itself.

@@ -155,7 +155,7 @@ def _two_starts(
 def _dots_legend(ax: Any, own: bool) -> None:
     """A legend with dots that can be seen, behind which no point is lost."""
     legend = legend_above(ax, own=own, most=2, handletextpad=0.1)
-    for handle in legend.legend_handles:
+    for handle in legend.get_lines():
         handle.set_marker("o")
         handle.set_markersize(3.0)
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["platform_path"]
+__all__ = ["platform_path", "stroke_of"]
 
 _Array = npt.NDArray[np.float64]
 
@@ -69,7 +69,7 @@ def platform_path(
     3
     """
     named = _named(systems)
-    sizes = [_stroke(system) / system.contact_radius for _, system in named]
+    sizes = [stroke_of(system) / system.contact_radius for _, system in named]
     magnification = _magnification(max(sizes))
     paths = [_path(system, magnification) for _, system in named]
     half = max(_LEAST_HALF, *(float(np.abs(height).max()) + _ROOM for _, height in paths))
@@ -113,7 +113,7 @@ def _named(systems: Any) -> list[tuple[str, bd.System]]:
     return named
 
 
-def _stroke(system: bd.System) -> float:
+def stroke_of(system: bd.System) -> float:
     """The stroke (A^2 + (a_e Phi)^2)^(1/2)."""
     return float(np.hypot(system.amplitude, system.contact_radius * system.twist_amplitude))
 
@@ -221,7 +221,7 @@ def _motion(ax: Axes, angle: _Array, height: _Array) -> None:
 def _shape(system: bd.System) -> str:
     """Phase lag and amplitude angle."""
     ratio = float(np.arctan2(system.contact_radius * system.twist_amplitude, system.amplitude))
-    angle = rf"$\phi_L = {of_pi(ratio)}$" if _stroke(system) > 0.0 else "at rest"
+    angle = rf"$\phi_L = {of_pi(ratio)}$" if stroke_of(system) > 0.0 else "at rest"
     return rf"$\theta = {of_pi(system.phase_lag)}$, {angle}"
 
 

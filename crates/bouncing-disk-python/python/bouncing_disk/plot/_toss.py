@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["toss"]
+__all__ = ["enough_samples", "toss", "trajectory_of"]
 
 #: The events that are drawn, with their marks and whether these are filled.
 _EVENTS = (("separation", "o", False), ("impact", "o", True), ("attachment", "s", True))
 #: Of more events the marks would cover the curves.
 _MOST_EVENTS = 400
-#: Points of the curves: so many that the platform's oscillation is one.
+#: Points of the curves.
 _SAMPLES_PER_PERIOD = 24.0
 _LEAST_SAMPLES, _MOST_SAMPLES = 2_000, 200_000
 
@@ -35,6 +35,12 @@ def trajectory_of(
     if not isinstance(motion, bd.Trajectory):
         raise TypeError(f"motion must be a System or a Trajectory, not {type(motion).__name__}")
     return motion
+
+
+def enough_samples(trajectory: bd.Trajectory) -> int:
+    """So many that the oscillation of the platform is seen as one."""
+    periods = (trajectory.end_time - trajectory.start_time) / trajectory.system.period
+    return int(np.clip(_SAMPLES_PER_PERIOD * periods, _LEAST_SAMPLES, _MOST_SAMPLES))
 
 
 def toss(
@@ -75,8 +81,7 @@ def toss(
     trajectory = trajectory_of(motion, initial_spin)
     began = trajectory.start_time
     periods = (trajectory.end_time - began) / trajectory.system.period
-    if samples is None:
-        samples = int(np.clip(_SAMPLES_PER_PERIOD * periods, _LEAST_SAMPLES, _MOST_SAMPLES))
+    samples = enough_samples(trajectory) if samples is None else samples
     curve, events = trajectory.samples(count=samples), trajectory.events()
     if len(curve.time) == 0:
         raise bd.InvalidError("a motion without events has no trajectory to draw", "no-events", {})
@@ -120,7 +125,7 @@ def toss(
         axes[1].set_xlim(0.0, 1.02 * time[-1])
         axes[1].set_xlabel(labelled("time", second))
         legend = legend_above(axes[0], own=ax is None)
-        for handle in legend.legend_handles:
-            handle.set_linewidth(1.0)
+        for line in legend.get_lines():
+            line.set_linewidth(1.0)
         fig.align_ylabels(list(axes))
     return fig, axes

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 import bouncing_disk as bd
 from bouncing_disk.plot._checks import finite_array, whole_number
+from bouncing_disk.plot._path import stroke_of
 from bouncing_disk.plot._style import BLACK, ORANGE, drawn_on, drawn_on_rows, pyplot, style
 from bouncing_disk.plot._words import labelled, legend_above, note, of_pi, unit_of
 
@@ -83,7 +84,7 @@ def toss_performance(
         fig, axes = drawn_on_rows(ax, 3, 5.0)
         colours = pyplot().get_cmap("viridis")(np.linspace(0.0, 0.85, len(lags)))
         labels = (
-            labelled(r"airborne speed $\dot\alpha_\mathrm{f}$", unit),
+            labelled("airborne speed", unit),
             r"efficiency $\eta$",
             r"speed ratio $\nu$",
         )
@@ -113,7 +114,7 @@ def toss_performance(
 
 def _toss(system: bd.System, angle: float, lag: float) -> tuple[float, float, float]:
     """Speed, efficiency and ratio of the toss with this amplitude angle and phase lag."""
-    stroke = float(np.hypot(system.amplitude, system.contact_radius * system.twist_amplitude))
+    stroke = stroke_of(system)
     changed = system.replace(
         amplitude=stroke * float(np.cos(angle)),
         twist_amplitude=stroke * float(np.sin(angle)) / system.contact_radius,
