@@ -25,7 +25,7 @@ def words_of(ax: Any) -> str:
 def curve_of(panel: Any) -> tuple[Any, Any]:
     """The path as it is seen, front and back together."""
     behind, in_front = (drawn(line) for line in panel.lines[-3:-1])
-    return tuple(np.where(np.isnan(one), other, one) for one, other in zip(in_front, behind))  # type: ignore[return-value]
+    return tuple(np.where(np.isnan(one), other, one) for one, other in zip(in_front, behind))
 
 
 def test_the_path_is_that_of_the_platform() -> None:
@@ -79,9 +79,10 @@ def test_paths_of_nothing_and_of_other_things_are_refused() -> None:
     for wrong in ("pizza", [3], 0.5, {"motor": SHEET}):
         with pytest.raises(TypeError, match="systems must be Systems, not"):
             plot.platform_path(wrong)  # type: ignore[arg-type]
-    for empty in ([], {}):
+    nothing: list[Any] = [[], {}]
+    for empty in nothing:
         with pytest.raises(bd.InvalidError) as none:
-            plot.platform_path(empty)  # type: ignore[arg-type]
+            plot.platform_path(empty)
         assert none.value.kind == "empty"
 
 
@@ -90,7 +91,7 @@ def test_paths_of_nothing_and_of_other_things_are_refused() -> None:
 
 def counts_of(chart: Any) -> dict[str, int]:
     """The numbers at the arrows by the first words that stand there."""
-    found = {}
+    found: dict[str, int] = {}
     for text in chart.texts:
         words = text.get_text()
         if r"\times$" in words:
@@ -196,7 +197,8 @@ def test_the_schematic_tells_its_radii_apart(contact: float) -> None:
     system = MOTOR.replace(contact_radius=contact)
     _, ax = plot.motor_schematic(system)
     gyration = max(drawn(line)[0][0] for line in ax.lines if line.get_linestyle() == ":")
-    feet = [patch.get_xy()[1][0] for patch in ax.patches if len(patch.get_xy()) == 4]
+    corners: list[Any] = [patch.get_xy() for patch in ax.patches]  # type: ignore[attr-defined]
+    feet = [polygon[1][0] for polygon in corners if len(polygon) == 4]
     assert abs(gyration - max(feet)) > 0.1 and max(feet) > 0.05 and max(gyration, *feet) < 1.0
     if 0.3 < contact / 6.3e-3 < 0.7:
         assert max(feet) / gyration == pytest.approx(contact / 6.3e-3)

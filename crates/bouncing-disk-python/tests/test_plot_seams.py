@@ -47,8 +47,8 @@ def test_examples_of_figures_run(name: str) -> None:
     ],
 )
 def test_units_fit_the_values(largest: float, unit: str, factor: float, expected: str) -> None:
-    found = words.unit_of(np.array([0.0, largest]), unit)
-    assert found == (pytest.approx(factor, rel=1e-12), expected)
+    found, name = words.unit_of(np.array([0.0, largest]), unit)
+    assert found == pytest.approx(factor, rel=1e-12) and name == expected
     assert words.unit_of(np.array([]), unit) == (1.0, unit)
 
 

@@ -165,7 +165,8 @@ def _speeds(
             seconds * time, speeds * speed, linestyle="", marker="x", markersize=3.5, markeredgewidth=0.8,
             color=colours.get(preload, BLACK), label=None if place else "measured",
         )  # fmt: skip
-    ends = [time[-1] for time, *_ in [*curves, *own] if len(time)]
+    times = [*(time for time, _ in curves), *(time for time, _, _ in own)]
+    ends = [float(time[-1]) for time in times if len(time)]
     ax.set_xlim(0.0, 1.05 * seconds * max(ends, default=1.0) or None)
     low, high = ax.get_ylim()
     ax.set_ylim(0.0 if low > -0.1 * abs(high) else 1.05 * low, 0.0 if high < -0.1 * low else 1.05 * high)

@@ -113,7 +113,7 @@ def drawn_on_rows(
 
 
 def drawn_on_columns(
-    axes: Sequence[Axes] | np.ndarray[Any, Any] | None, columns: int, height: float
+    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None, columns: int, height: float
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """The axes of a figure with panels beside each other, which have nothing in common."""
     return _drawn_on(axes, (1, columns), (columns * SINGLE_COLUMN, height), columns)
