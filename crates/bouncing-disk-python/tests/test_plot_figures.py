@@ -379,6 +379,12 @@ def test_all_are_drawn_into_axes_of_the_caller() -> None:
     for function, arguments, ax in calls:
         found, panels = function(*arguments, ax=ax)
         assert found is fig and list(np.atleast_1d(panels)) == list(np.atleast_1d(ax))
+    # Words of a drawing shrink with it.
+    for function, arguments, ax in calls[1:3]:
+        sizes = [float(text.get_fontsize()) for text in np.atleast_1d(ax)[0].texts]  # type: ignore[attr-defined]
+        own = [float(text.get_fontsize()) for text in np.atleast_1d(function(*arguments)[1])[0].texts]
+        assert len(sizes) == len(own) and max(sizes) < 0.7 * max(own)
+        plt.close()
     with pytest.raises(ValueError, match="2 axes, not 1"):
         plot.flow_chart(PIZZA, ax=[axes[1, 0]])
     assert plt.get_fignums() == [fig.number] and tuple(fig.get_size_inches()) == tuple(

@@ -69,6 +69,13 @@ def orbit_diagram(
     Returns
     -------
     (Figure, Axes)
+
+    Examples
+    --------
+    >>> from bouncing_disk import plot
+    >>> fig, ax = plot.orbit_diagram(restitution=0.6, axial_forcing=(0.26, 0.3), columns=5, transient=200)
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['from the period-1 orbit', 'from a slow impact']
     """
     if quantity not in ("phase", "speed"):
         raise ValueError(f'quantity must be "phase" or "speed", not {quantity!r}')
@@ -188,6 +195,15 @@ def basins(
     Returns
     -------
     (Figure, Axes)
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> from bouncing_disk import plot
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
+    >>> fig, ax = plot.basins(bd.basins(bouncing, phases=40, speeds=30))
+    >>> [float(end) for end in ax.get_xlim()]
+    [0.0, 1.0]
     """
     if isinstance(basins, bd.ImpactMap):
         basins = bd.attractors(basins).basins(phases=phases, speeds=speeds, speed_range=speed_range)

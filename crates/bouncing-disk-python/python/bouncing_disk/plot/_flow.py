@@ -11,7 +11,7 @@ import numpy as np
 
 import bouncing_disk as bd
 from bouncing_disk.plot._style import BLACK, GREEN, GREY, ORANGE, SKY, YELLOW, drawn_on_grid, pyplot, style
-from bouncing_disk.plot._words import labelled, legend_above, unit_of
+from bouncing_disk.plot._words import labelled, legend_above, shrunk, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,13 +29,6 @@ _FLIGHT, _IMPACT, _STICKING, _SLIDING = (86.0, 190.0), (272.0, 190.0), (86.0, 66
 _ACROSS, _UP = 46.0, 20.0
 _WIDTH, _HEIGHT = 372.0, 226.0
 _BETWEEN = 179.0
-
-#: Where the letters of events stand from their points, and how they lie.
-_LETTERS = {
-    "c": ((1.0, -5.0), "right", "top"),
-    "a": ((-1.0, -5.0), "left", "top"),
-    "s": ((0.0, 6.0), "center", "bottom"),
-}
 
 #: Samples of a cycle, and of the whole motion from which they are taken.
 _CYCLE_SAMPLES, _MOST_SAMPLES = 400, 1 << 20
@@ -166,7 +159,8 @@ def flow_chart(
             )
         else:
             fig, panels = drawn_on_grid(ax, 2, 1, _SIZE)
-        _chart(panels[0], _counted(table), _kind_of_mode(table.mode_before[0]))
+        share = shrunk(panels[0], (_SIZE[0], _CHART_SHARE * _SIZE[1]), own=ax is None)
+        _chart(panels[0], _counted(table), _kind_of_mode(table.mode_before[0]), share)
         _cycle(panels[1], motion, table, own=False)
     return fig, panels
 
@@ -181,7 +175,7 @@ def _counted(table: bd.EventTable) -> Counter[_Transition]:
     return Counter((_kind_of_mode(before), kind, _kind_of_mode(after)) for before, kind, after in modes)
 
 
-def _chart(ax: Axes, counts: Counter[_Transition], first_mode: str) -> None:
+def _chart(ax: Axes, counts: Counter[_Transition], first_mode: str, share: float) -> None:
     ax.set_xlim(0.0, _WIDTH)
     ax.set_ylim(-10.0, _HEIGHT)
     ax.set_aspect("equal")
@@ -189,7 +183,14 @@ def _chart(ax: Axes, counts: Counter[_Transition], first_mode: str) -> None:
     collisions = sum(number for (before, _, _), number in counts.items() if before == "flight")
     away, edge, across, up = _STARTS[first_mode]
     _arrow(ax, (away, edge), BLACK)
-    ax.text(away[0] + (3.0 if across == "left" else -3.0), away[1], "start", ha=across, va=up, fontsize=8.0)
+    ax.text(
+        away[0] + (3.0 if across == "left" else -3.0),
+        away[1],
+        "start",
+        ha=across,
+        va=up,
+        fontsize=8.0 * share,
+    )
     collision = _Way(
         ((_FLIGHT[0] + _ACROSS, 198.0), (_IMPACT[0] - _ACROSS, 198.0)), (_BETWEEN, 200.0), "above",
         "collision {}\n$x = s$",
@@ -204,7 +205,7 @@ def _chart(ax: Axes, counts: Counter[_Transition], first_mode: str) -> None:
             words,
             ha=across,
             va=up,
-            fontsize=8.0,
+            fontsize=8.0 * share,
             color=colour,
             linespacing=1.25,
             multialignment="center",
@@ -215,7 +216,7 @@ def _chart(ax: Axes, counts: Counter[_Transition], first_mode: str) -> None:
         (_STICKING, "Sticking", r"$x = s,\ \dot\alpha = \dot\beta$", GREEN, 2.0),
         (_SLIDING, "Sliding", "$x = s$, Eq. (12)", GREEN, 2.0),
     ):
-        _box(ax, centre, f"{name}\n{words}", colour, rounding)
+        _box(ax, centre, f"{name}\n{words}", colour, rounding, share)
 
 
 def _arrow(ax: Axes, points: Sequence[_Point], colour: str) -> None:
@@ -227,7 +228,7 @@ def _arrow(ax: Axes, points: Sequence[_Point], colour: str) -> None:
     )  # fmt: skip
 
 
-def _box(ax: Axes, centre: _Point, words: str, colour: str, rounding: float) -> None:
+def _box(ax: Axes, centre: _Point, words: str, colour: str, rounding: float, share: float) -> None:
     red, green, blue = import_module("matplotlib.colors").to_rgb(colour)
     pale = tuple(0.25 * part + 0.75 for part in (red, green, blue))
     patch = import_module("matplotlib.patches").FancyBboxPatch(
@@ -235,7 +236,7 @@ def _box(ax: Axes, centre: _Point, words: str, colour: str, rounding: float) -> 
         boxstyle=f"round,pad={rounding}", facecolor=pale, edgecolor=BLACK, linewidth=0.8, zorder=2,
     )  # fmt: skip
     ax.add_patch(patch)
-    ax.text(*centre, words, ha="center", va="center", fontsize=9.0, linespacing=1.3, zorder=3)
+    ax.text(*centre, words, ha="center", va="center", fontsize=9.0 * share, linespacing=1.3, zorder=3)
 
 
 def _cycle(ax: Axes, motion: bd.Trajectory, table: bd.EventTable, own: bool) -> None:
@@ -259,7 +260,7 @@ def _cycle(ax: Axes, motion: bd.Trajectory, table: bd.EventTable, own: bool) -> 
     shown = seconds * (time[order] - zero)
     ax.plot(shown, metres * platform, color=BLACK, label="platform")
     ax.plot(shown, metres * disk, color=ORANGE, linestyle=(0, (4, 2)), label="disk")
-    for letter, event in marks:
+    for place, (letter, event) in enumerate(marks):
         x, y = seconds * (table.time[event] - zero), metres * table.height[event]
         ax.plot(
             x,
@@ -271,8 +272,14 @@ def _cycle(ax: Axes, motion: bd.Trajectory, table: bd.EventTable, own: bool) -> 
             markeredgewidth=0.8,
             zorder=3,
         )
-        # The letters of events at one place do not cover each other.
-        away, across, up = _LETTERS[letter]
+        # At its side of another one that is near, and inside of the axes.
+        near = [abs(table.time[event] - table.time[other]) < 0.06 * (end - begin) for _, other in marks]
+        across = "center"
+        if letter == "a" and sum(near) > 1 and near[0]:
+            across = "left"
+        elif place == len(marks) - 1 or (letter == "c" and sum(near) > 1):
+            across = "right"
+        away, up = ((0.0, 6.0), "bottom") if letter == "s" else ((0.0, -5.0), "top")
         ax.annotate(f"({letter})", (x, y), away, textcoords="offset points", ha=across, va=up, fontsize=8.5)
     ax.margins(x=0.03, y=0.22)
     ax.set_xlabel(labelled("time" if zero == motion.start_time else "time since the collision", second))

@@ -27,8 +27,8 @@ _LEAST_POINTS = 3
 _ROUNDING = 1.0e-12
 #: So many tosses have numbers at most.
 _MOST_NUMBERS = 24
-#: Length of the arrows and their distance from the line, in shares of the height of the axes.
-_ARROW, _AWAY = 0.09, 0.06
+#: Length of the arrows, their distance from the line and room for a number, in shares of the height of the axes.
+_ARROW, _AWAY, _NUMBER = 0.09, 0.06, 0.12
 
 
 class _Line(NamedTuple):
@@ -147,15 +147,15 @@ def _arrows(ax: Axes, numbers: list[str], times: _Array, heights: _Array) -> Non
     """Arrows from below to the line, each with its number."""
     if not numbers:
         return
-    low, high = ax.get_ylim()
-    low = min(
-        low, float(heights.min()) - (_AWAY + _ARROW + 0.08) * (high - low) / (1.0 - _AWAY - _ARROW - 0.08)
-    )
-    left, right = ax.get_xlim()
+    (low, high), (left, right) = ax.get_ylim(), ax.get_xlim()
+    high = max(high, float(heights.max()))
+    # The lowest number stands inside of the axes.
+    below = _AWAY + _ARROW + _NUMBER
+    low = min(low, (float(heights.min()) - below * high) / (1.0 - below))
     room = 0.05 * (right - left)
-    ax.set_ylim(low, max(high, float(heights.max())))
+    ax.set_ylim(low, high)
     ax.set_xlim(min(left, float(times.min()) - room), max(right, float(times.max()) + room))
-    height = ax.get_ylim()[1] - low
+    height = high - low
     every = -(-len(numbers) // _MOST_NUMBERS)
     for place, (name, time, at) in enumerate(zip(numbers, times, heights)):
         ax.annotate(

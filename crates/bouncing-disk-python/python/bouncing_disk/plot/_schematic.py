@@ -9,7 +9,7 @@ import numpy as np
 
 import bouncing_disk as bd
 from bouncing_disk.plot._style import BLACK, GREY, ORANGE, SINGLE_COLUMN, SKY, YELLOW, drawn_on, style
-from bouncing_disk.plot._words import equation, in_words, of_pi, with_unit
+from bouncing_disk.plot._words import equation, in_words, of_pi, shrunk, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,16 +63,19 @@ def motor_schematic(motor: bd.Motor | bd.System, *, ax: Axes | None = None) -> t
     contact, gyration = _drawn_radii(motor.contact_radius, motor.gyration_radius)
     with style():
         fig, axes = drawn_on(ax, _HEIGHT)
+        share = shrunk(axes, (SINGLE_COLUMN, _HEIGHT), own=ax is None)
         axes.plot(
             [0.0, 0.0], [_BOTTOM + 0.1, _TOP - 0.1], color=GREY, linewidth=0.7, linestyle=(0, (6, 2, 1, 2))
         )
         _stator(axes, contact)
-        _rotor(axes, contact, gyration)
-        _motions(axes)
+        _rotor(axes, contact, gyration, share)
+        _motions(axes, share)
         for point, height, words in _words(motor, contact, gyration):
             axes.plot([point[0], _WORDS - 0.06], [point[1], height], color=GREY, linewidth=0.6)
-            axes.text(_WORDS, height, words, fontsize=8.0, va="center", ha="left", linespacing=1.25)
-        axes.text(-_HALF, _BOTTOM, "(not to scale)", fontsize=8.0, color="0.35", va="bottom", ha="left")
+            axes.text(_WORDS, height, words, fontsize=8.0 * share, va="center", ha="left", linespacing=1.25)
+        axes.text(
+            -_HALF, _BOTTOM, "(not to scale)", fontsize=8.0 * share, color="0.35", va="bottom", ha="left"
+        )
         axes.set_aspect("equal")
         axes.set_xlim(-_HALF - 0.05, -_HALF - 0.05 + (_TOP - _BOTTOM) * SINGLE_COLUMN / _HEIGHT)
         axes.set_ylim(_BOTTOM, _TOP)
@@ -152,7 +155,7 @@ def _arrow(
     )  # fmt: skip
 
 
-def _rotor(ax: Axes, contact: float, gyration: float) -> None:
+def _rotor(ax: Axes, contact: float, gyration: float, share: float) -> None:
     top, bottom = _GAP + _THICKNESS, _GAP
     _patch(ax, [(-_ROTOR, bottom), (_ROTOR, bottom), (_ROTOR, top), (-_ROTOR, top)], SKY)
     # The edge on which it runs.
@@ -162,7 +165,7 @@ def _rotor(ax: Axes, contact: float, gyration: float) -> None:
         ax.plot([side * gyration] * 2, [bottom, top], color=BLACK, linewidth=0.7, linestyle=":")
     # Rotation and preload.
     _arrow(ax, (-0.62, top + 0.38), (0.62, top + 0.38), bend=0.35)
-    ax.text(-0.8, top + 0.4, r"$\alpha$", ha="center", va="center", fontsize=10.0)
+    ax.text(-0.8, top + 0.4, r"$\alpha$", ha="center", va="center", fontsize=10.0 * share)
     _arrow(ax, (0.0, 2.75), (0.0, top + 0.02), ORANGE)
 
 
@@ -192,9 +195,9 @@ def _stator(ax: Axes, contact: float) -> None:
     )
 
 
-def _motions(ax: Axes) -> None:
+def _motions(ax: Axes, share: float) -> None:
     """How the tip of the stator moves."""
     _arrow(ax, (-_BEAM - 0.35, -1.5), (-_BEAM - 0.35, -0.5), style_="<|-|>")
-    ax.text(-_BEAM - 0.5, -1.0, "$s$", ha="right", va="center", fontsize=10.0)
+    ax.text(-_BEAM - 0.5, -1.0, "$s$", ha="right", va="center", fontsize=10.0 * share)
     _arrow(ax, (-_BEAM, -0.62), (_BEAM, -0.62), style_="<|-|>", bend=0.25)
-    ax.text(0.14, -0.98, r"$\beta$", ha="left", va="center", fontsize=10.0, zorder=3)
+    ax.text(0.14, -0.98, r"$\beta$", ha="left", va="center", fontsize=10.0 * share, zorder=3)

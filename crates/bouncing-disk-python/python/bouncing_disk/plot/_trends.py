@@ -70,6 +70,14 @@ def toss_performance(
     Returns
     -------
     (Figure, array of three Axes)
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> from bouncing_disk import plot
+    >>> fig, (speed, efficiency, ratio) = plot.toss_performance(bd.System.pizza_toss(), points=10)
+    >>> speed.get_ylabel()
+    'airborne speed (rad/s)'
     """
     if not isinstance(system, bd.System):
         raise TypeError(f"system must be a System, not {type(system).__name__}")

@@ -19,6 +19,7 @@ __all__ = [
     "note",
     "in_words",
     "of_pi",
+    "shrunk",
     "unit_of",
     "with_error",
     "with_unit",
@@ -111,6 +112,15 @@ def of_pi(angle: float) -> str:
 def note(ax: Axes, words: str) -> None:
     """Says in the middle of empty axes why they are empty."""
     ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", va="center", fontsize=9.0, color="0.35")
+
+
+def shrunk(ax: Axes, size: tuple[float, float], *, own: bool) -> float:
+    """How much smaller than intended the words of a drawing must be, that is made for axes of a size (inches)."""
+    if own:
+        return 1.0
+    extent, dpi = ax.get_window_extent(), ax.figure.dpi
+    # The axes may still grow when the figure is laid out.
+    return min(1.0, 1.1 * extent.width / dpi / size[0], 1.1 * extent.height / dpi / size[1])
 
 
 def legend_above(
