@@ -55,7 +55,8 @@ def test_units_fit_the_values(largest: float, unit: str, factor: float, expected
 @pytest.mark.parametrize(
     ("value", "expected"),
     [
-        (0.0, "0"), (50.0, "50"), (0.125, "0.125"), (-1.0, "-1"), (1234.5, "1230"), (1e4, "10^{4}"), (2.5e-7, r"2.5\times 10^{-7}"),
+        (0.0, "0"), (50.0, "50"), (0.125, "0.125"), (-1.0, "-1"), (1234.5, "1230"), (1e4, "10^{4}"),
+        (2.5e-7, r"2.5\times 10^{-7}"),
         (-1e30, "-10^{30}"),
     ],
 )  # fmt: skip
@@ -66,7 +67,8 @@ def test_numbers_are_printed_as_in_a_journal(value: float, expected: str) -> Non
 @pytest.mark.parametrize(
     ("share", "expected"),
     [
-        (0.0, "0"), (1.0, r"\pi"), (-0.5, r"-\pi/2"), (0.375, r"3\pi/8"), (2.0, r"2\pi"), (0.321, r"0.321\pi"),
+        (0.0, "0"), (1.0, r"\pi"), (-0.5, r"-\pi/2"), (0.375, r"3\pi/8"), (2.0, r"2\pi"),
+        (0.321, r"0.321\pi"),
         (0.5236 / np.pi, r"\pi/6"), (1e-9, "0"), (1e6, r"10^{6}\pi"),
     ],
 )  # fmt: skip

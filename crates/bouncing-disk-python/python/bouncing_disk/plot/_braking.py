@@ -39,8 +39,8 @@ def braking(
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """The speed of a rotor on its stator at rest, and coefficients of friction, as Fig. 9 of the paper.
 
-    Without vibration the rotor slides until it stops, and Coulomb friction makes its speed a straight line, the
-    slope of which tells the coefficient of friction. Measured speeds beside the curves show whether the
+    Without vibration the rotor slides until it stops, and Coulomb friction makes its speed a straight line,
+    the slope of which tells the coefficient of friction. Measured speeds beside the curves show whether the
     coefficient of the motor is the right one.
 
     Parameters
@@ -48,8 +48,8 @@ def braking(
     motor : Motor or System
         The motor that is switched off.
     preload_accelerations : (n,) array_like, optional
-        The preloads (m/s^2), a curve each; by default those of the measured curves, or half, once and twice that
-        of the motor.
+        The preloads (m/s^2), a curve each; by default those of the measured curves, or half, once and twice
+        that of the motor.
     first_speed : float, optional
         Angular speed at the beginning (rad/s); by default that of the first measured point, or without
         measurements the largest one of the stator, omega Phi.
@@ -119,7 +119,7 @@ def _beginning(
     first_speed: float | None,
     own: list[tuple[_Array, _Array, float]],
 ) -> tuple[float, float]:
-    """Time and speed from which the model goes on: those given, or those measured, or the stator's largest speed."""
+    """Time and speed from which the model goes on: given, or measured, or the stator's largest speed."""
     if first_speed is not None:
         return 0.0, float(first_speed)
     for times, speeds, measured_preload in own:
@@ -157,14 +157,24 @@ def _speeds(
         colour = [shade for shade in COLOURS if shade != GREY][place % (len(COLOURS) - 1)]
         colours[float(preload)] = colour
         ax.plot(
-            seconds * time, speeds * speed, color=colour, linestyle=_LINES[place % len(_LINES)], linewidth=1.2,
+            seconds * time,
+            speeds * speed,
+            color=colour,
+            linestyle=_LINES[place % len(_LINES)],
+            linewidth=1.2,
             label=equation("g", float(preload), "m/s$^2$"),
-        )  # fmt: skip
+        )
     for place, (time, speed, preload) in enumerate(own):
         ax.plot(
-            seconds * time, speeds * speed, linestyle="", marker="x", markersize=3.5, markeredgewidth=0.8,
-            color=colours.get(preload, BLACK), label=None if place else "measured",
-        )  # fmt: skip
+            seconds * time,
+            speeds * speed,
+            linestyle="",
+            marker="x",
+            markersize=3.5,
+            markeredgewidth=0.8,
+            color=colours.get(preload, BLACK),
+            label=None if place else "measured",
+        )
     times = [*(time for time, _ in curves), *(time for time, _, _ in own)]
     ends = [float(time[-1]) for time in times if len(time)]
     ax.set_xlim(0.0, 1.05 * seconds * max(ends, default=1.0) or None)
@@ -191,9 +201,13 @@ def _coefficients(ax: Axes, friction: float, preloads: _Array, coefficients: _Ar
     if len(coefficients) > 1:
         mean, deviation = float(coefficients.mean()), float(coefficients.std(ddof=1))
         ax.axhspan(
-            mean - deviation, mean + deviation, color=GREY, alpha=0.35, linewidth=0.0,
+            mean - deviation,
+            mean + deviation,
+            color=GREY,
+            alpha=0.35,
+            linewidth=0.0,
             label=rf"mean ${in_words(mean, 2)} \pm {in_words(deviation, 2)}$",
-        )  # fmt: skip
+        )
     ax.plot(
         factor * preloads,
         coefficients,

@@ -24,7 +24,7 @@ _Transition = tuple[str, str, str]
 
 #: The size of the whole figure (inches), and the share of the chart.
 _SIZE, _CHART_SHARE = (4.9, 5.2), 0.66
-#: Places of the boxes in the chart, half their size, and the size of the chart, all in points of a printed page.
+#: Places of the boxes in the chart, half their size, and the size of the chart, all in printer's points.
 _FLIGHT, _IMPACT, _STICKING, _SLIDING = (86.0, 190.0), (272.0, 190.0), (86.0, 66.0), (272.0, 66.0)
 _ACROSS, _UP = 46.0, 20.0
 _WIDTH, _HEIGHT = 372.0, 226.0
@@ -34,6 +34,7 @@ _BETWEEN = 179.0
 _CYCLE_SAMPLES, _MOST_SAMPLES = 400, 1 << 20
 
 _STICKS = r"$\dot\alpha = \dot\beta,\ |\ddot\beta| \leq \ddot\beta_\mathrm{env}$"
+_LANDS = r"$\dot x = \dot s,\ N > 0,$"
 _SLIPS = r"$|\ddot\beta| > \ddot\beta_\mathrm{env}$"
 
 
@@ -55,11 +56,11 @@ _WAYS: dict[_Transition, _Way] = {
     ("flight", "attachment", "sliding"): _Way(
         ((_SLIDING[0], _IMPACT[1] - _UP), (_SLIDING[0], _SLIDING[1] + _UP)),
         (_SLIDING[0] + 5.0, 128.0), "right",
-        "attachment {}\n" + r"$\dot x = \dot s,\ N > 0,$" + "\n" + r"$\dot\alpha \neq \dot\beta$ or " + _SLIPS,
+        "attachment {}\n" + _LANDS + "\n" + r"$\dot\alpha \neq \dot\beta$ or " + _SLIPS,
     ),
     ("flight", "attachment", "sticking"): _Way(
         ((_IMPACT[0] - 30.0, _IMPACT[1] - _UP), (_STICKING[0] + 30.0, _STICKING[1] + _UP)),
-        (162.0, 135.0), "left", "attachment {}\n" + r"$\dot x = \dot s,\ N > 0,$" + "\n" + _STICKS,
+        (162.0, 135.0), "left", "attachment {}\n" + _LANDS + "\n" + _STICKS,
     ),
     ("sticking", "separation", "flight"): _Way(
         ((_STICKING[0] - 24.0, _STICKING[1] + _UP), (_FLIGHT[0] - 24.0, _FLIGHT[1] - _UP)),
@@ -118,9 +119,9 @@ def flow_chart(
 
     The numbers at the arrows are how often the motion has taken them; ways that it never took are grey. The
     conditions are those of the model; the largest angular acceleration that static friction can give is
-    beta_env = mu a_e N/(m a_g^2). Below, the disk (dashed line) and the platform (solid line) over the shortest
-    cycle of the motion, from a flight and its collision (c) to the attachment (a) and the next separation (s);
-    of a motion that does not attach and separate, over its last events.
+    beta_env = mu a_e N/(m a_g^2). Below, the disk (dashed line) and the platform (solid line) over the
+    shortest cycle of the motion, from a flight and its collision (c) to the attachment (a) and the next
+    separation (s); of a motion that does not attach and separate, over its last events.
 
     Parameters
     ----------
@@ -232,8 +233,9 @@ def _box(ax: Axes, centre: _Point, words: str, colour: str, rounding: float, sha
     red, green, blue = import_module("matplotlib.colors").to_rgb(colour)
     pale = tuple(0.25 * part + 0.75 for part in (red, green, blue))
     patch = import_module("matplotlib.patches").FancyBboxPatch(
-        (centre[0] - _ACROSS + rounding, centre[1] - _UP + rounding), 2.0 * (_ACROSS - rounding), 2.0 * (_UP - rounding),
-        boxstyle=f"round,pad={rounding}", facecolor=pale, edgecolor=BLACK, linewidth=0.8, zorder=2,
+        (centre[0] - _ACROSS + rounding, centre[1] - _UP + rounding),
+        2.0 * (_ACROSS - rounding), 2.0 * (_UP - rounding), boxstyle=f"round,pad={rounding}",
+        facecolor=pale, edgecolor=BLACK, linewidth=0.8, zorder=2,
     )  # fmt: skip
     ax.add_patch(patch)
     ax.text(*centre, words, ha="center", va="center", fontsize=9.0 * share, linespacing=1.3, zorder=3)
@@ -245,8 +247,8 @@ def _cycle(ax: Axes, motion: bd.Trajectory, table: bd.EventTable, own: bool) -> 
         motion.end_time - motion.start_time
     )
     samples = motion.samples(count=int(np.clip(_CYCLE_SAMPLES / share, 2, _MOST_SAMPLES)))
-    # The instants of the events are among the points, so that corners are sharp; the disk is on the platform in all of
-    # them.
+    # The instants of the events are among the points, so that corners are sharp; the disk is on the platform
+    # in all of them.
     inside = (samples.time >= begin) & (samples.time <= end)
     happened = (table.time >= begin) & (table.time <= end)
     time = np.concatenate([samples.time[inside], table.time[happened]])
@@ -288,7 +290,7 @@ def _cycle(ax: Axes, motion: bd.Trajectory, table: bd.EventTable, own: bool) -> 
 
 
 class _Shown(NamedTuple):
-    """What is shown of a motion: from when to when, the letters of events, and from when the time is counted."""
+    """What is shown of a motion: from when to when, letters of events, and from when the time counts."""
 
     begin: float
     end: float

@@ -27,7 +27,7 @@ _LEAST_POINTS = 3
 _ROUNDING = 1.0e-12
 #: So many tosses have numbers at most.
 _MOST_NUMBERS = 24
-#: Length of the arrows, their distance from the line and room for a number, in shares of the height of the axes.
+#: In shares of the height of the axes: length of the arrows, distance from the line, and room for a number.
 _ARROW, _AWAY, _NUMBER = 0.09, 0.06, 0.12
 
 
@@ -54,8 +54,8 @@ def dough_growth(
 ) -> tuple[Figure, Axes]:
     """The diameter of a dough over time with its straight line of least squares, as Fig. 14 of the paper.
 
-    The diameters are divided by that of the line at the start, d_0, so that their unit does not matter. Nothing
-    is computed from the model, which neglects the growth.
+    The diameters are divided by that of the line at the start, d_0, so that their unit does not matter.
+    Nothing is computed from the model, which neglects the growth.
 
     Parameters
     ----------
@@ -92,9 +92,15 @@ def dough_growth(
     with style():
         fig, axes = drawn_on(ax)
         axes.plot(
-            seconds * given, sizes / line.first, linestyle="", marker="o", markersize=2.4 if len(given) < 300 else 1.4,
-            markeredgewidth=0.0, color=BLUE, label="measured",
-        )  # fmt: skip
+            seconds * given,
+            sizes / line.first,
+            linestyle="",
+            marker="o",
+            markersize=2.4 if len(given) < 300 else 1.4,
+            markeredgewidth=0.0,
+            color=BLUE,
+            label="measured",
+        )
         ends = np.array([min(given[0], line.start), max(given[-1], line.start)])
         axes.plot(seconds * ends, line.at(ends), color=BLACK, label="least squares")
         axes.margins(x=0.05, y=0.1)
@@ -159,10 +165,20 @@ def _arrows(ax: Axes, numbers: list[str], times: _Array, heights: _Array) -> Non
     every = -(-len(numbers) // _MOST_NUMBERS)
     for place, (name, time, at) in enumerate(zip(numbers, times, heights)):
         ax.annotate(
-            "" if place % every else name, (time, at - _AWAY * height), (time, at - (_AWAY + _ARROW) * height), ha="center", va="top",
+            "" if place % every else name,
+            (time, at - _AWAY * height),
+            (time, at - (_AWAY + _ARROW) * height),
+            ha="center",
+            va="top",
             fontsize=8.5,
-            arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0},
-        )  # fmt: skip
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": BLACK,
+                "linewidth": 0.8,
+                "shrinkA": 0.0,
+                "shrinkB": 0.0,
+            },
+        )
 
 
 def _equation(line: _Line, seconds: float, second: str) -> str:

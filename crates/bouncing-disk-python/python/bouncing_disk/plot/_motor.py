@@ -174,15 +174,16 @@ def torque_speed(
     with style():
         fig, axes = drawn_on(ax, 2.5)
         axes.errorbar(
-            load[runs], speeds * curve.speed[runs], _bars(speeds, curve.speed_error[runs]), color=BLACK, marker="o",
-            markersize=3.0, capsize=1.5, linewidth=1.0, label="speed",
+            load[runs], speeds * curve.speed[runs], _bars(speeds, curve.speed_error[runs]), color=BLACK,
+            marker="o", markersize=3.0, capsize=1.5, linewidth=1.0, label="speed",
         )  # fmt: skip
         axes.set_xlabel(labelled("load torque", torque))
         axes.set_ylabel(labelled("rotary speed", speed))
         power_axis = axes.twinx()
         power_axis.errorbar(
-            load[runs], watts * curve.mechanical_power[runs], _bars(watts, curve.mechanical_power_error[runs]),
-            color=ORANGE, marker="s", markersize=2.6, capsize=1.5, linewidth=1.0, linestyle=(0, (4, 2)), label="power",
+            load[runs], watts * curve.mechanical_power[runs],
+            _bars(watts, curve.mechanical_power_error[runs]), color=ORANGE, marker="s", markersize=2.6,
+            capsize=1.5, linewidth=1.0, linestyle=(0, (4, 2)), label="power",
         )  # fmt: skip
         power_axis.set_ylabel(labelled("mechanical power", watt), color=ORANGE)
         power_axis.tick_params(axis="y", which="both", colors=ORANGE)

@@ -31,7 +31,7 @@ _HEADS = (0.15, 0.65)
 _TRUE_SIZE = (0.3, 3.0)
 #: The size of a panel (inches), and how many stand beside each other.
 _PANEL, _COLUMNS = (1.75, 2.5), 3
-#: From the end of the cylinder to the highest point of a path, and the least half of its length, in contact radii.
+#: In contact radii: from the end of the cylinder to the highest point of a path, and the least half length.
 _ROOM, _LEAST_HALF = 0.45, 1.4
 
 
@@ -42,10 +42,10 @@ def platform_path(
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """The path of a point of the platform at the contact radius, on its cylinder, as Fig. 2 of the paper.
 
-    The dot is the point at phase 0, the arrowheads show the sense of the motion, what lies behind the cylinder
-    is dotted; thin lines are the mean height and the mean angle. A motion that is far smaller than the contact
-    radius, such as that of a stator, is magnified, both along and around the cylinder; by how much is said
-    below it, and is the same for all systems of a figure.
+    The dot is the point at phase 0, the arrowheads show the sense of the motion, what lies behind the
+    cylinder is dotted; thin lines are the mean height and the mean angle. A motion that is far smaller than
+    the contact radius, such as that of a stator, is magnified, both along and around the cylinder; by how
+    much is said below it, and is the same for all systems of a figure.
 
     Parameters
     ----------
@@ -64,7 +64,8 @@ def platform_path(
     >>> import bouncing_disk as bd
     >>> from bouncing_disk import plot
     >>> pizza = bd.System.pizza_toss()
-    >>> fig, axes = plot.platform_path([pizza.replace(phase_lag=lag) for lag in (-np.pi / 2, -np.pi / 4, 0.0)])
+    >>> lags = (-np.pi / 2, -np.pi / 4, 0.0)
+    >>> fig, axes = plot.platform_path([pizza.replace(phase_lag=lag) for lag in lags])
     >>> len(axes)
     3
     """
@@ -85,9 +86,15 @@ def platform_path(
             if magnification != 1.0:
                 words.append(rf"drawn $\times\,{in_words(magnification)}$")
             panel.text(
-                0.5, 0.0, "\n".join(words), transform=panel.transAxes, ha="center", va="top", fontsize=8.5,
+                0.5,
+                0.0,
+                "\n".join(words),
+                transform=panel.transAxes,
+                ha="center",
+                va="top",
+                fontsize=8.5,
                 linespacing=1.3,
-            )  # fmt: skip
+            )
             panel.set_aspect("equal")
             panel.set_xlim(-1.15, 1.15)
             lowest = half * np.cos(_ELEVATION) + np.sin(_ELEVATION)
@@ -119,7 +126,7 @@ def stroke_of(system: bd.System) -> float:
 
 
 def _magnification(size: float) -> float:
-    """How many times larger than in truth motions are drawn, the largest of which has this many contact radii."""
+    """How many times larger than they are motions are drawn; the largest has so many contact radii."""
     if size == 0.0 or _TRUE_SIZE[0] <= size <= _TRUE_SIZE[1]:
         return 1.0
     wanted = 1.5 / size
@@ -129,8 +136,9 @@ def _magnification(size: float) -> float:
 
 def _path(system: bd.System, magnification: float) -> tuple[_Array, _Array]:
     """Angle (rad) and height (contact radii) of the platform over a period, magnified, from phase 0 on."""
-    # The platform is sampled below a disk in flight. One that is launched at the crest, where the platform rests, with the
-    # speed by which it returns after a period, lands at the next crest: a flight of one period, for all systems.
+    # The platform is sampled below a disk in flight. One that is launched at the crest, where the platform is
+    # at rest, with the speed by which it returns after a period, lands at the next crest: a flight of one
+    # period, for all systems.
     launched = bd.simulate(
         system,
         phase=0.5 * np.pi,
@@ -184,9 +192,11 @@ def _cylinder(ax: Axes, half: float) -> None:
         linewidth=0.0,
     )
     ax.plot(
-        np.concatenate([top_x[:1], bottom_x, top_x[-1:]]), np.concatenate([top_y[:1], bottom_y, top_y[-1:]]),
-        color=GREY, linewidth=0.8,
-    )  # fmt: skip
+        np.concatenate([top_x[:1], bottom_x, top_x[-1:]]),
+        np.concatenate([top_y[:1], bottom_y, top_y[-1:]]),
+        color=GREY,
+        linewidth=0.8,
+    )
     face_x, face_y, _ = _seen(around, half)
     ax.fill(face_x, face_y, facecolor="white", edgecolor=GREY, linewidth=0.8)
     _curve(ax, around, np.zeros_like(around), GREY, 0.7)
@@ -203,19 +213,33 @@ def _motion(ax: Axes, angle: _Array, height: _Array) -> None:
         if np.hypot(x[end] - x[begin], y[end] - y[begin]) < 1e-6:
             continue
         ax.annotate(
-            "", (x[end], y[end]), (x[begin], y[begin]),
+            "",
+            (x[end], y[end]),
+            (x[begin], y[begin]),
             arrowprops={
-                "mutation_scale": 15.0, "arrowstyle": "-|>,head_length=0.45,head_width=0.18", "color": BLUE, "linewidth": 0.0,
-                "alpha": 1.0 if front[end] >= 0.0 else 0.4, "shrinkA": 0.0, "shrinkB": 0.0,
+                "mutation_scale": 15.0,
+                "arrowstyle": "-|>,head_length=0.45,head_width=0.18",
+                "color": BLUE,
+                "linewidth": 0.0,
+                "alpha": 1.0 if front[end] >= 0.0 else 0.4,
+                "shrinkA": 0.0,
+                "shrinkB": 0.0,
             },
-        )  # fmt: skip
+        )
     colour = BLACK if front[0] >= 0.0 else GREY
     ax.plot(x[:1], y[:1], "o", color=colour, markersize=3.6, zorder=4)
     halo = import_module("matplotlib.patheffects").withStroke(linewidth=2.0, foreground="#efefef")
     ax.annotate(
-        r"$\tau = 0$", (x[0], y[0]), (5.0, -4.0), textcoords="offset points", va="top", fontsize=8.0, color=colour,
-        path_effects=[halo], zorder=3,
-    )  # fmt: skip
+        r"$\tau = 0$",
+        (x[0], y[0]),
+        (5.0, -4.0),
+        textcoords="offset points",
+        va="top",
+        fontsize=8.0,
+        color=colour,
+        path_effects=[halo],
+        zorder=3,
+    )
 
 
 def _shape(system: bd.System) -> str:

@@ -35,9 +35,9 @@ _WORDS = 1.6
 def motor_schematic(motor: bd.Motor | bd.System, *, ax: Axes | None = None) -> tuple[Figure, Axes]:
     r"""A sketch of a motor with its dimensions, forces and motions, as Fig. 8 of the paper.
 
-    It is a section along the axis and shows which number means what; nothing is computed. The contact radius and
-    the radius of gyration are drawn in their proportion, unless one of them is too small for that; all other
-    lengths are made up. Of a system, whose mass is not known, the preload is given as an acceleration.
+    It is a section along the axis and shows which number means what; nothing is computed. The contact radius
+    and the radius of gyration are drawn in their proportion, unless one of them is too small for that; all
+    other lengths are made up. Of a system, whose mass is not known, the preload is given as an acceleration.
 
     Parameters
     ----------

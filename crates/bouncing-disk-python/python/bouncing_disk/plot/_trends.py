@@ -53,8 +53,8 @@ def toss_performance(
     to (c).
 
     The stroke c = (A^2 + (a_e Phi)^2)^(1/2) of the system is kept, and divided otherwise between height and
-    twist: the amplitude angle is 0 for a vertical motion and pi/2 for a rotary one. Motions that never toss the
-    disk have no point.
+    twist: the amplitude angle is 0 for a vertical motion and pi/2 for a rotary one. Motions that never toss
+    the disk have no point.
 
     Parameters
     ----------
@@ -193,8 +193,8 @@ def motor_dependence(
     with style():
         fig, axes = drawn_on(ax, 2.5)
         axes.errorbar(
-            across * given, speeds * fits[:, 0], 2.0 * speeds * fits[:, 1], color=BLACK, marker="x", markersize=4.0,
-            capsize=1.5, linewidth=0.8, label="steady speed",
+            across * given, speeds * fits[:, 0], 2.0 * speeds * fits[:, 1], color=BLACK, marker="x",
+            markersize=4.0, capsize=1.5, linewidth=0.8, label="steady speed",
         )  # fmt: skip
         axes.set_xlabel(labelled(words, unit))
         axes.set_ylabel(labelled("steady speed", speed))
@@ -202,8 +202,8 @@ def motor_dependence(
         _span(axes, across * given)
         stall = axes.twinx()
         stall.errorbar(
-            across * given, stalls * fits[:, 2], 2.0 * stalls * fits[:, 3], color=ORANGE, marker="o", markersize=2.6,
-            capsize=1.5, linewidth=0.8, linestyle=(0, (4, 2)), label="stall acceleration",
+            across * given, stalls * fits[:, 2], 2.0 * stalls * fits[:, 3], color=ORANGE, marker="o",
+            markersize=2.6, capsize=1.5, linewidth=0.8, linestyle=(0, (4, 2)), label="stall acceleration",
         )  # fmt: skip
         stall.set_ylabel(labelled("stall acceleration", acceleration), color=ORANGE)
         stall.tick_params(axis="y", which="both", colors=ORANGE)
@@ -237,7 +237,7 @@ def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple
     duration = rise_times * (rise if np.isfinite(rise) and rise > 0.0 else 0.5)
     runs = bd.ensemble(system, members=members, duration=duration, intervals=200, seed=seed)
     speed, stall = runs.steady_speed, runs.stall_acceleration
-    # A rise that takes longer than the run-up is not known from it: of a rotor that a load drives, for example.
+    # A rise that takes longer than the run-up is not known from it, as where a load drives the rotor.
     if not 0.0 <= runs.time_constant.mean <= duration / _SHORTEST:
         return np.nan, np.nan, np.nan, np.nan
     return speed.mean, speed.standard_error, stall.mean, stall.standard_error

@@ -115,7 +115,7 @@ def note(ax: Axes, words: str) -> None:
 
 
 def shrunk(ax: Axes, size: tuple[float, float], *, own: bool) -> float:
-    """How much smaller than intended the words of a drawing must be, that is made for axes of a size (inches)."""
+    """How much smaller the words of a drawing must be in these axes than in those it is made for (inches)."""
     if own:
         return 1.0
     extent, dpi = ax.get_window_extent(), ax.figure.dpi
