@@ -49,7 +49,7 @@ impl ExtraEfficiencyData {
             "Efficiency of the motor of Table III at 70 kHz: mechanical power over the power that the stator puts in. (a) Over \
              load torque and phase lag, {} by {} motors on one vertical motion of {} perturbed members; colours between them are \
              interpolated. Below the black line, on which the mean speed is zero, the motor turns forwards; above it (grey) the \
-             load drives it back. Circle: the best motor of the map, {:.1} ± {:.1} % at θ = {:.3}π and {:.3} μ m g a_e. Dotted: the \
+             load drives it back. Circle: the best motor of the map, {:.2} ± {:.2} % at θ = {:.3}π and {:.3} μ m g a_e. Dotted: the \
              printed lag. (b) Where the energy goes at the best lag, as shares of what is put in, up to stall.",
             self.phase_lags_rad.len(),
             self.load_shares.len(),
