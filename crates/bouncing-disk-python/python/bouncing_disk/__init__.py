@@ -173,6 +173,7 @@ if TYPE_CHECKING:
     from bouncing_disk._sweep import (
         FailedPoint,
         MissingDependencyError,
+        SweepClusterError,
         SweepFailedError,
         SweepFolderError,
         SweepFolderWarning,
@@ -185,6 +186,7 @@ if TYPE_CHECKING:
 __all__ += [
     "FailedPoint",
     "MissingDependencyError",
+    "SweepClusterError",
     "SweepFailedError",
     "SweepFolderError",
     "SweepFolderWarning",

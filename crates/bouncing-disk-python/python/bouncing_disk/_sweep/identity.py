@@ -9,6 +9,7 @@ import hashlib
 import inspect
 import json
 from collections.abc import Callable, Mapping
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -17,7 +18,10 @@ import numpy as np
 from bouncing_disk._sweep.errors import SweepFunctionError
 from bouncing_disk._sweep.grid import Grid, array_digest, refuse_masked
 
-__all__ = ["Identity", "function_name", "lasting_name"]
+__all__ = ["PACKAGES", "Identity", "function_name", "lasting_name", "package_version", "versions"]
+
+#: What must have the same version everywhere.
+PACKAGES = ("bouncing-disk", "numpy")
 
 #: The name and the version of the files; the version rises when who reads older files could misunderstand
 #: newer ones.
@@ -147,7 +151,16 @@ def digest_of(described: Mapping[str, Any]) -> str:
 
 def package_version() -> str:
     """The version of this package."""
-    try:
-        return version("bouncing-disk")
-    except PackageNotFoundError:
-        return "unknown"
+    return versions()["bouncing-disk"]
+
+
+@cache
+def versions() -> dict[str, str]:
+    """The versions of what the bits depend on: this package, and NumPy for functions of the caller."""
+    found = {}
+    for package in PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "unknown"
+    return found
