@@ -40,7 +40,9 @@ def _plain(dataset: Any) -> Any:
     for name, variable in dataset.variables.items():
         for part, array in _parts(str(name), np.asarray(variable.values)).items():
             if part in whole:
-                message = f"{part!r} is a part of a complex result, and the name of another: rename one of them"
+                message = (
+                    f"{part!r} is a part of a complex result, and the name of another: rename one of them"
+                )
                 raise InvalidError(message, "doubled-name", {"name": part})
             whole[part] = (tuple(variable.dims), array)
             if name in axes:
