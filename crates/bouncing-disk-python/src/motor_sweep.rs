@@ -3,7 +3,7 @@
 use bouncing_disk::{MotorField, MotorSweep, SweepAxis};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyMapping, PyTuple};
 
 use crate::arguments::{Count, ProgressCallable, row};
 use crate::motor::Motor;
@@ -13,11 +13,11 @@ use crate::real::Real;
 use crate::system_names::OF_MOTOR;
 use crate::{errors, long_call, results};
 
-/// The axes of a dictionary, in its order.
-fn axes(given: &Bound<'_, PyDict>) -> PyResult<Vec<SweepAxis>> {
+/// The axes of a mapping, in its order.
+fn axes(given: &Bound<'_, PyMapping>) -> PyResult<Vec<SweepAxis>> {
     let mut axes = Vec::new();
-    for (name, values) in given.iter() {
-        let name: String = name.extract()?;
+    for item in given.items()? {
+        let (name, values): (String, Bound<'_, PyAny>) = item.extract()?;
         let Some(parameter) = MotorField::ALL.into_iter().find(|field| field.name() == name) else {
             let known: Vec<_> = MotorField::ALL.iter().map(|field| field.name()).collect();
             let text = format!("the parameter {name:?} is unknown; there are {}", known.join(", "));
@@ -36,7 +36,7 @@ fn axes(given: &Bound<'_, PyDict>) -> PyResult<Vec<SweepAxis>> {
 /// Parameters
 /// ----------
 /// motor : Motor
-/// axes : dict of str to (n,) array_like
+/// axes : mapping of str to (n,) array_like
 ///     One or two arguments of :class:`Motor` with their values (SI); the first axis is that of the rows.
 /// relative_error, members, most_impacts, relaunch_perturbation, seed : optional
 ///     As of :func:`operating_point`, for each cell.
@@ -66,7 +66,7 @@ fn axes(given: &Bound<'_, PyDict>) -> PyResult<Vec<SweepAxis>> {
 pub(crate) fn motor_map<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
-    axes: &Bound<'py, PyDict>,
+    axes: &Bound<'py, PyMapping>,
     relative_error: Real,
     members: Count,
     most_impacts: Count,

@@ -6,7 +6,7 @@ use bouncing_disk::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyMapping, PyTuple};
 
 use crate::arguments::{Count, ProgressCallable, columns, row};
 use crate::fits::interval;
@@ -53,12 +53,11 @@ const NAMES: [Name; 22] = [
     name("twist_amplitude", &["ranges.twist_amplitude"]),
 ];
 
-/// The ranges of a dictionary, in its order.
-fn ranges(given: &Bound<'_, PyDict>) -> PyResult<Vec<FitRange>> {
+/// The ranges of a mapping, in its order.
+fn ranges(given: &Bound<'_, PyMapping>) -> PyResult<Vec<FitRange>> {
     let mut ranges = Vec::new();
-    for (name, range) in given.iter() {
-        let name: String = name.extract()?;
-        let Pair(low, high) = range.extract()?;
+    for item in given.items()? {
+        let (name, Pair(low, high)): (String, Pair) = item.extract()?;
         let Some(parameter) = PARAMETERS.into_iter().find(|parameter| parameter.name() == name) else {
             let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.name()).collect();
             let text =
@@ -98,7 +97,7 @@ fn measured(
 /// transients : iterable of (times, speeds, preload_acceleration)
 ///     For each preload the times (n,) (s), the speeds (n,) or (n, m) of one or m runs (rad/s), and the
 ///     preload acceleration (m/s^2).
-/// ranges : dict
+/// ranges : mapping
 ///     The range (low, high) of each parameter that is fitted: of ``friction``, ``restitution``,
 ///     ``phase_lag``, ``amplitude`` and ``twist_amplitude``.
 /// speed_error : float, optional
@@ -136,7 +135,7 @@ pub(crate) fn fit_parameters<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
     transients: &Bound<'py, PyAny>,
-    ranges: &Bound<'py, PyDict>,
+    ranges: &Bound<'py, PyMapping>,
     speed_error: Option<Real>,
     members: Count,
     windows: Count,

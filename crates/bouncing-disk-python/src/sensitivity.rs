@@ -6,7 +6,7 @@ use bouncing_disk::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyMapping, PyTuple};
 
 use crate::arguments::{Count, ProgressCallable};
 use crate::motor::Motor;
@@ -35,12 +35,11 @@ fn parameter(name: &str) -> PyResult<SensitivityParameter> {
     })
 }
 
-/// The ranges of a dictionary, in its order.
-fn ranges(given: &Bound<'_, PyDict>) -> PyResult<Vec<ParameterRange>> {
+/// The ranges of a mapping, in its order.
+fn ranges(given: &Bound<'_, PyMapping>) -> PyResult<Vec<ParameterRange>> {
     let mut ranges = Vec::new();
-    for (name, range) in given.iter() {
-        let name: String = name.extract()?;
-        let Pair(low, high) = range.extract()?;
+    for item in given.items()? {
+        let (name, Pair(low, high)): (String, Pair) = item.extract()?;
         ranges.push((parameter(&name)?, [low, high]));
     }
     Ok(ranges)
@@ -189,7 +188,7 @@ struct Sample {
 impl Sample {
     fn of(
         py: Python<'_>,
-        given: &Bound<'_, PyDict>,
+        given: &Bound<'_, PyMapping>,
         asked: &str,
         rows: Count,
         sampling_seed: Count,
@@ -217,7 +216,7 @@ impl Sample {
 /// Parameters
 /// ----------
 /// motor : Motor
-/// ranges : dict of str to (float, float)
+/// ranges : mapping of str to (float, float)
 ///     The range of each parameter (SI), over which it is spread evenly; names as of :func:`local_sensitivities`.
 /// quantity : {"steady-speed", "stall-torque"}, default "steady-speed"
 ///     What is asked for.
@@ -244,7 +243,7 @@ impl Sample {
 pub(crate) fn sobol_indices<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
-    ranges: &Bound<'py, PyDict>,
+    ranges: &Bound<'py, PyMapping>,
     quantity: &str,
     rows: Count,
     sampling_seed: Count,
@@ -297,7 +296,7 @@ pub(crate) fn sobol_indices<'py>(
 pub(crate) fn elementary_effects<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
-    ranges: &Bound<'py, PyDict>,
+    ranges: &Bound<'py, PyMapping>,
     quantity: &str,
     rows: Count,
     sampling_seed: Count,

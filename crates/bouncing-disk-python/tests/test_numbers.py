@@ -13,6 +13,8 @@ import pytest
 import bouncing_disk as bd
 from good_calls import MAP, MOTOR, TOSS
 
+ORBIT: Any = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+
 #: What `float()` or an index would take for a number, and is none.
 NO_NUMBERS: list[Any] = [
     True,
@@ -56,7 +58,7 @@ def test_what_is_no_real_number_is_a_type_error(value: Any) -> None:
         lambda: bd.operating_point(MOTOR, load_torque=value),
         lambda: bd.basins(MAP, phase_range=(0.0, value)),
         lambda: bd.System.from_dict({**TOSS.to_dict(), "disk": {**TOSS.to_dict()["disk"], "friction": value}}),
-        lambda: bd.basins(MAP, known_orbits=[(MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3), value)]),
+        lambda: bd.basins(MAP, known_orbits=[(ORBIT, value)]),
     ]  # fmt: skip
     with warnings.catch_warnings():
         warnings.simplefilter("error")

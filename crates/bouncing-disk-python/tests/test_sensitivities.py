@@ -33,12 +33,22 @@ def test_a_map_has_the_operating_points_of_its_cells() -> None:
 
 
 def test_axes_that_are_refused_name_the_argument() -> None:
-    for axes in ({}, {"friction": [0.1], "mass": [1e-3], "amplitude": [1e-8]}, {"friction": [np.nan]}):
+    outside: list[dict[str, list[float]]] = [
+        {},
+        {"friction": [0.1], "mass": [1e-3], "amplitude": [1e-8]},
+        {"friction": [np.nan]},
+    ]
+    for axes in outside:
         with pytest.raises(bd.OutOfRangeError) as refused:
             bd.motor_map(MOTOR, axes=axes, **LOOSE)
         assert refused.value.field == "axes"
     kinds = []
-    for axes in ({"friction": []}, {"mass": [1e-3], "density": [8e3]}, {"amplitude": [1e308]}):
+    unfitting: list[dict[str, list[float]]] = [
+        {"friction": []},
+        {"mass": [1e-3], "density": [8e3]},
+        {"amplitude": [1e308]},
+    ]
+    for axes in unfitting:
         with pytest.raises(bd.InvalidError) as invalid:
             bd.motor_map(MOTOR, axes=axes, **LOOSE)
         kinds.append(invalid.value.kind)
@@ -91,8 +101,9 @@ def test_what_sensitivities_refuse() -> None:
         assert (refused.value.field, refused.value.value) == ("rows", 7.0)
         with pytest.raises(ValueError, match="twist"):
             call(MOTOR, ranges={"twist": (0.1, 0.2)}, rows=8, **LOOSE)
+        pairs: Any = [("friction", (0.1, 0.2))]
         with pytest.raises(TypeError):
-            call(MOTOR, ranges=[("friction", (0.1, 0.2))], rows=8, **LOOSE)
+            call(MOTOR, ranges=pairs, rows=8, **LOOSE)
     wrong: Any = "friction"
     with pytest.raises(TypeError, match="one text"):
         bd.local_sensitivities(MOTOR, parameters=wrong, **LOOSE)

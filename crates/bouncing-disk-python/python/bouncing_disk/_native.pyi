@@ -1,6 +1,6 @@
 """The types of the compiled module; what its functions and classes do is in their docstrings."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex, TypeAlias, final
 
 import numpy as np
@@ -567,7 +567,7 @@ def fit_parameters(
     motor: Motor,
     *,
     transients: Iterable[tuple[npt.ArrayLike, npt.ArrayLike, _Float]],
-    ranges: dict[str, _Pair],
+    ranges: Mapping[str, _Pair],
     speed_error: _Float | None = None,
     members: _Int = 64,
     windows: _Int = 6,
@@ -755,7 +755,7 @@ def crisis(
 def elementary_effects(
     motor: Motor,
     *,
-    ranges: dict[str, _Pair],
+    ranges: Mapping[str, _Pair],
     quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
     rows: _Int = 64,
     sampling_seed: _Int = 1,
@@ -806,7 +806,7 @@ def manifold(
 def motor_map(
     motor: Motor,
     *,
-    axes: dict[str, npt.ArrayLike],
+    axes: Mapping[str, npt.ArrayLike],
     relative_error: _Float = 0.01,
     members: _Int = 16,
     most_impacts: _Int = 20000000,
@@ -817,7 +817,7 @@ def motor_map(
 def sobol_indices(
     motor: Motor,
     *,
-    ranges: dict[str, _Pair],
+    ranges: Mapping[str, _Pair],
     quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
     rows: _Int = 256,
     sampling_seed: _Int = 1,

@@ -9,7 +9,6 @@ import hashlib
 import inspect
 import json
 from collections.abc import Callable, Mapping
-from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -154,13 +153,16 @@ def package_version() -> str:
     return versions()["bouncing-disk"]
 
 
-@cache
+#: The versions as they were read first: reading them takes milliseconds.
+_KNOWN: dict[str, str] = {}
+
+
 def versions() -> dict[str, str]:
     """The versions of what the bits depend on: this package, and NumPy for functions of the caller."""
-    found = {}
-    for package in PACKAGES:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            found[package] = "unknown"
-    return found
+    if not _KNOWN:
+        for package in PACKAGES:
+            try:
+                _KNOWN[package] = version(package)
+            except PackageNotFoundError:
+                _KNOWN[package] = "unknown"
+    return dict(_KNOWN)
