@@ -13,7 +13,7 @@ use crate::{long_call, results};
 /// What the library calls the curves that are fitted.
 const NAMES: [Name; 8] = [
     name("number of points of the speed curve", &["times"]).legal("[3, inf) points"),
-    name("number of speeds", &["speeds"]).legal("as many as times"),
+    name("number of speeds", &["speeds"]).legal("one for each time"),
     name("times of the speed curve", &["times"]),
     name("speed", &["speeds"]),
     name("number of times", &["times"]),

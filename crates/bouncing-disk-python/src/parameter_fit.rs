@@ -33,7 +33,7 @@ const NAMES: [Name; 22] = [
     name("number of fitted parameters", &["ranges"]).legal("[1, 5] parameters"),
     name("runs", &["transients.speeds"]).legal("[1, inf) runs"),
     name("number of points of the speed curve", &["transients.times"]).legal("[3, inf) points"),
-    name("number of speeds", &["transients.speeds"]).legal("as many as times"),
+    name("number of speeds", &["transients.speeds"]).legal("one for each time"),
     name("times of the speed curve", &["transients.times"]),
     name("speed", &["transients.speeds"]),
     name("preload", &["transients.preload_acceleration"]),

@@ -36,8 +36,12 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         for one in bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)
         if abs(one.multipliers[0]) > 1.0
     )
-    near = bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=3, max_platform_periods=3)
-    edge = next(one for one in near if one.platform_periods == one.period == 3 and one.multipliers.real.min() > 0.0)
+    near = bd.periodic_orbits(
+        bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=3, max_platform_periods=3
+    )
+    edge = next(
+        one for one in near if one.platform_periods == one.period == 3 and one.multipliers.real.min() > 0.0
+    )
     crisis = bd.crisis(edge, restitution=0.5, axial_forcing=(0.559, 0.562))
     trajectory = bd.toss_trajectory(TOSS)
     impact = {"impact_phase": 1.0, "axial_impact_velocity": -4.0}

@@ -49,8 +49,10 @@ def _asked() -> Callable[[tuple[str, ...]], dict[str, str]]:
 
 def check_versions(client: Any) -> None:
     """Refuse workers with other versions than this process has. Who joins later is asked with each chunk."""
-    told: Mapping[str, Mapping[str, str]] = client.run(_asked(), PACKAGES)
-    other = {worker: dict(found) for worker, found in told.items() if dict(found) != versions()}
+    told: Mapping[str, Any] = client.run(_asked(), PACKAGES, on_error="return")
+    # One that died before it answered is none any more.
+    answers = {worker: found for worker, found in told.items() if not isinstance(found, BaseException)}
+    other = {worker: dict(found) for worker, found in answers.items() if dict(found) != versions()}
     if other:
         raise unlike(other)
 
@@ -59,10 +61,10 @@ def unlike(workers: Mapping[str, Mapping[str, str]]) -> SweepClusterError:
     """The error that names the first of these workers."""
     worker, found = next(iter(workers.items()))
     differ = (
-        f"{package} {found.get(package, 'of an older kind')} instead of {here}"
+        f"no {package}" if theirs == "unknown" else f"{package} {theirs} instead of {here}"
         for package, here in versions().items()
-        if found.get(package) != here
+        if (theirs := found.get(package, "of an older kind")) != here
     )
     more = f", and {len(workers) - 1} more have others, too" if len(workers) > 1 else ""
-    message = f"{worker} has {', '.join(differ)}{more}: install the same versions on all workers"
+    message = f"{worker} has {' and '.join(differ)}{more}: install the same versions on all workers"
     return SweepClusterError(message, "versions", workers)
