@@ -1,13 +1,14 @@
 //! The impact map of the vertical motion.
 
-use bouncing_disk::core::{ImpactMap as Map, ImpactState, Phase, Vibration};
+use bouncing_disk::core::{ImpactMap as Map, Vibration};
 use bouncing_disk::{Error, System as Model};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arguments::{Count, ProgressCallable, first_impact, numbers, row};
-use crate::names::{Name, name};
+use crate::impact_state::{INVERSE, PHASE, pair, state};
+use crate::names::name;
 use crate::periodic_orbit::PeriodicOrbit;
 use crate::real::{Real, optional};
 use crate::system::System;
@@ -78,19 +79,6 @@ struct Written {
     restitution: f64,
 }
 
-/// What the library calls the phase of an impact.
-const PHASE: Name = name("phase", &["impact_phase"]);
-
-/// An impact of these two numbers.
-pub(crate) fn state(impact_phase: f64, axial_impact_velocity: f64) -> Result<ImpactState, Error> {
-    Ok(ImpactState::new(Phase::new(impact_phase)?, axial_impact_velocity)?)
-}
-
-/// The two numbers of an impact.
-pub(crate) fn pair(state: ImpactState) -> (f64, f64) {
-    (state.phase().angle(), state.velocity())
-}
-
 #[pymethods]
 impl ImpactMap {
     #[new]
@@ -114,14 +102,6 @@ impl ImpactMap {
     }
 
     /// The vertical motion of a system.
-    ///
-    /// Parameters
-    /// ----------
-    /// system : System
-    ///
-    /// Returns
-    /// -------
-    /// ImpactMap
     #[staticmethod]
     fn of_system(py: Python<'_>, system: &Bound<'_, System>) -> PyResult<Self> {
         let system: &Model = &system.get().0;
@@ -172,6 +152,28 @@ impl ImpactMap {
     fn step(&self, py: Python<'_>, impact_phase: Real, axial_impact_velocity: Real) -> PyResult<(f64, f64)> {
         let from = (impact_phase.0, axial_impact_velocity.0);
         long_call::short(py, &[PHASE], || Ok(pair(self.map.step(state(from.0, from.1)?)?.into())))
+    }
+
+    /// The impact before this one: the only one that :meth:`step` takes there.
+    ///
+    /// Parameters
+    /// ----------
+    /// impact_phase, axial_impact_velocity : float
+    ///     As of :meth:`step`.
+    ///
+    /// Returns
+    /// -------
+    /// (float, float)
+    ///     Phase and velocity of the impact before.
+    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
+    fn step_back(
+        &self,
+        py: Python<'_>,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
+    ) -> PyResult<(f64, f64)> {
+        let state = || state(impact_phase.0, axial_impact_velocity.0);
+        long_call::short(py, &[PHASE, INVERSE], || Ok(pair(self.map.step_back(state()?)?)))
     }
 
     /// The impact that is so many steps later.
@@ -338,10 +340,6 @@ impl ImpactMap {
     }
 
     /// The arguments that make this map.
-    ///
-    /// Returns
-    /// -------
-    /// dict
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.arguments(py)
     }

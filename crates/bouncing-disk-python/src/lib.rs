@@ -15,6 +15,7 @@ mod diagram;
 mod errors;
 mod fits;
 mod impact_map;
+mod impact_state;
 mod long_call;
 mod manifold;
 mod motor;

@@ -79,6 +79,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.Motor.from_json, [MOTOR.to_json()], {}),
         (bd.ChatterCut, [], bd.ChatterCut.paper().to_dict()),
         (MAP.step, [], impact),
+        (MAP.step_back, [], impact),
         (MAP.derivative, [], impact),
         (MAP.iterate, [], impact | {"impacts": 10, "progress": None}),
         (MAP.period_one, [], {"platform_periods": 1}),

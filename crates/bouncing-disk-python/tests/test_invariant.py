@@ -34,6 +34,17 @@ def test_spectra_have_the_sum_of_the_map() -> None:
     assert (refused.value.field, refused.value.value) == ("impacts", 15.0)
 
 
+def test_a_step_back_is_undone_by_a_step() -> None:
+    for phase in np.linspace(0.0, 6.2, 30):
+        ahead = MAP.step(impact_phase=phase, axial_impact_velocity=-4.0)
+        back = MAP.step_back(impact_phase=ahead[0], axial_impact_velocity=ahead[1])
+        assert back == pytest.approx((phase, -4.0), abs=1e-11)
+    forgets = bd.ImpactMap(axial_forcing=0.5, restitution=0.0)
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        forgets.step_back(impact_phase=1.0, axial_impact_velocity=-4.0)
+    assert refused.value.field == "self.restitution"
+
+
 @pytest.mark.parametrize("kind", ["stable", "unstable"])
 def test_a_manifold_is_mapped_into_itself(kind: Any) -> None:
     start = saddle()
