@@ -116,15 +116,13 @@ fn known(
     let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
     let radius = match radius {
         Some(radius) => radius,
-        None => match orbit.trapping_radius_observed(map, SAMPLES, &quiet)? {
-            Some(radius) => radius,
-            // Orbits with strong shear, such as those of two impacts in four periods, trap no circle.
-            None => orbit.attraction_radius_observed(map, &quiet)?.ok_or(CoreError::NotSettled {
+        None => {
+            orbit.catching_radius_observed(map, SAMPLES, &quiet)?.ok_or_else(|| CoreError::NotSettled {
                 what: "starts near a known orbit",
                 iterations: SAMPLES,
                 residual: orbit.multipliers().spectral_radius(),
-            })?,
-        },
+            })?
+        }
     };
     Ok(KnownOrbit::new(orbit, radius)?)
 }

@@ -152,6 +152,31 @@ impl PeriodicOrbit {
         Ok(Some(inner.max(SHARE_OF_WIDEST * widest)))
     }
 
+    /// How near a start must come to this orbit to count as caught by it: the [`Self::trapping_radius`], or, of an
+    /// orbit with strong shear that traps no circle (one of two impacts in four periods, for example), the
+    /// [`Self::attraction_radius`]. `None` if it has neither.
+    #[must_use]
+    pub fn catching_radius(&self, map: &ImpactMap, samples: u32) -> Option<f64> {
+        // Nobody stops it, and a start that fails is not caught: there is no error.
+        self.catching_radius_observed(map, samples, &Unobserved).unwrap_or(None)
+    }
+
+    /// [`Self::catching_radius`] with an observer, which sees the two searches one after the other.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer breaks.
+    pub fn catching_radius_observed(
+        &self,
+        map: &ImpactMap,
+        samples: u32,
+        observer: &dyn Observer,
+    ) -> Result<Option<f64>, Error> {
+        match self.trapping_radius_observed(map, samples, observer)? {
+            Some(radius) => Ok(Some(radius)),
+            None => self.attraction_radius_observed(map, observer),
+        }
+    }
+
     /// What a flight and its distance from this orbit count as for an observer.
     fn flights_of_step(&self) -> u64 {
         1 + self.period() as u64 / 16
@@ -259,6 +284,10 @@ mod tests {
         let doubled = map(0.50);
         let saddle = doubled.refine(&[doubled.period_one(1).expect("exists")]).expect("refines");
         assert_eq!((saddle.trapping_radius(&doubled, 64), saddle.attraction_radius(&doubled)), (None, None));
+        assert_eq!(
+            (orbit.catching_radius(&stable, 64), saddle.catching_radius(&doubled, 64)),
+            (trapping, None)
+        );
     }
 
     /// The attractor of four impacts at Gamma = 0.486 that docs/errata.md describes.
@@ -269,7 +298,14 @@ mod tests {
         let orbit = map.settled_orbit(start, 4_000, 64, 1.0e-8).expect("no failure").expect("settles");
         assert_eq!(orbit.period(), 4);
         assert_eq!(orbit.trapping_radius(&map, 64), None);
-        assert!(orbit.attraction_radius(&map).is_some());
+        let attraction = orbit.attraction_radius(&map);
+        assert!(attraction.is_some());
+        assert_eq!(orbit.catching_radius(&map, 64), attraction);
+        // The second search can be stopped, too: the first takes as many starts as it always does.
+        let first = StopAfter::calls(u64::MAX);
+        assert_eq!(orbit.trapping_radius_observed(&map, 64, &first), Ok(None));
+        let stopped = orbit.catching_radius_observed(&map, 64, &StopAfter::calls(first.asked() + 2));
+        assert!(matches!(stopped, Err(Error::Stopped { total: 6_656, .. })), "{stopped:?}");
     }
 
     #[test]

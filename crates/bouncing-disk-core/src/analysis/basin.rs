@@ -191,7 +191,7 @@ read_checked!(KnownOrbit as UncheckedKnownOrbit { orbit: PeriodicOrbit, radius: 
 
 impl KnownOrbit {
     /// An orbit with the `radius` in radians (a radian counts as much as the speed P) within which it catches: see
-    /// [`PeriodicOrbit::trapping_radius`].
+    /// [`PeriodicOrbit::catching_radius`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`] would not

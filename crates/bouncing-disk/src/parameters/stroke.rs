@@ -3,10 +3,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use bouncing_disk_core::elementary::{atan2, sin_cos};
+use bouncing_disk_core::elementary::{atan2, hypot, sin_cos};
 
 use crate::error::{Error, check, not_negative, positive};
 use crate::parameters::platform::{Platform, PlatformParameters};
+use crate::parameters::system::System;
 
 /// A platform motion given by the length and the direction of its stroke; see [`Platform::from_stroke`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,6 +89,23 @@ impl Platform {
     }
 }
 
+impl System {
+    /// Length and direction of the stroke, measured at the disk's contact radius: c = (A^2 + (a_e Phi)^2)^(1/2) and
+    /// phi_L = arctan(a_e Phi/A) (Eq. 13), 0 where nothing moves. [`Platform::from_stroke`] goes back.
+    #[must_use]
+    pub fn stroke(&self) -> Stroke {
+        let (platform, contact_radius) = (self.platform(), self.disk().contact_radius());
+        let twist = contact_radius * platform.twist_amplitude();
+        Stroke {
+            stroke: hypot(platform.amplitude(), twist),
+            amplitude_angle: atan2(twist, platform.amplitude()),
+            contact_radius,
+            angular_frequency: platform.angular_frequency(),
+            phase_lag: platform.phase_lag(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,6 +121,23 @@ mod tests {
         let platform = Platform::from_stroke(stroke).expect("legal");
         assert!((platform.amplitude() * platform.angular_frequency() - LAUNCH.axial_speed).abs() < 1e-14);
         assert!((platform.peak_angular_speed() - LAUNCH.angular_speed).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_system_gives_back_the_stroke_that_it_was_made_from() {
+        let pizza = System::pizza_toss();
+        for (amplitude_angle, phase_lag) in [(0.0, 0.0), (1e-9, -3.0), (0.55, 0.3), (FRAC_PI_2, 7.0)] {
+            let stroke = Stroke { amplitude_angle, phase_lag, ..Stroke::pizza_toss() };
+            let platform = Platform::from_stroke(stroke).expect("legal");
+            let found = System::new(platform, *pizza.disk()).expect("legal").stroke();
+            assert!((found.stroke / stroke.stroke - 1.0).abs() < 1e-15, "{found:?}");
+            assert!((found.amplitude_angle - amplitude_angle).abs() < 1e-15, "{found:?}");
+            assert_eq!(Stroke { stroke: stroke.stroke, amplitude_angle, ..found }, stroke);
+        }
+        let still =
+            PlatformParameters { amplitude: 0.0, twist_amplitude: 0.0, ..pizza.platform().parameters() };
+        let still = System::new(still.build().expect("legal"), *pizza.disk()).expect("legal").stroke();
+        assert_eq!((still.stroke, still.amplitude_angle), (0.0, 0.0));
     }
 
     #[test]

@@ -69,7 +69,7 @@ fn panel(
     let mut known = Vec::new();
     for orbit in orbits.iter().filter(|orbit| attracts(orbit)) {
         // The third attractor attracts after long excursions only.
-        let radius = orbit.trapping_radius(&map, 64).or_else(|| orbit.attraction_radius(&map));
+        let radius = orbit.catching_radius(&map, 64);
         if let Some(radius) = radius {
             known.push(KnownOrbit::new(orbit.clone(), radius)?);
         }

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 import bouncing_disk as bd
-from bouncing_disk._errors import OutOfRangeError
+from bouncing_disk.plot._checks import number, whole_number
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, SINGLE_COLUMN, pyplot, style
-from bouncing_disk.plot._toss import trajectory_of
+from bouncing_disk.plot._toss import enough_samples, trajectory_of
+from bouncing_disk.plot._words import labelled, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["toss_animation"]
 
 _FRAMES_PER_SECOND = 30
+_MOST_FRAMES = 100_000
 
 
 def toss_animation(
@@ -41,7 +43,7 @@ def toss_animation(
     slow_motion : float, default 4
         How many times longer the film lasts than the motion.
     frames : int, optional
-        Pictures; by default 30 a second.
+        Pictures, two at least; by default 30 a second, and not more than 100000.
 
     Returns
     -------
@@ -51,14 +53,20 @@ def toss_animation(
     """
     trajectory = trajectory_of(motion, initial_spin)
     duration = trajectory.end_time - trajectory.start_time
-    if not slow_motion > 0.0 or not np.isfinite(slow_motion):
-        message = f"slow_motion is {slow_motion}, outside (0, infinity)"
-        raise OutOfRangeError(message, "slow_motion", float(slow_motion), "(0, infinity)")
+    slow_motion = number("slow_motion", slow_motion, positive=True)
     if frames is None:
-        frames = max(2, min(100_000, round(duration * slow_motion * _FRAMES_PER_SECOND)))
-    curve = trajectory.samples(count=frames)
-    radius = trajectory.system.contact_radius
-    time = curve.time - trajectory.start_time
+        frames = round(min(max(duration * slow_motion * _FRAMES_PER_SECOND, 2.0), _MOST_FRAMES))
+    curve = trajectory.samples(count=whole_number("frames", frames, 2))
+    # The curves do not get coarser with the film.
+    graphs = trajectory.samples(count=enough_samples(trajectory))
+    if len(curve.time) == 0:
+        raise bd.InvalidError("a motion without events has nothing to show", "no-events", {})
+    across, across_unit = unit_of(trajectory.system.contact_radius, "m")
+    metres, metre = unit_of(np.concatenate([graphs.height, graphs.platform_height]), "m")
+    seconds, second = unit_of(duration, "s")
+    radius = across * trajectory.system.contact_radius
+    time = seconds * (curve.time - trajectory.start_time)
+    heights, platform_heights = metres * curve.height, metres * curve.platform_height
     plt: Any = pyplot()
     with style():
         fig, (side, graph) = plt.subplots(
@@ -74,17 +82,19 @@ def toss_animation(
         (platform_dot,) = side.plot([], [], "o", color=BLUE, markersize=5.0)
         (disk_dot,) = side.plot([], [], "o", color=ORANGE, markersize=5.0)
         side.set_xlim(-1.6 * radius, 1.6 * radius)
-        side.set_xlabel("across (m)")
-        side.set_ylabel("height (m)")
-        graph.plot(time, curve.platform_height, color=GREY, linewidth=0.8)
-        graph.plot(time, curve.height, color=GREY, linewidth=0.8)
+        side.set_xlabel(labelled("across", across_unit))
+        side.set_ylabel(labelled("height", metre))
+        instants = seconds * (graphs.time - trajectory.start_time)
+        graph.plot(instants, metres * graphs.platform_height, color=GREY, linewidth=0.8)
+        graph.plot(instants, metres * graphs.height, color=GREY, linewidth=0.8)
         (platform_now,) = graph.plot([], [], "o", color=BLUE, markersize=3.6, label="platform")
         (disk_now,) = graph.plot([], [], "o", color=BLACK, markersize=3.6, label="disk")
         graph.set_xlim(0.0, time[-1])
-        graph.set_xlabel("time (s)")
-        graph.legend(loc="upper right")
-        low = min(curve.platform_height.min(), curve.height.min())
-        high = max(curve.platform_height.max(), curve.height.max())
+        graph.set_xlabel(labelled("time", second))
+        # Above the axes, where it hides no flight.
+        graph.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
+        low = metres * min(graphs.platform_height.min(), graphs.height.min())
+        high = metres * max(graphs.platform_height.max(), graphs.height.max())
         room = 0.08 * (high - low) or 1.0
         side.set_ylim(low - room, high + room)
         # Laid out once and not in every picture, which takes ten times as long as the picture itself.
@@ -93,15 +103,8 @@ def toss_animation(
 
     def show(frame: int) -> tuple[Any, ...]:
         bodies = (
-            (
-                platform,
-                platform_dot,
-                platform_now,
-                curve.platform_height[frame],
-                curve.platform_angle[frame],
-                1.3,
-            ),
-            (disk, disk_dot, disk_now, curve.height[frame], curve.angle[frame], 1.0),
+            (platform, platform_dot, platform_now, platform_heights[frame], curve.platform_angle[frame], 1.3),
+            (disk, disk_dot, disk_now, heights[frame], curve.angle[frame], 1.0),
         )
         for line, dot, now, height, angle, width in bodies:
             line.set_data([-width * radius, width * radius], [height, height])

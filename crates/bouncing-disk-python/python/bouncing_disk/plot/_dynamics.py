@@ -11,7 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
-from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, pyplot, style
+from bouncing_disk.plot._checks import number, whole_number
+from bouncing_disk.plot._style import BLACK, COLOURS, ORANGE, drawn_on, pyplot, style
+from bouncing_disk.plot._words import labelled, legend_above, note, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,9 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = ["basins", "orbit_diagram"]
 
-_COLOURS = (BLACK, GREY, BLUE, ORANGE)
-#: Size of a point (1/72 inch): several of them make a line.
-_DOT = 0.6
+#: Size of a point (1/72 inch) of many, of which several make a line, and of few, each of which must be seen.
+_DOT, _LARGE_DOT = 0.6, 2.4
+#: So many points are many.
+_MANY = 20_000
+#: Labels of basins that a legend explains.
+_MOST_LABELS = 8
 #: Of the normalised speed of a start that comes to rest: a slow one.
 _SLOW = 0.05
 #: How far off the period-1 orbit a start is, so that it leaves it where it is unstable.
@@ -53,7 +58,7 @@ def orbit_diagram(
     axial_forcing : (float, float), default (0.3, 0.62)
         Lowest and highest axial forcing parameter Gamma.
     columns : int, default 600
-        Forcings.
+        Forcings, one at least.
     transient, recorded : int, default 2000, 100
         Impacts that are left out, and drawn, at each of them.
     quantity : {"phase", "speed"}, default "phase"
@@ -64,41 +69,67 @@ def orbit_diagram(
     Returns
     -------
     (Figure, Axes)
+
+    Examples
+    --------
+    >>> from bouncing_disk import plot
+    >>> fig, ax = plot.orbit_diagram(restitution=0.6, axial_forcing=(0.26, 0.3), columns=5, transient=200)
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['from the period-1 orbit', 'from a slow impact']
     """
     if quantity not in ("phase", "speed"):
         raise ValueError(f'quantity must be "phase" or "speed", not {quantity!r}')
+    lowest, highest = axial_forcing
+    ends = np.array([number("axial_forcing", lowest), number("axial_forcing", highest)])
     if diagram is None:
-        diagram = _two_starts(restitution, axial_forcing, columns, transient, recorded)
+        columns = whole_number("columns", columns, 1)
+        diagram = _two_starts(restitution, (lowest, highest), columns, transient, recorded)
     named = diagram if isinstance(diagram, Mapping) else {"": diagram}
-    colours = _COLOURS if len(named) > 1 else (BLACK,)
+    for orbits in named.values():
+        if not isinstance(orbits, bd.OrbitDiagram):
+            raise TypeError(
+                f"diagram must be an OrbitDiagram or a mapping to them, not {type(orbits).__name__}"
+            )
+    # The diagrams, not what is asked for, if there are any forcings.
+    forcings = np.concatenate([orbits.axial_forcing for orbits in named.values()] or [ends])
+    impacts = sum(len(orbits.impact_phase) for orbits in named.values())
+    dot = float(np.clip(_LARGE_DOT - (_LARGE_DOT - _DOT) * impacts / _MANY, _DOT, _LARGE_DOT))
+    speeds = np.concatenate([orbits.normalised_speed for orbits in named.values()] or [ends])
+    factors = [unit_of(forcings, ""), (1.0, "")]
+    if quantity == "speed":
+        factors[1] = unit_of(speeds, "")
+    (across, across_unit), (up, up_unit) = factors
     with style():
-        fig, ax = drawn_on(ax)
+        fig, axes = drawn_on(ax)
         for place, (name, orbits) in enumerate(named.items()):
             values = orbits.impact_phase / (2.0 * np.pi) if quantity == "phase" else orbits.normalised_speed
-            ax.plot(
-                orbits.axial_forcing[orbits.column()],
-                values,
+            axes.plot(
+                across * orbits.axial_forcing[orbits.column()],
+                up * values,
                 linestyle="",
                 marker="o",
-                markersize=_DOT,
+                markersize=dot,
                 markeredgewidth=0.0,
-                color=colours[place % len(colours)],
-                label=name or None,
+                color=COLOURS[place % len(COLOURS)],
+                label=str(name) or None,
                 rasterized=True,
             )
-        ends = np.concatenate([orbits.axial_forcing for orbits in named.values()])
-        if len(ends) and ends.min() < ends.max():
-            ax.set_xlim(ends.min(), ends.max())
+        if len(forcings) and forcings.min() < forcings.max():
+            axes.set_xlim(across * forcings.min(), across * forcings.max())
+        elif len(forcings) and forcings[0] > 0.0:
+            axes.set_xlim(0.9 * across * forcings[0], 1.1 * across * forcings[0])
         if quantity == "phase":
-            ax.set_ylim(0.0, 1.0)
-            ax.set_ylabel(r"impact phase $\tau_\mathrm{imp}/2\pi$")
+            axes.set_ylim(0.0, 1.0)
+            axes.set_ylabel(r"impact phase $\tau_\mathrm{imp}/2\pi$")
         else:
-            ax.set_ylim(bottom=0.0)
-            ax.set_ylabel(r"impact speed $|w_A\Gamma/(\omega A)|$")
-        ax.set_xlabel(r"axial forcing $\Gamma$")
-        if any(named):
-            _dots_legend(ax)
-    return fig, ax
+            axes.set_ylim(bottom=0.0)
+            axes.set_ylabel(labelled(r"impact speed $|w_A\Gamma/(\omega A)|$", up_unit))
+        axes.set_xlabel(labelled(r"axial forcing $\Gamma$", across_unit))
+        if impacts == 0:
+            note(axes, "all disks rest" if len(forcings) and named else "no orbits")
+        if any(map(str, named)):
+            _dots_legend(axes, own=ax is None)
+    return fig, axes
 
 
 def _two_starts(
@@ -128,17 +159,10 @@ def _two_starts(
     return diagrams
 
 
-def _dots_legend(ax: Any) -> None:
+def _dots_legend(ax: Any, own: bool) -> None:
     """A legend with dots that can be seen, behind which no point is lost."""
-    legend = ax.legend(
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=2,
-        borderaxespad=0.2,
-        handletextpad=0.1,
-        columnspacing=1.0,
-    )
-    for handle in legend.legend_handles:
+    legend = legend_above(ax, own=own, most=2, handletextpad=0.1)
+    for handle in legend.get_lines():
         handle.set_marker("o")
         handle.set_markersize(3.0)
 
@@ -171,28 +195,39 @@ def basins(
     Returns
     -------
     (Figure, Axes)
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> from bouncing_disk import plot
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
+    >>> fig, ax = plot.basins(bd.basins(bouncing, phases=40, speeds=30))
+    >>> [float(end) for end in ax.get_xlim()]
+    [0.0, 1.0]
     """
     if isinstance(basins, bd.ImpactMap):
         basins = bd.attractors(basins).basins(phases=phases, speeds=speeds, speed_range=speed_range)
     elif not isinstance(basins, bd.Basins):
         raise TypeError(f"basins must be Basins or an ImpactMap, not {type(basins).__name__}")
     colours = _basin_colours(len(basins.meaning))
+    factor, unit = unit_of(basins.speed_range, "")
+    low, high = (factor * speed for speed in basins.speed_range)
     with style():
-        fig, ax = drawn_on(ax)
-        ax.imshow(
+        fig, axes = drawn_on(ax)
+        axes.imshow(
             np.array(colours)[basins.labels],
             origin="lower",
-            extent=(*basins.phase_range, *basins.speed_range),
+            extent=(*basins.phase_range, low, high),
             aspect="auto",
             interpolation="nearest",
         )
-        ax.set_xlabel(r"impact phase $\tau_\mathrm{imp}/2\pi$")
-        ax.set_ylabel(r"impact speed $|w_A\Gamma/(\omega A)|$")
+        axes.set_xlabel(r"impact phase $\tau_\mathrm{imp}/2\pi$")
+        axes.set_ylabel(labelled(r"impact speed $|w_A\Gamma/(\omega A)|$", unit))
         # Ticks of an image lie under it: they are dark where it is white, and must be seen where it is dark.
-        ax.tick_params(which="both", direction="out", top=False, right=False)
+        axes.tick_params(which="both", direction="out", top=False, right=False)
         if legend:
-            _label_legend(ax, basins, colours)
-    return fig, ax
+            _label_legend(axes, basins, colours, own=ax is None)
+    return fig, axes
 
 
 def _basin_colours(labels: int) -> list[tuple[float, float, float]]:
@@ -203,22 +238,25 @@ def _basin_colours(labels: int) -> list[tuple[float, float, float]]:
     return [to_rgb(colour) for colour in named[:labels]]
 
 
-def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, float]]) -> None:
+def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, float]], own: bool) -> None:
+    """The labels that occur, of which the rarest share one line if there are many."""
     patch: Any = import_module("matplotlib.patches").Patch
-    shown = [label for label in range(len(basins.meaning)) if basins.share(label) > 0.0]
+    shares = {label: basins.share(label) for label in range(len(basins.meaning))}
+    shown = [label for label, share in shares.items() if share > 0.0]
+    if len(shown) > _MOST_LABELS:
+        by_share = sorted(shown, key=lambda label: -shares[label])
+        shown = sorted(by_share[: _MOST_LABELS - 1])
     handles = [
         patch(facecolor=colours[label], edgecolor=BLACK, linewidth=0.6, label=_explained(basins, label))
         for label in shown
     ]
-    ax.legend(
-        handles=handles,
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=max(1, len(handles) if len(handles) < 3 else 2),
-        borderaxespad=0.2,
-        handlelength=1.0,
-        columnspacing=1.2,
-    )
+    others = [label for label, share in shares.items() if share > 0.0 and label not in shown]
+    if others:
+        share = sum(shares[label] for label in others)
+        words = f"{len(others)} others ({100.0 * share:.1f} %)"
+        handles.append(patch(facecolor="none", edgecolor="none", label=words))
+    most = len(handles) if len(handles) < 3 else 2
+    legend_above(ax, handles, own=own, most=most, handlelength=1.0, columnspacing=1.2)
 
 
 def _explained(basins: bd.Basins, label: int) -> str:

@@ -8,7 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
+from bouncing_disk.plot._checks import whole_number
 from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, style
+from bouncing_disk.plot._words import labelled, legend_above, note, unit_of, with_error
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +47,7 @@ def motor_transient(
     seed : int, default 1
         Seed of the perturbations, of a motor.
     member : int, default 0
-        Which member is drawn alone.
+        Which member is drawn alone, from 0 on.
     ax : Axes, optional
         Where it is drawn.
 
@@ -60,50 +62,61 @@ def motor_transient(
         runs = bd.ensemble(runs, members=members, duration=duration, intervals=intervals, seed=seed)
     elif not isinstance(runs, bd.TransientEnsemble):
         raise TypeError(f"runs must be a TransientEnsemble, a Motor or a System, not {type(runs).__name__}")
-    time = runs.times[:, member]
+    count = runs.speeds.shape[1]
+    member = whole_number("member", member, 0, count - 1)
     low, high = np.percentile(runs.speeds, _BAND, axis=1)
+    time = runs.times[:, member]
     end = float(time[-1] + 0.5 * (time[1] - time[0]))
     smooth = np.linspace(0.0, end, 400)
     steady, constant = runs.steady_speed, runs.time_constant
+    seconds, second = unit_of(end, "s")
+    speeds, speed_unit = unit_of(runs.speeds, "rad/s")
     with style():
-        fig, ax = drawn_on(ax)
-        count = runs.speeds.shape[1]
+        fig, axes = drawn_on(ax)
         if count > 1:
-            ax.fill_between(
-                time, low, high, color=BLUE, alpha=0.3, linewidth=0.0, label=f"80 % of {count} runs"
+            words = f"80 % of {count} runs"
+            axes.fill_between(
+                seconds * time, speeds * low, speeds * high, color=BLUE, alpha=0.3, linewidth=0.0, label=words
             )
-        ax.plot(time, runs.speeds[:, member], color=GREY, linewidth=0.7, label="one run")
-        # A rise that takes longer than the run-up is not known from it.
-        known = 0.0 < constant.mean <= end / 3.0
+        axes.plot(seconds * time, speeds * runs.speeds[:, member], color=GREY, linewidth=0.7, label="one run")
+        known = _is_known(steady, constant, end)
         if known:
-            fitted = steady.mean * -np.expm1(-smooth / constant.mean)
-            ax.plot(smooth, fitted, color=BLACK, linestyle=(0, (4, 2)), label="exponential")
-        ax.set_xlim(0.0, end)
-        ax.set_ylim(bottom=min(0.0, float(runs.speeds.min())))
-        ax.set_xlabel("time $t$ (s)")
-        ax.set_ylabel(r"rotary speed $\dot\alpha$ (rad/s)")
-        ax.legend(
-            loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2, columnspacing=0.9,
-            handlelength=1.3, handletextpad=0.4,
+            fitted = speeds * steady.mean * -np.expm1(-smooth / constant.mean)
+            axes.plot(seconds * smooth, fitted, color=BLACK, linestyle=(0, (4, 2)), label="exponential")
+        axes.margins(y=0.05)
+        axes.set_xlim(0.0, seconds * end)
+        bottom, top = axes.get_ylim()
+        if runs.speeds.any():
+            axes.set_ylim(
+                bottom if runs.speeds.min() < 0.0 else 0.0, top if runs.speeds.max() > 0.0 else -0.05 * bottom
+            )
+        else:
+            axes.set_ylim(-1.0, 1.0)
+        axes.set_xlabel(labelled("time $t$", second))
+        axes.set_ylabel(labelled(r"rotary speed $\dot\alpha$", speed_unit))
+        legend_above(
+            axes, own=ax is None, most=3, columnspacing=0.9, handlelength=1.3, handletextpad=0.4,
             title=_values(steady, constant) if known else None, title_fontsize=9.5, alignment="right",
         )  # fmt: skip
-    return fig, ax
+    return fig, axes
+
+
+def _is_known(steady: bd.Spread, constant: bd.Spread, end: float) -> bool:
+    """Whether the fit of the means says anything.
+
+    A rise that takes longer than the run-up is not known from it, and neither is a mean that is smaller than
+    twice its own error.
+    """
+    for spread in (steady, constant):
+        error = spread.standard_error
+        if not abs(spread.mean) > 0.0 or (np.isfinite(error) and abs(spread.mean) < 2.0 * error):
+            return False
+    return 0.0 < constant.mean <= end / 3.0
 
 
 def _values(steady: bd.Spread, constant: bd.Spread) -> str:
-    speed = rf"$\dot\alpha_\mathrm{{ss}} = {_with_error(steady)}$ rad/s"
-    return speed + rf",  $t_\mathrm{{c}} = {_with_error(constant)}$ s"
-
-
-def _with_error(spread: bd.Spread) -> str:
-    """A mean and in brackets its standard error, two digits in units of the last one of the mean."""
-    error = spread.standard_error
-    if not (np.isfinite(error) and error > 0.0):
-        return f"{spread.mean:.3g}"
-    digits = max(0, 1 - int(np.floor(np.log10(error))))
-    if digits > 6 or error > 0.3 * abs(spread.mean):
-        return f"{spread.mean:.3g} \\pm {error:.1g}"
-    return f"{spread.mean:.{digits}f}({error * 10**digits:.0f})"
+    speed = rf"$\dot\alpha_\mathrm{{ss}} = {with_error(steady.mean, steady.standard_error)}$ rad/s"
+    return speed + rf",  $t_\mathrm{{c}} = {with_error(constant.mean, constant.standard_error)}$ s"
 
 
 def _run_up_time(system: bd.System) -> float:
@@ -150,62 +163,62 @@ def torque_speed(
         curve = bd.torque_speed_curve(curve, load_torques=load_torques, relative_error=relative_error)
     elif not isinstance(curve, bd.TorqueSpeedCurve):
         raise TypeError(f"curve must be a TorqueSpeedCurve or a Motor, not {type(curve).__name__}")
-    factor, unit = _torque_unit(curve.load_torque)
+    order = np.argsort(curve.load_torque, kind="stable")
+    # A load that drives the rotor backwards ever faster has no steady speed.
     steady = curve.status == bd.TorqueSpeedCurve.STATUSES.index("steady")
-    load = factor * curve.load_torque
+    runs = order[(steady & np.isfinite(curve.speed))[order]]
+    torques, torque = unit_of(curve.load_torque, "N m", least=1.0)
+    speeds, speed = unit_of(curve.speed[runs], "rad/s")
+    watts, watt = unit_of(curve.mechanical_power[runs], "W", least=1.0)
+    load = torques * curve.load_torque
     with style():
-        fig, ax = drawn_on(ax, 2.5)
-        # A load that drives the rotor backwards ever faster has no steady speed.
-        runs = steady & np.isfinite(curve.speed)
-        ax.errorbar(
-            load[runs], curve.speed[runs], 2.0 * curve.speed_error[runs], color=BLACK, marker="o", markersize=3.0,
-            capsize=1.5, linewidth=1.0, label="speed",
+        fig, axes = drawn_on(ax, 2.5)
+        axes.errorbar(
+            load[runs], speeds * curve.speed[runs], _bars(speeds, curve.speed_error[runs]), color=BLACK,
+            marker="o", markersize=3.0, capsize=1.5, linewidth=1.0, label="speed",
         )  # fmt: skip
-        ax.set_xlim(0.0, load.max() * 1.02 if load.max() > 0.0 else None)
-        ax.set_xlabel(f"load torque ({unit})")
-        ax.set_ylabel("rotary speed (rad/s)")
-        power_axis = ax.twinx()
-        watts, watt = _power_unit(curve.mechanical_power[runs])
+        axes.set_xlabel(labelled("load torque", torque))
+        axes.set_ylabel(labelled("rotary speed", speed))
+        power_axis = axes.twinx()
         power_axis.errorbar(
-            load[runs], watts * curve.mechanical_power[runs], 2.0 * watts * curve.mechanical_power_error[runs],
-            color=ORANGE, marker="s", markersize=2.6, capsize=1.5, linewidth=1.0, linestyle=(0, (4, 2)), label="power",
+            load[runs], watts * curve.mechanical_power[runs],
+            _bars(watts, curve.mechanical_power_error[runs]), color=ORANGE, marker="s", markersize=2.6,
+            capsize=1.5, linewidth=1.0, linestyle=(0, (4, 2)), label="power",
         )  # fmt: skip
-        power_axis.set_ylabel(f"mechanical power ({watt})", color=ORANGE)
+        power_axis.set_ylabel(labelled("mechanical power", watt), color=ORANGE)
         power_axis.tick_params(axis="y", which="both", colors=ORANGE)
-        ax.tick_params(axis="y", which="both", right=False)
-        _level(ax, power_axis)
-        handles = [*ax.get_legend_handles_labels()[0], *power_axis.get_legend_handles_labels()[0]]
-        ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
-    return fig, ax
+        axes.tick_params(axis="y", which="both", right=False)
+        low, high = min(load.min(initial=0.0), 0.0), max(load.max(initial=0.0), 0.0)
+        if low < high:
+            axes.set_xlim(low - 0.03 * (high - low), high + 0.03 * (high - low))
+        if not len(runs):
+            note(axes, "no load with a steady speed")
+        _level(axes, power_axis)
+        handles = [*axes.get_legend_handles_labels()[0], *power_axis.get_legend_handles_labels()[0]]
+        legend_above(axes, handles, own=ax is None)
+    return fig, axes
+
+
+def _bars(factor: float, errors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Two standard errors; none where the error is not known."""
+    bars: npt.NDArray[np.float64] = 2.0 * factor * np.where(np.isfinite(errors), errors, np.nan)
+    return bars
 
 
 def _level(left: Axes, right: Axes) -> None:
-    """Both axes get their zeros at one height."""
-    shares = []
+    """Both axes get their zeros at one height, and show all that they have."""
+    ends = []
     for axis in (left, right):
-        low, high = axis.get_ylim()
-        shares.append(max(-low, 0.0) / (high - min(low, 0.0)))
-    below = max(*shares, 0.0)
-    for axis in (left, right):
-        _, high = axis.get_ylim()
-        axis.set_ylim(-high * below / (1.0 - below), high)
+        low, high = axis.dataLim.intervaly
+        low, high = (min(low, 0.0), max(high, 0.0)) if np.isfinite(low) and np.isfinite(high) else (0.0, 0.0)
+        room = 0.06 * (high - low) or 1.0
+        ends.append((low - room if low < 0.0 else 0.0, high + room if high > 0.0 or low == 0.0 else 0.0))
+    shares = sorted(-low / (high - low) for low, high in ends)
+    # The share below zero: that of the one that needs most, unless this squeezes the other one.
+    below = shares[1] if shares[1] <= 0.7 else max(shares[0], 0.7)
+    for axis, (low, high) in zip((left, right), ends):
+        height = max(-low / below if below > 0.0 else 0.0, high / (1.0 - below) if below < 1.0 else 0.0)
+        # A little more at the zero itself, so that points on it are whole.
+        edge = 0.03 * height
+        axis.set_ylim(-below * height - edge, (1.0 - below) * height + edge)
     left.axhline(0.0, color=GREY, linewidth=0.6, zorder=0)
-
-
-def _torque_unit(torques: npt.NDArray[np.float64]) -> tuple[float, str]:
-    return _unit(torques, "N m", ("N m", "mN m", "µN m", "nN m"))
-
-
-def _power_unit(powers: npt.NDArray[np.float64]) -> tuple[float, str]:
-    return _unit(powers, "W", ("W", "mW", "µW", "nW"))
-
-
-def _unit(values: npt.NDArray[np.float64], plain: str, units: tuple[str, ...]) -> tuple[float, str]:
-    """The unit in which the largest value is a number from 1 to 1000."""
-    largest = float(np.max(np.abs(values), initial=0.0))
-    if not largest > 0.0:
-        return 1.0, plain
-    for power, unit in enumerate(units):
-        if largest * 1e3**power >= 1.0:
-            return 1e3**power, unit
-    return 1e3 ** (len(units) - 1), units[-1]

@@ -15,13 +15,33 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["BLACK", "BLUE", "GREY", "ORANGE", "SINGLE_COLUMN", "drawn_on", "drawn_on_rows", "pyplot", "style"]
+__all__ = [
+    "BLACK",
+    "BLUE",
+    "COLOURS",
+    "GREEN",
+    "GREY",
+    "ORANGE",
+    "SINGLE_COLUMN",
+    "SKY",
+    "YELLOW",
+    "drawn_on",
+    "drawn_on_columns",
+    "drawn_on_grid",
+    "drawn_on_rows",
+    "pyplot",
+    "style",
+]
 
 #: Width of a column of a journal (inches).
 SINGLE_COLUMN = 3.4
 
 #: Colours that differ in print without colour, too, and for all kinds of eyes.
 BLACK, GREY, BLUE, ORANGE = "#222222", "#a8a8a8", "#0072b2", "#d55e00"
+GREEN, SKY, PURPLE, YELLOW = "#009e73", "#56b4e9", "#cc79a7", "#e69f00"
+
+#: Those that several things of one figure get, in this order, again and again.
+COLOURS = (BLACK, GREY, BLUE, ORANGE, GREEN, SKY, PURPLE, YELLOW)
 
 _STYLE: dict[str, Any] = {
     # By their names: what "serif" is would be looked up when the figure is drawn, with the settings of then.
@@ -31,6 +51,9 @@ _STYLE: dict[str, Any] = {
     "axes.labelsize": 10.5,
     "axes.linewidth": 0.8,
     "axes.xmargin": 0.0,
+    # A number that is to be added to all ticks is overlooked, and a power of ten reads like a formula.
+    "axes.formatter.useoffset": False,
+    "axes.formatter.use_mathtext": True,
     "xtick.direction": "in",
     "ytick.direction": "in",
     "xtick.top": True,
@@ -86,14 +109,43 @@ def drawn_on_rows(
     axes: Sequence[Axes] | np.ndarray[Any, Any] | None, rows: int, height: float
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """The axes of a figure with panels above each other, which share their abscissa."""
+    return _drawn_on(axes, (rows, 1), (SINGLE_COLUMN, height), rows, sharex=True)
+
+
+def drawn_on_columns(
+    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None, columns: int, height: float
+) -> tuple[Figure, np.ndarray[Any, Any]]:
+    """The axes of a figure with panels beside each other, which have nothing in common."""
+    return _drawn_on(axes, (1, columns), (columns * SINGLE_COLUMN, height), columns)
+
+
+def drawn_on_grid(
+    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None,
+    panels: int,
+    columns: int,
+    size: tuple[float, float],
+) -> tuple[Figure, np.ndarray[Any, Any]]:
+    """The axes of a figure with many panels of a size (inches), row by row."""
+    columns = max(1, min(panels, columns))
+    rows = max(1, -(-panels // columns))
+    return _drawn_on(axes, (rows, columns), (columns * size[0], rows * size[1]), panels)
+
+
+def _drawn_on(
+    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None,
+    grid: tuple[int, int],
+    size: tuple[float, float],
+    panels: int,
+    sharex: bool = False,
+) -> tuple[Figure, np.ndarray[Any, Any]]:
     if axes is None:
-        fig, new = pyplot().subplots(
-            rows, 1, sharex=True, figsize=(SINGLE_COLUMN, height), layout="constrained"
-        )
-        return fig, new
+        fig, new = pyplot().subplots(*grid, sharex=sharex, squeeze=False, figsize=size, layout="constrained")
+        for unused in new.flat[panels:]:
+            unused.remove()
+        return fig, new.flatten()[:panels]
     given = np.asarray(axes, dtype=object).ravel()
-    if len(given) != rows:
-        raise ValueError(f"ax must be {rows} axes, not {len(given)}")
+    if len(given) != panels:
+        raise ValueError(f"ax must be {panels} axes, not {len(given)}")
     return _figure_of(given[0]), given
 
 

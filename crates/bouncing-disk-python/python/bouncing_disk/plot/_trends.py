@@ -9,7 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
+from bouncing_disk.plot._checks import finite_array, whole_number
+from bouncing_disk.plot._path import stroke_of
 from bouncing_disk.plot._style import BLACK, ORANGE, drawn_on, drawn_on_rows, pyplot, style
+from bouncing_disk.plot._words import labelled, legend_above, note, of_pi, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,17 +25,21 @@ _SHORTEST = 3.0
 
 #: The parameters of a system that a motor may depend on, with what stands at their axis.
 _AXES = {
-    "amplitude": r"axial amplitude $A$ (m)",
-    "twist_amplitude": r"twist amplitude $\Phi$ (rad)",
-    "angular_frequency": r"angular frequency $\omega$ (rad/s)",
-    "phase_lag": r"phase lag $\theta$ (rad)",
-    "contact_radius": r"contact radius $a_\mathrm{e}$ (m)",
-    "gyration_radius": r"radius of gyration $a_\mathrm{g}$ (m)",
-    "friction": r"coefficient of friction $\mu$",
-    "restitution": r"coefficient of restitution $\epsilon$",
-    "preload_acceleration": r"preload $g$ (m/s$^2$)",
-    "load_acceleration": r"load $T/(m a_\mathrm{g}^2)$ (rad/s$^2$)",
+    "amplitude": ("axial amplitude $A$", "m"),
+    "twist_amplitude": (r"twist amplitude $\Phi$", "rad"),
+    "angular_frequency": (r"angular frequency $\omega$", "rad/s"),
+    "phase_lag": (r"phase lag $\theta$", "rad"),
+    "contact_radius": (r"contact radius $a_\mathrm{e}$", "m"),
+    "gyration_radius": (r"radius of gyration $a_\mathrm{g}$", "m"),
+    "friction": (r"coefficient of friction $\mu$", ""),
+    "restitution": (r"coefficient of restitution $\epsilon$", ""),
+    "preload_acceleration": ("preload $g$", "m/s$^2$"),
+    "load_acceleration": (r"load $T/(m a_\mathrm{g}^2)$", "rad/s$^2$"),
 }
+#: Values that differ by this factor get a logarithmic axis.
+_DECADES = 50.0
+#: Curves of fewer points have marks, without which one point would not be seen.
+_FEW = 8
 
 
 def toss_performance(
@@ -46,8 +53,8 @@ def toss_performance(
     to (c).
 
     The stroke c = (A^2 + (a_e Phi)^2)^(1/2) of the system is kept, and divided otherwise between height and
-    twist: the amplitude angle is 0 for a vertical motion and pi/2 for a rotary one. Motions that never toss the
-    disk have no point.
+    twist: the amplitude angle is 0 for a vertical motion and pi/2 for a rotary one. Motions that never toss
+    the disk have no point.
 
     Parameters
     ----------
@@ -63,34 +70,59 @@ def toss_performance(
     Returns
     -------
     (Figure, array of three Axes)
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> from bouncing_disk import plot
+    >>> fig, (speed, efficiency, ratio) = plot.toss_performance(bd.System.pizza_toss(), points=10)
+    >>> speed.get_ylabel()
+    'airborne speed (rad/s)'
     """
     if not isinstance(system, bd.System):
         raise TypeError(f"system must be a System, not {type(system).__name__}")
-    lags = np.atleast_1d(np.asarray(phase_lags, dtype=float))
+    lags = finite_array("phase_lags", phase_lags)
+    if not len(lags):
+        raise bd.InvalidError("phase_lags is empty; give one at least", "empty", {"field": "phase_lags"})
+    points = whole_number("points", points, 1)
     angles = np.pi / 2.0 * (np.arange(points) + 0.5) / points
     results = np.array([[_toss(system, float(angle), float(lag)) for angle in angles] for lag in lags])
+    factor, unit = unit_of(results[..., 0], "rad/s")
     with style():
         fig, axes = drawn_on_rows(ax, 3, 5.0)
-        colours = pyplot().get_cmap("viridis")(np.linspace(0.0, 0.85, max(len(lags), 1)))
-        for column, (panel, label) in enumerate(
-            zip(axes, ("airborne speed (rad/s)", "efficiency", "speed ratio"))
-        ):
-            for lag, colour, curve in zip(lags, colours, results.reshape(len(lags), points, 3)):
-                panel.plot(angles / np.pi, curve[:, column], color=colour, label=rf"{lag / np.pi:.3g}$\pi$")
+        colours = pyplot().get_cmap("viridis")(np.linspace(0.0, 0.85, len(lags)))
+        labels = (
+            labelled("airborne speed", unit),
+            r"efficiency $\eta$",
+            r"speed ratio $\nu$",
+        )
+        for column, (panel, label) in enumerate(zip(axes, labels)):
+            for lag, colour, curve in zip(lags, colours, results):
+                panel.plot(
+                    angles / np.pi,
+                    (factor if column == 0 else 1.0) * curve[:, column],
+                    color=colour,
+                    marker="o" if points < _FEW else None,
+                    markersize=2.4,
+                    label=f"${of_pi(float(lag))}$",
+                )
             panel.set_ylabel(label)
             panel.margins(y=0.08)
+            if np.isnan(results[..., column]).all():
+                note(panel, "no motion tosses the disk")
         axes[-1].set_xlim(0.0, 0.5)
-        axes[-1].set_xlabel(r"amplitude angle $\varphi_L/\pi$")
-        axes[0].legend(
-            loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, borderaxespad=0.2, columnspacing=0.8,
-            handlelength=1.0, handletextpad=0.3, title=r"phase lag $\theta$", title_fontsize=9.5, alignment="right",
+        axes[-1].set_xlabel(r"amplitude angle $\phi_L/\pi$")
+        legend_above(
+            axes[0], own=ax is None, most=5, columnspacing=0.8, handlelength=1.0, handletextpad=0.3,
+            title=r"phase lag $\theta$", title_fontsize=9.5, alignment="right",
         )  # fmt: skip
+        fig.align_ylabels(list(axes))
     return fig, axes
 
 
 def _toss(system: bd.System, angle: float, lag: float) -> tuple[float, float, float]:
     """Speed, efficiency and ratio of the toss with this amplitude angle and phase lag."""
-    stroke = float(np.hypot(system.amplitude, system.contact_radius * system.twist_amplitude))
+    stroke = stroke_of(system)
     changed = system.replace(
         amplitude=stroke * float(np.cos(angle)),
         twist_amplitude=stroke * float(np.sin(angle)) / system.contact_radius,
@@ -148,35 +180,54 @@ def motor_dependence(
         raise TypeError(f"motor must be a Motor or a System, not {type(motor).__name__}")
     if parameter not in _AXES:
         raise ValueError(f"parameter must be one of {', '.join(_AXES)}, not {parameter!r}")
-    if members < 2:
-        message = f"members is {members}, outside [2, infinity)"
-        raise bd.OutOfRangeError(message, "members", float(members), "[2, infinity)")
-    given = np.atleast_1d(np.asarray(values, dtype=float))
+    members = whole_number("members", members, 2)
+    given = finite_array("values", values)
     fits = np.array(
         [_fit(system.replace(**{parameter: float(value)}), members, rise_times, seed) for value in given]
     )
     fits = fits.reshape(len(given), 4)
+    words, plain = _AXES[parameter]
+    across, unit = unit_of(given, plain)
+    speeds, speed = unit_of(fits[:, 0], "rad/s")
+    stalls, acceleration = unit_of(fits[:, 2], "rad/s$^2$")
     with style():
-        fig, ax = drawn_on(ax, 2.5)
-        ax.errorbar(
-            given, fits[:, 0], 2.0 * fits[:, 1], color=BLACK, marker="x", markersize=4.0, capsize=1.5, linewidth=0.8,
-            label="steady speed",
+        fig, axes = drawn_on(ax, 2.5)
+        axes.errorbar(
+            across * given, speeds * fits[:, 0], 2.0 * speeds * fits[:, 1], color=BLACK, marker="x",
+            markersize=4.0, capsize=1.5, linewidth=0.8, label="steady speed",
         )  # fmt: skip
-        ax.set_xlabel(_AXES[parameter])
-        ax.set_ylabel("steady speed (rad/s)")
-        ax.margins(x=0.03, y=0.08)
-        stall = ax.twinx()
+        axes.set_xlabel(labelled(words, unit))
+        axes.set_ylabel(labelled("steady speed", speed))
+        axes.margins(x=0.03, y=0.08)
+        _span(axes, across * given)
+        stall = axes.twinx()
         stall.errorbar(
-            given, fits[:, 2], 2.0 * fits[:, 3], color=ORANGE, marker="o", markersize=2.6, capsize=1.5, linewidth=0.8,
-            linestyle=(0, (4, 2)), label="stall acceleration",
+            across * given, stalls * fits[:, 2], 2.0 * stalls * fits[:, 3], color=ORANGE, marker="o",
+            markersize=2.6, capsize=1.5, linewidth=0.8, linestyle=(0, (4, 2)), label="stall acceleration",
         )  # fmt: skip
-        stall.set_ylabel(r"stall acceleration (rad/s$^2$)", color=ORANGE)
+        stall.set_ylabel(labelled("stall acceleration", acceleration), color=ORANGE)
         stall.tick_params(axis="y", which="both", colors=ORANGE)
-        stall.margins(x=0.03, y=0.08)
-        ax.tick_params(axis="y", which="both", right=False)
-        handles = [*ax.get_legend_handles_labels()[0], *stall.get_legend_handles_labels()[0]]
-        ax.legend(handles=handles, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
-    return fig, ax
+        stall.margins(y=0.08)
+        axes.tick_params(axis="y", which="both", right=False)
+        if not np.isfinite(fits[:, 0]).any():
+            note(axes, "no exponential run-up" if len(given) else "no values")
+        handles = [*axes.get_legend_handles_labels()[0], *stall.get_legend_handles_labels()[0]]
+        legend_above(axes, handles, own=ax is None)
+    return fig, axes
+
+
+def _span(ax: Axes, values: npt.NDArray[np.float64]) -> None:
+    """The abscissa from the lowest to the highest value, also where there is no fit."""
+    low, high = values.min(initial=np.inf), values.max(initial=-np.inf)
+    if not low < high:
+        return
+    if low > 0.0 and high >= _DECADES * low:
+        room = (high / low) ** 0.03
+        ax.set_xlim(low / room, high * room)
+        ax.set_xscale("log")
+    else:
+        room = 0.03 * (high - low)
+        ax.set_xlim(low - room, high + room)
 
 
 def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple[float, float, float, float]:
@@ -186,7 +237,7 @@ def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple
     duration = rise_times * (rise if np.isfinite(rise) and rise > 0.0 else 0.5)
     runs = bd.ensemble(system, members=members, duration=duration, intervals=200, seed=seed)
     speed, stall = runs.steady_speed, runs.stall_acceleration
-    # A rise that takes longer than the run-up is not known from it: of a rotor that a load drives, for example.
+    # A rise that takes longer than the run-up is not known from it, as where a load drives the rotor.
     if not 0.0 <= runs.time_constant.mean <= duration / _SHORTEST:
         return np.nan, np.nan, np.nan, np.nan
     return speed.mean, speed.standard_error, stall.mean, stall.standard_error

@@ -4,9 +4,15 @@ use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 
 use super::point::Shortfall;
 
-/// A drift counts as one beyond so many of its standard errors. With 15 degrees of freedom chance gives that once in a
-/// thousand times; a motor is then only followed for longer.
-const DRIFT: f64 = 4.0;
+/// A drift counts as one beyond so many of its standard errors, however loose the error is that was asked for: what is
+/// left of a start-up is in no member's scatter, so that the standard error would not tell of it. A drift has about
+/// twice the standard error of the mean. With 15 degrees of freedom chance gives one of these in 16 judgements; a
+/// motor is then only followed for longer.
+const DRIFT: f64 = 2.0;
+
+/// Motors that lock on one motion have next to no scatter, and what is left of a start-up decays for as long as one
+/// waits. This share of the error that was asked for is too little to wait for.
+const NEGLIGIBLE: f64 = 1e-3;
 
 /// Parts of the windows: the first is always left out, as the start-up.
 const PARTS: usize = 4;
@@ -30,8 +36,7 @@ pub(super) fn shortfall(speeds: &[Vec<f64>], wanted: f64) -> Option<Shortfall> {
         })
         .collect();
     let (drift, standard_error) = (mean(&drifts), error_of(&drifts));
-    // A drift below what is asked of the mean does not matter, and without any spread none is zero.
-    if drift.abs() > (DRIFT * standard_error).max(wanted) || !drift.is_finite() {
+    if drift.abs() > (DRIFT * standard_error).max(NEGLIGIBLE * wanted) || !drift.is_finite() {
         return Some(Shortfall::Drift { drift, standard_error });
     }
     let standard_error = error_of(&means);
@@ -69,8 +74,10 @@ mod tests {
     #[test]
     fn a_start_up_is_seen() {
         let speeds = noisy(16, 12, |window| 5.0 * (1.0 - exp(-window / 6.0)));
-        assert!(matches!(shortfall(&speeds, 0.1), Some(Shortfall::Drift { .. })));
-        // One that is below what is asked for is none.
+        for wanted in [0.1, 100.0] {
+            assert!(matches!(shortfall(&speeds, wanted), Some(Shortfall::Drift { .. })), "{wanted}");
+        }
+        // One that is lost in the scatter is none.
         assert_eq!(shortfall(&noisy(16, 12, |window| 1e-4 * window), 0.1), None);
     }
 
@@ -78,7 +85,11 @@ mod tests {
     fn motions_without_spread_are_steady_only_if_they_do_not_change() {
         assert_eq!(shortfall(&vec![vec![1.0; 6]; 4], 1e-9), None);
         let drifting: Vec<f64> = (0..6).map(f64::from).collect();
-        assert!(matches!(shortfall(&vec![drifting; 4], 1e-9), Some(Shortfall::Drift { .. })));
+        // The early third of six windows has 0 and 1, the rest 2 to 5: a drift of 3.
+        for (wanted, drifts) in [(1e-9, true), (2.9e3, true), (3.1e3, false)] {
+            let shortfall = shortfall(&vec![drifting.clone(); 4], wanted);
+            assert_eq!(matches!(shortfall, Some(Shortfall::Drift { .. })), drifts, "{wanted}");
+        }
         assert!(matches!(shortfall(&vec![vec![f64::NAN; 6]; 4], 1.0), Some(Shortfall::Drift { .. })));
     }
 }
