@@ -7,10 +7,15 @@
 
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
-    Axis, BasinSettings, ChatterPolicy, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit, Verdict,
-    VerdictSettings, Vibration, orbit_diagram, verdicts,
+    Axis, BasinSettings, ChatterPolicy, CrisisSearch, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit,
+    LyapunovOutcome, ManifoldKind, ManifoldSettings, Multipliers, OrbitSearch, PeriodicOrbit, Verdict,
+    VerdictSettings, Vibration, lyapunov_spectra, orbit_diagram, verdicts,
 };
-use bouncing_disk::{Error, InitialSpin, PAPER_CHATTER, System, TransientSettings, ensemble, single_toss};
+use bouncing_disk::{
+    Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
+    SamplingSettings, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SweepAxis,
+    SweepQuantity, System, TransientSettings, ensemble, single_toss,
+};
 
 /// The forcings of the diagram and of the verdicts: sums and products of doubles that Python forms alike.
 fn forcings(count: u32, low: f64, step: f64) -> Vec<f64> {
@@ -113,6 +118,113 @@ fn motors() -> Result<Digest, Error> {
     Ok(digest)
 }
 
+fn spectra() -> Result<Digest, Error> {
+    let mut digest = Digest::new();
+    for outcome in lyapunov_spectra(&starts(&forcings(60, 0.2, 0.01), 0.5)?, 1000, 5000)? {
+        match outcome {
+            LyapunovOutcome::Exponents(found) => {
+                for number in [Some(found.largest), Some(found.standard_error), found.second, found.exact_sum]
+                {
+                    digest.number(number.unwrap_or(f64::NEG_INFINITY));
+                }
+            }
+            LyapunovOutcome::Rested { impacts } => digest.number(impacts as f64),
+            LyapunovOutcome::Grazed { phase, .. } => digest.number(phase.angle()),
+            _ => digest.bytes(&[255]),
+        }
+    }
+    Ok(digest)
+}
+
+fn manifolds() -> Result<Digest, Error> {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
+    let mut digest = Digest::new();
+    let orbits = map.periodic_orbits(&OrbitSearch::new(1, 1)?)?.orbits;
+    for orbit in orbits.iter().filter(|orbit| orbit.multipliers().spectral_radius() > 1.0) {
+        for kind in [ManifoldKind::Unstable, ManifoldKind::Stable] {
+            let manifold = map.manifold(orbit, kind, &ManifoldSettings::new(10.0, 20_000)?)?;
+            digest.number(manifold.multiplier);
+            for state in manifold.pieces().flat_map(|piece| &piece.states) {
+                digest.number(state.phase().angle());
+                digest.number(state.velocity());
+            }
+        }
+    }
+    Ok(digest)
+}
+
+fn crisis() -> Result<Digest, Error> {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.56)?, 0.5)?;
+    let mut digest = Digest::new();
+    let orbits = map.periodic_orbits(&OrbitSearch::new(3, 3)?)?.orbits;
+    let is_saddle = |orbit: &&PeriodicOrbit| {
+        let positive =
+            matches!(orbit.multipliers(), Multipliers::Real(one, other) if one > 0.0 && other > 0.0);
+        positive && orbit.period() == 3 && orbit.platform_periods == 3
+    };
+    let Some(saddle) = orbits.iter().find(is_saddle) else { return Ok(digest) };
+    let Ok(crisis) = CrisisSearch::new(0.5, (0.559, 0.562))?.crisis(saddle, saddle)? else {
+        return Ok(digest);
+    };
+    for number in [crisis.forcing, crisis.forcing_error, crisis.share, crisis.curvature] {
+        digest.number(number);
+    }
+    for life in crisis.lives(&[1e-4, 1e-3], 50, 20_000)?.lives {
+        digest.number(life.impacts);
+    }
+    Ok(digest)
+}
+
+/// What the three calls about a motor in operation give.
+fn operations() -> Result<Digest, Error> {
+    let sheet = MotorParameters {
+        drive_frequency: 70e3,
+        amplitude: 1e-8,
+        peak_angular_speed: Some(30.0),
+        twist_amplitude: None,
+        phase_lag: 0.0,
+        mass: Some(1e-3),
+        density: None,
+        rotor_radius: None,
+        rotor_thickness: None,
+        contact_radius: 1.25e-3,
+        gyration_radius: Some(6.3e-3),
+        preload_force: None,
+        preload_acceleration: Some(9.8),
+        spring_constant: None,
+        friction: 0.1,
+        restitution: 0.5,
+        load_torque: 0.0,
+    };
+    let motor = sheet.build()?;
+    let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
+    let axes = vec![
+        SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),
+        SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.1e-8]),
+    ];
+    let mut digest = Digest::new();
+    for row in MotorSweep::new(motor, axes, settings)?.run()?.matrix(SweepQuantity::Speed) {
+        for speed in row {
+            digest.number(speed.unwrap_or(f64::NAN));
+        }
+    }
+    let quantity = SensitivityQuantity::SteadySpeed;
+    let near = SensitivitySettings { operating: settings, ..SensitivitySettings::default() };
+    for one in motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near)? {
+        digest.number(one.derivative.value);
+    }
+    let ranges =
+        [(SensitivityParameter::Friction, [0.05, 0.2]), (SensitivityParameter::PhaseLag, [-0.2, 0.2])];
+    let sampling = SamplingSettings { rows: 8, seed: 3 };
+    for one in motor.sobol_indices(quantity, &ranges, sampling, &settings)? {
+        digest.number(one.total.value);
+    }
+    for one in motor.elementary_effects(quantity, &ranges, sampling, &settings)? {
+        digest.number(one.mean.value);
+    }
+    Ok(digest)
+}
+
 fn main() -> Result<(), Error> {
     let all = [
         ("diagram", diagram(ChatterPolicy::Complete)?),
@@ -121,6 +233,10 @@ fn main() -> Result<(), Error> {
         ("verdicts", judged()?),
         ("tosses", tosses()?),
         ("motors", motors()?),
+        ("spectra", spectra()?),
+        ("manifolds", manifolds()?),
+        ("crisis", crisis()?),
+        ("operations", operations()?),
     ];
     let lines: Vec<_> = all.iter().map(|(name, digest)| format!("  \"{name}\": \"{digest}\"")).collect();
     println!("{{\n{}\n}}", lines.join(",\n"));

@@ -1,5 +1,6 @@
 //! What Python passes: numbers, counts, arrays, starts of orbits.
 
+use bouncing_disk::Error;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Vibration};
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
@@ -8,6 +9,8 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
 use crate::errors;
+use crate::names::{Named, name};
+use crate::real::refuse_truth;
 
 /// A whole number as Python has it: one that is negative or too large is told as a value, not as an overflow.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +25,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        refuse_truth(&object)?;
         match object.extract::<u64>() {
             Ok(count) => Ok(Self::Fits(count)),
             Err(error) if error.is_instance_of::<PyOverflowError>(object.py()) => {
@@ -90,11 +94,9 @@ impl Numbers {
     }
 }
 
-fn as_array<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-    static AS_ARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+/// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would count.
+pub(crate) fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     let py = object.py();
-    let import = || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind());
-    // NumPy takes the values below a mask for values: gaps of measurements would count.
     static IS_MASKED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let masked = || Ok::<_, PyErr>(py.import("numpy.ma")?.getattr("is_masked")?.unbind());
     if object.hasattr(intern!(py, "_mask"))?
@@ -102,6 +104,14 @@ fn as_array<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     {
         return Err(PyTypeError::new_err("an array has masked values: take them out, or fill them, before"));
     }
+    Ok(())
+}
+
+fn as_array<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    static AS_ARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let py = object.py();
+    let import = || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind());
+    refuse_masked(object)?;
     AS_ARRAY.get_or_try_init(py, import)?.bind(py).call1((object,))
 }
 
@@ -170,6 +180,13 @@ pub(crate) fn common_length(all: &[(&str, Option<usize>)]) -> PyResult<usize> {
     Ok(found.map_or(1, |(_, length)| length))
 }
 
+/// The impact of a phase and a normalised speed.
+pub(crate) fn first_impact(impact_phase: f64, normalised_speed: f64) -> Result<ImpactState, Error> {
+    let speed = name("axial_impact_velocity", &["normalised_speed"]).given(normalised_speed);
+    ImpactState::from_normalised(impact_phase, normalised_speed)
+        .named(&[name("phase", &["impact_phase"]), speed.legal("[0, 5.7e307]")])
+}
+
 /// The starts of orbits: four numbers each.
 pub(crate) struct Starts {
     /// Gamma of each.
@@ -207,18 +224,17 @@ impl Starts {
     }
 
     /// The maps with the first impacts.
-    pub(crate) fn states(&self) -> Result<Vec<(ImpactMap, ImpactState)>, bouncing_disk::Error> {
+    pub(crate) fn states(&self) -> Result<Vec<(ImpactMap, ImpactState)>, Error> {
         let pairs = self.axial_forcing.iter().zip(&self.restitution).enumerate();
         let states = pairs.map(|(index, (forcing, restitution))| {
             let map = ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, *restitution)?;
-            let (phase, speed) = (self.impact_phase.get(index), self.normalised_speed.get(index));
-            Ok((map, ImpactState::from_normalised(phase, speed)?))
+            Ok((map, first_impact(self.impact_phase.get(index), self.normalised_speed.get(index))?))
         });
         states.collect()
     }
 
     /// The orbits.
-    pub(crate) fn orbits(&self, policy: ChatterPolicy) -> Result<Vec<Orbit>, bouncing_disk::Error> {
+    pub(crate) fn orbits(&self, policy: ChatterPolicy) -> Result<Vec<Orbit>, Error> {
         Ok(self.states()?.into_iter().map(|(map, state)| map.orbit(state, policy)).collect())
     }
 }

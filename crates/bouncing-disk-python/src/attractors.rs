@@ -10,7 +10,10 @@ use crate::arguments::{Count, ProgressCallable};
 use crate::basins::{GridArguments, labels, result, told};
 use crate::chatter::{ChatterCut, policy};
 use crate::impact_map::ImpactMap;
+use crate::names::{Named, name};
 use crate::periodic_orbit::PeriodicOrbit;
+use crate::real::Pair;
+use crate::text::Json;
 use crate::{errors, long_call, results, text};
 
 /// The attractors of an impact map: the disk at rest, and all others that were found.
@@ -112,7 +115,7 @@ impl Attractors {
     /// -------
     /// Basins
     #[pyo3(signature = (
-        *, phases=Count::Fits(400), phase_range=(0.0, 1.0), speeds=Count::Fits(300), speed_range=(0.0, 3.0),
+        *, phases=Count::Fits(400), phase_range=Pair(0.0, 1.0), speeds=Count::Fits(300), speed_range=Pair(0.0, 3.0),
         max_impacts=Count::Fits(2000), chatter=None, progress=ProgressCallable(None)
     ), text_signature = "($self, /, *, phases=400, phase_range=(0.0, 1.0), speeds=300, speed_range=(0.0, 3.0), \
                          max_impacts=2000, chatter=None, progress=None)")]
@@ -121,9 +124,9 @@ impl Attractors {
         &self,
         py: Python<'py>,
         phases: Count,
-        phase_range: (f64, f64),
+        phase_range: Pair,
         speeds: Count,
-        speed_range: (f64, f64),
+        speed_range: Pair,
         max_impacts: Count,
         chatter: Option<&Bound<'py, ChatterCut>>,
         progress: ProgressCallable,
@@ -165,8 +168,8 @@ impl Attractors {
     /// -------
     /// Attractors
     #[staticmethod]
-    fn from_json(json: &str) -> PyResult<Self> {
-        text::restored(json).map(Self)
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        json.read(py).map(Self)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<text::Reduced<'py>> {
@@ -232,6 +235,7 @@ pub(crate) fn attractors(
         .and_then(|search| {
             search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
         })
+        .named(&[name("longest period", &["longest_period"]), name("cells along an axis", &["cells"])])
         .map_err(|error| errors::of(py, error))?;
     let map = impact_map.get().map;
     long_call::run(py, progress.0, |observer| Ok(map.attractors_observed(&search, observer)?)).map(Attractors)

@@ -13,27 +13,47 @@ use crate::arguments::{Count, ProgressCallable};
 use crate::chatter::{ChatterCut, policy};
 use crate::diagram::room_for;
 use crate::impact_map::ImpactMap;
+use crate::names::{Name, Named, name};
 use crate::periodic_orbit::PeriodicOrbit;
+use crate::real::{Pair, Real};
 use crate::{errors, long_call, results};
 
 /// Starts on each circle that is tried for the radius of a known orbit.
 const SAMPLES: u32 = 64;
 
+/// What the library calls the ends and the cells of an axis of phases.
+const PHASE_AXIS: [Name; 4] = [
+    name("axis low end", &["phase_range"]),
+    name("axis high end", &["phase_range"]),
+    name("axis cells", &["phases"]),
+    name("impact phase", &["phase_range"]),
+];
+/// The same of speeds.
+const SPEED_AXIS: [Name; 5] = [
+    name("axis low end", &["speed_range"]),
+    name("axis high end", &["speed_range"]),
+    name("axis cells", &["speeds"]),
+    name("lowest normalised speed", &["speed_range"]),
+    name("highest normalised speed", &["speed_range"]),
+];
+
 /// A grid as Python gives it.
 pub(crate) struct GridArguments {
     pub(crate) phases: Count,
-    pub(crate) phase_range: (f64, f64),
+    pub(crate) phase_range: Pair,
     pub(crate) speeds: Count,
-    pub(crate) speed_range: (f64, f64),
+    pub(crate) speed_range: Pair,
 }
 
 impl GridArguments {
     /// The grid, if it is legal.
     pub(crate) fn grid(self, py: Python<'_>) -> PyResult<Grid> {
         let (phases, speeds) = (self.phases.usize(py, "phases")?, self.speeds.usize(py, "speeds")?);
-        let phase = Axis::new(self.phase_range.0, self.phase_range.1, phases);
-        let grid = phase
-            .and_then(|phase| Grid::new(phase, Axis::new(self.speed_range.0, self.speed_range.1, speeds)?));
+        let axis = |range: Pair, cells, names: &[Name]| Axis::new(range.0, range.1, cells).named(names);
+        let grid = axis(self.phase_range, phases, &PHASE_AXIS).and_then(|phase| {
+            let speed = axis(self.speed_range, speeds, &SPEED_AXIS)?;
+            Grid::new(phase, speed).named(&SPEED_AXIS).named(&PHASE_AXIS)
+        });
         grid.map_err(|error| errors::of(py, error))
     }
 }
@@ -75,8 +95,8 @@ fn known_orbits(known: &Bound<'_, PyAny>) -> PyResult<Vec<(Orbit, Option<f64>)>>
         let item = item?;
         orbits.push(if let Ok(orbit) = item.cast::<PeriodicOrbit>() {
             (orbit.get().0.clone(), None)
-        } else if let Ok((orbit, radius)) = item.extract::<(Bound<'_, PeriodicOrbit>, f64)>() {
-            (orbit.get().0.clone(), Some(radius))
+        } else if let Ok((orbit, radius)) = item.extract::<(Bound<'_, PeriodicOrbit>, Real)>() {
+            (orbit.get().0.clone(), Some(radius.0))
         } else {
             return Err(PyTypeError::new_err(
                 "known_orbits must hold orbits, or pairs of an orbit and a radius",
@@ -151,8 +171,8 @@ fn known(
 /// 1.0
 #[pyfunction]
 #[pyo3(signature = (
-    impact_map, *, phases=Count::Fits(400), phase_range=(0.0, 1.0), speeds=Count::Fits(300),
-    speed_range=(0.0, 3.0), known_orbits=None, max_impacts=Count::Fits(2000), chatter=None,
+    impact_map, *, phases=Count::Fits(400), phase_range=Pair(0.0, 1.0), speeds=Count::Fits(300),
+    speed_range=Pair(0.0, 3.0), known_orbits=None, max_impacts=Count::Fits(2000), chatter=None,
     progress=ProgressCallable(None)
 ), text_signature = "(impact_map, *, phases=400, phase_range=(0.0, 1.0), speeds=300, speed_range=(0.0, 3.0), \
                      known_orbits=None, max_impacts=2000, chatter=None, progress=None)")]
@@ -161,9 +181,9 @@ pub(crate) fn basins<'py>(
     py: Python<'py>,
     impact_map: &Bound<'py, ImpactMap>,
     phases: Count,
-    phase_range: (f64, f64),
+    phase_range: Pair,
     speeds: Count,
-    speed_range: (f64, f64),
+    speed_range: Pair,
     known_orbits: Option<&Bound<'py, PyAny>>,
     max_impacts: Count,
     chatter: Option<&Bound<'py, ChatterCut>>,
@@ -176,7 +196,11 @@ pub(crate) fn basins<'py>(
     let mut meaning = vec!["undecided".to_owned(), "comes to rest".to_owned()];
     meaning.extend(orbits.iter().map(|(orbit, _)| told(orbit)));
     let map = impact_map.get().map;
-    let labels = long_call::run(py, progress.0, |observer| {
+    let names = [
+        name("attraction radius", &["known_orbits"]),
+        name("number of known orbits", &["known_orbits"]).legal("[0, 250] orbits"),
+    ];
+    let labels = long_call::run_named(py, progress.0, &names, |observer| {
         let known = orbits.into_iter().map(|orbit| known(&map, orbit, observer));
         let known = known.collect::<Result<Vec<_>, _>>()?;
         labels(&map.basins_observed(grid, &known, settings, observer)?)

@@ -12,7 +12,10 @@ use pyo3::types::PyTuple;
 
 use crate::arguments::{Count, ProgressCallable};
 use crate::impact_map::ImpactMap;
+use crate::names::{Name, name};
 use crate::periodic_orbit::{PeriodicOrbit, complex};
+use crate::real::{Pair, Real};
+use crate::text::Json;
 use crate::{errors, long_call, results, text};
 
 /// A branch of periodic orbits, stable and unstable, along a parameter.
@@ -25,21 +28,33 @@ pub(crate) struct Branch(Core);
 /// How an orbit is continued, as Python gives it.
 struct Settings {
     parameter: ContinuationParameter,
-    range: (f64, f64),
+    range: Pair,
     rising: bool,
-    first_step: f64,
-    largest_step: f64,
+    first_step: Real,
+    largest_step: Real,
     max_points: Count,
 }
 
 impl Settings {
     fn checked(self, py: Python<'_>) -> PyResult<Continuation> {
         let points = self.max_points.usize(py, "max_points")?;
-        Continuation::new(self.parameter, self.range, self.rising)
-            .and_then(|settings| settings.with_steps(self.first_step, self.largest_step, points))
-            .map_err(|error| errors::of(py, error))
+        Continuation::new(self.parameter, self.range.both(), self.rising)
+            .and_then(|settings| settings.with_steps(self.first_step.0, self.largest_step.0, points))
+            .map_err(|error| errors::of_named(py, error, &NAMES))
     }
 }
+
+/// What the library calls the arguments of a continuation.
+const NAMES: [Name; 7] = [
+    name("low end of a continuation", &["parameter_range"]),
+    name("high end of a continuation", &["parameter_range"]),
+    name("largest step", &["largest_step"]),
+    name("first step", &["first_step"]),
+    name("points of a branch", &["max_points"]),
+    name("restitution of a continuation", &["impact_map.restitution"]),
+    // The orbit's own value, which must lie in the range.
+    name("parameter of a continuation", &["parameter_range"]),
+];
 
 fn parameter(name: &str) -> PyResult<ContinuationParameter> {
     match name {
@@ -203,7 +218,7 @@ impl Branch {
     /// -------
     /// Branch
     #[pyo3(signature = (
-        *, index, parameter_range, first_step=0.01, largest_step=0.05, max_points=Count::Fits(10_000),
+        *, index, parameter_range, first_step=Real(0.01), largest_step=Real(0.05), max_points=Count::Fits(10_000),
         progress=ProgressCallable(None)
     ), text_signature = "($self, /, *, index, parameter_range, first_step=0.01, largest_step=0.05, max_points=10000, \
                          progress=None)")]
@@ -212,9 +227,9 @@ impl Branch {
         &self,
         py: Python<'_>,
         index: Count,
-        parameter_range: (f64, f64),
-        first_step: f64,
-        largest_step: f64,
+        parameter_range: Pair,
+        first_step: Real,
+        largest_step: Real,
         max_points: Count,
         progress: ProgressCallable,
     ) -> PyResult<Self> {
@@ -222,8 +237,10 @@ impl Branch {
         let (parameter, range) = (self.0.parameter, parameter_range);
         let settings = Settings { parameter, range, rising: true, first_step, largest_step, max_points };
         let settings = settings.checked(py)?;
-        long_call::run(py, progress.0, |observer| Ok(self.0.switched_observed(index, &settings, observer)?))
-            .map(Self)
+        long_call::run_named(py, progress.0, &NAMES, |observer| {
+            Ok(self.0.switched_observed(index, &settings, observer)?)
+        })
+        .map(Self)
     }
 
     /// Number of orbits.
@@ -232,10 +249,6 @@ impl Branch {
     }
 
     /// The branch as JSON, as the Rust library stores it.
-    ///
-    /// Returns
-    /// -------
-    /// str
     fn to_json(&self) -> PyResult<String> {
         text::stored(&self.0)
     }
@@ -251,8 +264,8 @@ impl Branch {
     /// -------
     /// Branch
     #[staticmethod]
-    fn from_json(json: &str) -> PyResult<Self> {
-        text::restored(json).map(Self)
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        json.read(py).map(Self)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<text::Reduced<'py>> {
@@ -299,8 +312,8 @@ impl Branch {
 /// [('doubling', 0.486003)]
 #[pyfunction]
 #[pyo3(signature = (
-    impact_map, orbit, *, parameter="axial_forcing", parameter_range, rising=true, first_step=0.01, largest_step=0.05,
-    max_points=Count::Fits(10_000), progress=ProgressCallable(None)
+    impact_map, orbit, *, parameter="axial_forcing", parameter_range, rising=true, first_step=Real(0.01),
+    largest_step=Real(0.05), max_points=Count::Fits(10_000), progress=ProgressCallable(None)
 ), text_signature = "(impact_map, orbit, *, parameter='axial_forcing', parameter_range, rising=True, first_step=0.01, \
                      largest_step=0.05, max_points=10000, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
@@ -309,18 +322,20 @@ pub(crate) fn continued(
     impact_map: &Bound<'_, ImpactMap>,
     orbit: &Bound<'_, PeriodicOrbit>,
     parameter: &str,
-    parameter_range: (f64, f64),
+    parameter_range: Pair,
     rising: bool,
-    first_step: f64,
-    largest_step: f64,
+    first_step: Real,
+    largest_step: Real,
     max_points: Count,
     progress: ProgressCallable,
 ) -> PyResult<Branch> {
     let (parameter, range) = (self::parameter(parameter)?, parameter_range);
     let settings = Settings { parameter, range, rising, first_step, largest_step, max_points }.checked(py)?;
     let (map, orbit) = (impact_map.get().map, &orbit.get().0);
-    long_call::run(py, progress.0, |observer| Ok(map.continued_observed(orbit, &settings, observer)?))
-        .map(Branch)
+    long_call::run_named(py, progress.0, &NAMES, |observer| {
+        Ok(map.continued_observed(orbit, &settings, observer)?)
+    })
+    .map(Branch)
 }
 
 /// The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers
@@ -349,13 +364,14 @@ pub(crate) fn continued(
        text_signature = "(*, restitution, count, progress=None)")]
 pub(crate) fn doubling_cascade<'py>(
     py: Python<'py>,
-    restitution: f64,
+    restitution: Real,
     count: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let count = count.usize(py, "count")?;
     let cascade = long_call::run(py, progress.0, |observer| {
-        doubling_cascade_observed(restitution, count, observer).map_err(|error: CoreError| Error::from(error))
+        doubling_cascade_observed(restitution.0, count, observer)
+            .map_err(|error: CoreError| Error::from(error))
     })?;
     let estimates = feigenbaum_estimates(&cascade);
     let row = |of: fn(&bouncing_disk::core::CascadeDoubling) -> f64| {

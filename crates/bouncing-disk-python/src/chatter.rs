@@ -6,6 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arguments::Count;
+use crate::real::Real;
+use crate::text::Json;
 use crate::{errors, text};
 
 /// Put a chattering disk on the platform by a rule, as simulations do that follow it impact by impact.
@@ -30,13 +32,22 @@ use crate::{errors, text};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ChatterCut(Cut);
 
+/// The arguments as they stand in a text.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    smallest_speed: f64,
+    short_flight: f64,
+    short_flights: u64,
+}
+
 #[pymethods]
 impl ChatterCut {
     #[new]
     #[pyo3(signature = (*, smallest_speed, short_flight, short_flights))]
-    fn new(py: Python<'_>, smallest_speed: f64, short_flight: f64, short_flights: Count) -> PyResult<Self> {
+    fn new(py: Python<'_>, smallest_speed: Real, short_flight: Real, short_flights: Count) -> PyResult<Self> {
         let flights = short_flights.at_most(py, "short_flights", u32::MAX.into(), "[1, 4294967295]")?;
-        Cut::new(smallest_speed, short_flight, flights as u32)
+        Cut::new(smallest_speed.0, short_flight.0, flights as u32)
             .map(Self)
             .map_err(|error| errors::of(py, error))
     }
@@ -66,12 +77,56 @@ impl ChatterCut {
     }
 
     /// The arguments of the constructor.
+    ///
+    /// Returns
+    /// -------
+    /// dict
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dictionary = PyDict::new(py);
         dictionary.set_item("smallest_speed", self.smallest_speed())?;
         dictionary.set_item("short_flight", self.short_flight())?;
         dictionary.set_item("short_flights", self.short_flights())?;
         Ok(dictionary)
+    }
+
+    /// The cut of such a dictionary.
+    ///
+    /// Parameters
+    /// ----------
+    /// parameters : dict
+    ///     As of :meth:`to_dict`.
+    ///
+    /// Returns
+    /// -------
+    /// ChatterCut
+    #[staticmethod]
+    fn from_dict<'py>(py: Python<'py>, parameters: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
+        py.get_type::<Self>().call((), Some(parameters))
+    }
+
+    /// The arguments as JSON, which the Rust library reads as well.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        text::to_json(&self.to_dict(py)?)
+    }
+
+    /// The cut of such a text.
+    ///
+    /// Parameters
+    /// ----------
+    /// json : str
+    ///     As of :meth:`to_json`.
+    ///
+    /// Returns
+    /// -------
+    /// ChatterCut
+    #[staticmethod]
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        let Written { smallest_speed, short_flight, short_flights } = json.read(py)?;
+        Self::new(py, Real(smallest_speed), Real(short_flight), Count::Fits(short_flights))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {

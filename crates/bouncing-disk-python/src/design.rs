@@ -7,8 +7,31 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::ProgressCallable;
+use crate::names::{Name, derived, name};
+use crate::real::{Pair, Real, optional};
 use crate::toss::{initial_spin, performance};
 use crate::{long_call, results};
+
+/// What quantities of the toss follow from.
+const HAND_AND_DOUGH: [&str; 5] =
+    ["stroke", "angular_frequency", "contact_radius", "gyration_radius", "preload_acceleration"];
+
+/// What the library calls the arguments, and what follows from them.
+const NAMES: [Name; 13] = [
+    name("friction (least)", &["friction"]),
+    name("friction (most)", &["friction"]).legal("[the least, inf)"),
+    name("angular_frequency (least)", &["angular_frequency"]),
+    name("angular_frequency (most)", &["angular_frequency"]).legal("(0, inf), not below the least"),
+    name("phase_lag (least)", &["phase_lag"]),
+    name("phase_lag (most)", &["phase_lag"]).legal("[the least, the least + 2 pi]"),
+    derived("peak_acceleration", &HAND_AND_DOUGH),
+    derived("twist_speed", &HAND_AND_DOUGH),
+    derived("amplitude", &HAND_AND_DOUGH),
+    derived("twist_amplitude", &HAND_AND_DOUGH),
+    derived("unit of angle (rad)", &HAND_AND_DOUGH),
+    derived("unit of angular speed (rad/s)", &HAND_AND_DOUGH),
+    derived("unit of rotary energy (J/kg)", &HAND_AND_DOUGH),
+];
 
 /// The hand motion that tosses best: its frequency, its amplitude angle and its phase lag.
 ///
@@ -59,15 +82,15 @@ use crate::{long_call, results};
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn best_toss<'py>(
     py: Python<'py>,
-    contact_radius: Option<f64>,
-    gyration_radius: Option<f64>,
-    preload_acceleration: Option<f64>,
+    contact_radius: Option<Real>,
+    gyration_radius: Option<Real>,
+    preload_acceleration: Option<Real>,
     initial_spin: &str,
-    stroke: Option<f64>,
-    friction: Option<(f64, f64)>,
-    angular_frequency: Option<(f64, f64)>,
-    phase_lag: Option<(f64, f64)>,
-    highest_flight: Option<f64>,
+    stroke: Option<Real>,
+    friction: Option<Pair>,
+    angular_frequency: Option<Pair>,
+    phase_lag: Option<Pair>,
+    highest_flight: Option<Real>,
     objective: &str,
     over_friction: &str,
     progress: ProgressCallable,
@@ -88,25 +111,25 @@ pub(crate) fn best_toss<'py>(
         }
     };
     let table = TossConstraints::pizza_toss();
-    let pair = |given: Option<(f64, f64)>, own: [f64; 2]| given.map_or(own, |(least, most)| [least, most]);
+    let pair = |given: Option<Pair>, own: [f64; 2]| given.map_or(own, |range| [range.0, range.1]);
     let constraints = TossConstraints {
         dough: DiskParameters {
-            contact_radius: contact_radius.unwrap_or(table.dough.contact_radius),
-            gyration_radius: gyration_radius.unwrap_or(table.dough.gyration_radius),
-            preload_acceleration: preload_acceleration.unwrap_or(table.dough.preload_acceleration),
+            contact_radius: optional(contact_radius).unwrap_or(table.dough.contact_radius),
+            gyration_radius: optional(gyration_radius).unwrap_or(table.dough.gyration_radius),
+            preload_acceleration: optional(preload_acceleration).unwrap_or(table.dough.preload_acceleration),
             ..table.dough
         },
         initial: self::initial_spin(initial_spin)?,
-        stroke: stroke.unwrap_or(table.stroke),
+        stroke: optional(stroke).unwrap_or(table.stroke),
         friction: pair(friction, table.friction),
         angular_frequency: pair(angular_frequency, table.angular_frequency),
         phase_lag: pair(phase_lag, table.phase_lag),
-        highest_flight,
+        highest_flight: optional(highest_flight),
         objective,
         over_friction,
     };
     let design: TossDesign =
-        long_call::run(py, progress.0, |observer| best_toss_observed(&constraints, observer))?;
+        long_call::run_named(py, progress.0, &NAMES, |observer| best_toss_observed(&constraints, observer))?;
     let fields = (
         design.hand.stroke,
         design.hand.amplitude_angle,

@@ -1,11 +1,13 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
-use bouncing_disk::core::Error as CoreError;
+use bouncing_disk::core::{Error as CoreError, NoCrisis};
 use bouncing_disk::{Error, MotorFileError};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
+
+use crate::names::{self, Name, Told};
 
 /// The numbers of an error, by their names.
 enum Detail {
@@ -177,21 +179,81 @@ fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
 
 /// The exception of an error of the model or of the core.
 pub(crate) fn of(py: Python<'_>, error: impl Into<Error>) -> PyErr {
+    of_named(py, error, &[])
+}
+
+/// The same where the library has other names for the arguments.
+pub(crate) fn of_named(py: Python<'_>, error: impl Into<Error>, names: &[Name]) -> PyErr {
     let error = error.into();
-    raise(py, error.to_string(), of_model(error))
+    match names::told(&error, names) {
+        Some(Told::Argument(field, value, legal)) => {
+            let error = Error::OutOfRange { field, value, legal };
+            raise(py, error.to_string(), of_model(error))
+        }
+        Some(Told::Derived { quantity, value, legal: range, of }) => {
+            let arguments = of.join(", ");
+            let message = format!("{error}; it follows from {arguments}");
+            let details = details![quantity, value, range];
+            let details = details.into_iter().chain([("arguments", Detail::Text(arguments))]);
+            raise(py, message, Raised::Invalid("out-of-range-together", details.collect()))
+        }
+        None => raise(py, error.to_string(), of_model(error)),
+    }
 }
 
 /// The exception of a data sheet that cannot be read.
-pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
-    if let MotorFileError::Illegal { error: illegal, .. } = error {
-        return raise(py, error.to_string(), of_model(*illegal));
-    }
-    raise(py, error.to_string(), Raised::Invalid("data-sheet", Vec::new()))
+pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError, names: &[Name]) -> PyErr {
+    let number = |line: usize| Detail::Count(line as u64);
+    let details = match error {
+        MotorFileError::Illegal { error: illegal, .. } => return of_named(py, *illegal, names),
+        MotorFileError::Syntax { line, column, .. } => {
+            vec![("line", number(*line)), ("column", number(*column))]
+        }
+        MotorFileError::UnknownKey { key, line, .. } => {
+            vec![("field", Detail::Text(key.clone())), ("line", number(*line))]
+        }
+        MotorFileError::Repeated { key, line, .. } | MotorFileError::NotANumber { key, line, .. } => {
+            vec![("field", (*key).into()), ("line", number(*line))]
+        }
+        _ => Vec::new(),
+    };
+    raise(py, error.to_string(), Raised::Invalid("text", details))
+}
+
+/// The exception of a JSON text that cannot be read.
+pub(crate) fn unreadable(py: Python<'_>, error: &serde_json::Error) -> PyErr {
+    let (line, column) = (error.line(), error.column());
+    raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text", details![line, column]))
+}
+
+/// The exception of what is no text at all: half of a pair of surrogates is in it.
+pub(crate) fn no_unicode(py: Python<'_>, position: usize) -> PyErr {
+    let message = format!("the text cannot be read: its character {position} is none of Unicode");
+    raise(py, message, Raised::Invalid("text", details![position]))
 }
 
 /// A number outside its range, which the types of Rust would not have let through.
 pub(crate) fn out_of_range(py: Python<'_>, field: &'static str, value: f64, range: &'static str) -> PyErr {
     of(py, Error::OutOfRange { field, value, legal: range })
+}
+
+/// A motion without events, which has neither duration nor samples.
+pub(crate) fn no_events(py: Python<'_>) -> PyErr {
+    let message = "the trajectory has no events, because the disk stays on its platform for ever: it ends where it \
+                   begins, and there is nothing to sample";
+    raise(py, message.to_owned(), Raised::Computation("no-events", Vec::new()))
+}
+
+/// Why there is no crisis.
+pub(crate) fn no_crisis(py: Python<'_>, reason: &NoCrisis) -> PyErr {
+    let (kind, details) = match *reason {
+        NoCrisis::NoneRests { forcing, samples } => ("none-rests", details![forcing, samples]),
+        NoCrisis::RestsBefore { forcing, life } => ("rests-before", details![forcing, life]),
+        NoCrisis::NoFold { forcing, nearest } => ("no-fold", details![forcing, nearest]),
+        NoCrisis::NotSettled { forcing, change } => ("not-settled", details![forcing, change]),
+        _ => ("other", Vec::new()),
+    };
+    raise(py, format!("there is no crisis: {reason}"), Raised::Computation(kind, details))
 }
 
 /// A defect of the library: it has panicked, which nothing that is passed to it may bring about.

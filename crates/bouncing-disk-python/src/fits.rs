@@ -6,7 +6,21 @@ use bouncing_disk::{
 use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, columns, row};
+use crate::names::{Name, derived, name};
+use crate::real::Real;
 use crate::{long_call, results};
+
+/// What the library calls the curves that are fitted.
+const NAMES: [Name; 8] = [
+    name("number of points of the speed curve", &["times"]).legal("[3, inf) points"),
+    name("number of speeds", &["speeds"]).legal("one for each time"),
+    name("times of the speed curve", &["times"]),
+    name("speed", &["speeds"]),
+    name("number of times", &["times"]),
+    derived("fitted time (s)", &["times", "speeds"]),
+    derived("fitted steady speed (rad/s)", &["times", "speeds"]),
+    derived("residual of the fit (rad/s)", &["times", "speeds"]),
+];
 
 /// The exponential rise 1 - exp(-t/t_c) that fits a speed curve best.
 ///
@@ -41,8 +55,9 @@ pub(crate) fn fit_exponential<'py>(
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (times, speeds) = (row(times, "times")?, row(speeds, "speeds")?);
-    let fit =
-        long_call::run(py, progress.0, |observer| ExponentialFit::new_observed(&times, &speeds, observer))?;
+    let fit = long_call::run_named(py, progress.0, &NAMES, |observer| {
+        ExponentialFit::new_observed(&times, &speeds, observer)
+    })?;
     let fields = (fit.steady_speed, fit.time_constant, fit.residual, fit.stall_acceleration());
     results::make(py, "ExponentialFit", fields)
 }
@@ -97,8 +112,8 @@ fn rise<'py>(py: Python<'py>, rise: &RiseEstimate) -> PyResult<Bound<'py, PyAny>
 /// ('exponential', 6, True)
 #[pyfunction]
 #[pyo3(signature = (
-    *, times, speeds, resamples=Count::Fits(1000), seed=Count::Fits(1), least_duration=3.0, largest_residual=0.1,
-    progress=ProgressCallable(None)
+    *, times, speeds, resamples=Count::Fits(1000), seed=Count::Fits(1), least_duration=Real(3.0),
+    largest_residual=Real(0.1), progress=ProgressCallable(None)
 ), text_signature = "(*, times, speeds, resamples=1000, seed=1, least_duration=3.0, largest_residual=0.1, \
                      progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
@@ -108,8 +123,8 @@ pub(crate) fn fit_transients<'py>(
     speeds: &Bound<'py, PyAny>,
     resamples: Count,
     seed: Count,
-    least_duration: f64,
-    largest_residual: f64,
+    least_duration: Real,
+    largest_residual: Real,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let times = row(times, "times")?;
@@ -119,8 +134,13 @@ pub(crate) fn fit_transients<'py>(
         Err(_) => columns(speeds, "speeds")?,
     };
     let (resamples, seed) = (resamples.usize(py, "resamples")?, seed.u64(py, "seed")?);
-    let settings = FitSettings { resamples, seed, least_duration, largest_residual };
-    let fit = long_call::run(py, progress.0, |observer| -> Result<TransientFit, Error> {
+    let settings = FitSettings {
+        resamples,
+        seed,
+        least_duration: least_duration.0,
+        largest_residual: largest_residual.0,
+    };
+    let fit = long_call::run_named(py, progress.0, &NAMES, |observer| -> Result<TransientFit, Error> {
         match &measured {
             Ok(speeds) => TransientFit::of_measured_observed(&times, speeds, &settings, observer),
             Err(_) => {

@@ -1,14 +1,18 @@
 //! The impact map of the vertical motion.
 
-use bouncing_disk::core::{ImpactMap as Map, ImpactState, Phase, Vibration};
+use bouncing_disk::core::{ImpactMap as Map, Vibration};
 use bouncing_disk::{Error, System as Model};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arguments::{Count, ProgressCallable, numbers, row};
+use crate::arguments::{Count, ProgressCallable, first_impact, numbers, row};
+use crate::impact_state::{INVERSE, PHASE, pair, state};
+use crate::names::name;
 use crate::periodic_orbit::PeriodicOrbit;
+use crate::real::{Real, optional};
 use crate::system::System;
+use crate::text::Json;
 use crate::{errors, long_call, results, text};
 
 /// The map from one impact of a bouncing disk to the next, without units.
@@ -66,14 +70,13 @@ impl ImpactMap {
     }
 }
 
-/// An impact of these two numbers.
-pub(crate) fn state(impact_phase: f64, axial_impact_velocity: f64) -> Result<ImpactState, Error> {
-    Ok(ImpactState::new(Phase::new(impact_phase)?, axial_impact_velocity)?)
-}
-
-/// The two numbers of an impact.
-pub(crate) fn pair(state: ImpactState) -> (f64, f64) {
-    (state.phase().angle(), state.velocity())
+/// The arguments as they stand in a text.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    axial_forcing: Option<f64>,
+    peak_acceleration: Option<f64>,
+    restitution: f64,
 }
 
 #[pymethods]
@@ -82,10 +85,11 @@ impl ImpactMap {
     #[pyo3(signature = (*, axial_forcing=None, peak_acceleration=None, restitution))]
     fn new(
         py: Python<'_>,
-        axial_forcing: Option<f64>,
-        peak_acceleration: Option<f64>,
-        restitution: f64,
+        axial_forcing: Option<Real>,
+        peak_acceleration: Option<Real>,
+        restitution: Real,
     ) -> PyResult<Self> {
+        let (axial_forcing, peak_acceleration) = (optional(axial_forcing), optional(peak_acceleration));
         let (one, other) = ("axial_forcing", "peak_acceleration");
         let vibration = match (axial_forcing, peak_acceleration) {
             (Some(forcing), None) => Vibration::from_axial_forcing(forcing).map_err(Error::from),
@@ -93,19 +97,11 @@ impl ImpactMap {
             (None, None) => Err(Error::NeitherGiven { one, other }),
             (Some(_), Some(_)) => Err(Error::BothGiven { one, other }),
         };
-        let map = vibration.and_then(|vibration| Ok(Map::new(vibration, restitution)?));
+        let map = vibration.and_then(|vibration| Ok(Map::new(vibration, restitution.0)?));
         map.map(|map| Self { map, axial_forcing }).map_err(|error| errors::of(py, error))
     }
 
     /// The vertical motion of a system.
-    ///
-    /// Parameters
-    /// ----------
-    /// system : System
-    ///
-    /// Returns
-    /// -------
-    /// ImpactMap
     #[staticmethod]
     fn of_system(py: Python<'_>, system: &Bound<'_, System>) -> PyResult<Self> {
         let system: &Model = &system.get().0;
@@ -153,8 +149,31 @@ impl ImpactMap {
     /// (float, float)
     ///     Phase and velocity of the next impact.
     #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
-    fn step(&self, py: Python<'_>, impact_phase: f64, axial_impact_velocity: f64) -> PyResult<(f64, f64)> {
-        long_call::short(py, || Ok(pair(self.map.step(state(impact_phase, axial_impact_velocity)?)?.into())))
+    fn step(&self, py: Python<'_>, impact_phase: Real, axial_impact_velocity: Real) -> PyResult<(f64, f64)> {
+        let from = (impact_phase.0, axial_impact_velocity.0);
+        long_call::short(py, &[PHASE], || Ok(pair(self.map.step(state(from.0, from.1)?)?.into())))
+    }
+
+    /// The impact before this one: the only one that :meth:`step` takes there.
+    ///
+    /// Parameters
+    /// ----------
+    /// impact_phase, axial_impact_velocity : float
+    ///     As of :meth:`step`.
+    ///
+    /// Returns
+    /// -------
+    /// (float, float)
+    ///     Phase and velocity of the impact before.
+    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
+    fn step_back(
+        &self,
+        py: Python<'_>,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
+    ) -> PyResult<(f64, f64)> {
+        let state = || state(impact_phase.0, axial_impact_velocity.0);
+        long_call::short(py, &[PHASE, INVERSE], || Ok(pair(self.map.step_back(state()?)?)))
     }
 
     /// The impact that is so many steps later.
@@ -177,14 +196,14 @@ impl ImpactMap {
     fn iterate(
         &self,
         py: Python<'_>,
-        impact_phase: f64,
-        axial_impact_velocity: f64,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
         impacts: Count,
         progress: ProgressCallable,
     ) -> PyResult<(f64, f64)> {
         let impacts = impacts.u64(py, "impacts")?;
-        long_call::run(py, progress.0, |observer| {
-            let from = state(impact_phase, axial_impact_velocity)?;
+        long_call::run_named(py, progress.0, &[PHASE], |observer| {
+            let from = state(impact_phase.0, axial_impact_velocity.0)?;
             Ok(pair(self.map.iterate_observed(from, impacts, observer)?))
         })
     }
@@ -204,11 +223,11 @@ impl ImpactMap {
     fn derivative<'py>(
         &self,
         py: Python<'py>,
-        impact_phase: f64,
-        axial_impact_velocity: f64,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let derivative = long_call::short(py, || {
-            Ok(self.map.step_with_derivative(state(impact_phase, axial_impact_velocity)?)?.1)
+        let derivative = long_call::short(py, &[PHASE], || {
+            Ok(self.map.step_with_derivative(state(impact_phase.0, axial_impact_velocity.0)?)?.1)
         })?;
         let (x, y) = (derivative.x_axis, derivative.y_axis);
         results::matrix(py, vec![x.x, y.x, x.y, y.y], [2, 2])
@@ -232,7 +251,7 @@ impl ImpactMap {
             Count::Fits(0) => return Err(errors::out_of_range(py, "platform_periods", 0.0, "at least 1")),
             other => other.u64(py, "platform_periods")?,
         };
-        long_call::short(py, || Ok(self.map.period_one(periods).map(pair)))
+        long_call::short(py, &[], || Ok(self.map.period_one(periods).map(pair)))
     }
 
     /// The periodic orbit next to a guess, stable or not, by Newton's method on all impacts.
@@ -260,7 +279,12 @@ impl ImpactMap {
             ("impact_phase", Some(phases.len())),
             ("axial_impact_velocity", velocities.len()),
         ])?;
-        let orbit = long_call::run(py, None, |_| {
+        let names = [
+            PHASE,
+            name("impacts of a periodic orbit", &["impact_phase"]).legal("[1, 4096] impacts"),
+            name("period", &["impact_phase"]),
+        ];
+        let orbit = long_call::run_named(py, None, &names, |_| {
             let impacts =
                 phases.iter().enumerate().map(|(index, phase)| state(*phase, velocities.get(index)));
             Ok(self.map.refine(&impacts.collect::<Result<Vec<_>, _>>()?)?)
@@ -291,34 +315,31 @@ impl ImpactMap {
     ///     None if the disk comes to rest or shows no period.
     #[pyo3(signature = (
         *, impact_phase, normalised_speed, transient=Count::Fits(2000), longest_period=Count::Fits(64),
-        tolerance=1e-7, progress=ProgressCallable(None)
+        tolerance=Real(1e-7), progress=ProgressCallable(None)
     ), text_signature = "($self, /, *, impact_phase, normalised_speed, transient=2000, longest_period=64, \
                          tolerance=1e-7, progress=None)")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     fn settled_orbit(
         &self,
         py: Python<'_>,
-        impact_phase: f64,
-        normalised_speed: f64,
+        impact_phase: Real,
+        normalised_speed: Real,
         transient: Count,
         longest_period: Count,
-        tolerance: f64,
+        tolerance: Real,
         progress: ProgressCallable,
     ) -> PyResult<Option<PeriodicOrbit>> {
         let (transient, longest) =
             (transient.usize(py, "transient")?, longest_period.usize(py, "longest_period")?);
-        let orbit = long_call::run(py, progress.0, |observer| {
-            let start = ImpactState::from_normalised(impact_phase, normalised_speed)?;
-            Ok(self.map.settled_orbit_observed(start, transient, longest, tolerance, observer)?)
+        let names = [name("longest period", &["longest_period"])];
+        let orbit = long_call::run_named(py, progress.0, &names, |observer| {
+            let start = first_impact(impact_phase.0, normalised_speed.0)?;
+            Ok(self.map.settled_orbit_observed(start, transient, longest, tolerance.0, observer)?)
         })?;
         Ok(orbit.map(PeriodicOrbit))
     }
 
     /// The arguments that make this map.
-    ///
-    /// Returns
-    /// -------
-    /// dict
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.arguments(py)
     }
@@ -339,10 +360,6 @@ impl ImpactMap {
     }
 
     /// The arguments that make this map, as JSON.
-    ///
-    /// Returns
-    /// -------
-    /// str
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
         text::to_json(&self.arguments(py)?)
     }
@@ -358,8 +375,9 @@ impl ImpactMap {
     /// -------
     /// ImpactMap
     #[staticmethod]
-    fn from_json<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
-        Self::from_dict(py, &text::from_json(py, json)?)
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        let Written { axial_forcing, peak_acceleration, restitution } = json.read(py)?;
+        Self::new(py, axial_forcing.map(Real), peak_acceleration.map(Real), Real(restitution))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {

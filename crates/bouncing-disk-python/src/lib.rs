@@ -9,21 +9,31 @@ mod attractors;
 mod basins;
 mod branch;
 mod chatter;
+mod crisis;
 mod design;
 mod diagram;
 mod errors;
 mod fits;
 mod impact_map;
+mod impact_state;
 mod long_call;
+mod manifold;
 mod motor;
+mod motor_sweep;
+mod names;
 mod operation;
 mod orbit_batch;
 mod parameter_fit;
 mod periodic_orbit;
+mod real;
+mod regime;
 mod results;
+mod sensitivity;
+mod spectra;
 mod start;
 mod system;
 mod system_dict;
+mod system_names;
 mod text;
 mod threads;
 mod toss;
@@ -45,6 +55,8 @@ mod _native {
     #[pymodule_export]
     use crate::chatter::ChatterCut;
     #[pymodule_export]
+    use crate::crisis::{Crisis, crisis};
+    #[pymodule_export]
     use crate::design::best_toss;
     #[pymodule_export]
     use crate::diagram::{lyapunov_exponents, orbit_diagram, survival_times};
@@ -53,7 +65,11 @@ mod _native {
     #[pymodule_export]
     use crate::impact_map::ImpactMap;
     #[pymodule_export]
+    use crate::manifold::manifold;
+    #[pymodule_export]
     use crate::motor::Motor;
+    #[pymodule_export]
+    use crate::motor_sweep::motor_map;
     #[pymodule_export]
     use crate::operation::{best_phase_lag, operating_point, stall_load, torque_speed_curve};
     #[pymodule_export]
@@ -62,6 +78,10 @@ mod _native {
     use crate::parameter_fit::fit_parameters;
     #[pymodule_export]
     use crate::periodic_orbit::{PeriodicOrbit, periodic_orbits};
+    #[pymodule_export]
+    use crate::sensitivity::{elementary_effects, local_sensitivities, sobol_indices};
+    #[pymodule_export]
+    use crate::spectra::lyapunov_spectra;
     #[pymodule_export]
     use crate::system::System;
     #[pymodule_export]

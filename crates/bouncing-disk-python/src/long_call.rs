@@ -14,6 +14,7 @@ use std::time::Duration;
 use bouncing_disk::{Error, Observer, Progress};
 use pyo3::prelude::*;
 
+use crate::names::Name;
 use crate::{errors, threads};
 
 /// How often signals are looked at, and the callable is called.
@@ -58,6 +59,16 @@ pub(crate) fn run<T: Send>(
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
 ) -> PyResult<T> {
+    run_named(py, progress, &[], work)
+}
+
+/// The same where the library has other names for the arguments.
+pub(crate) fn run_named<T: Send>(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    names: &[Name],
+    work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+) -> PyResult<T> {
     let watched = Watched::default();
     let callable = progress.as_ref();
     let outcome = py.detach(|| {
@@ -88,7 +99,7 @@ pub(crate) fn run<T: Send>(
             (None, Some(Err(_)) | None) => Err(errors::defect()),
         }
     })?;
-    let value = outcome.map_err(|error| errors::of(py, error))?;
+    let value = outcome.map_err(|error| errors::of_named(py, error, names))?;
     if let Some(progress) = progress {
         // Of nothing everything is done.
         let total = watched.total.load(Ordering::Relaxed);
@@ -98,9 +109,13 @@ pub(crate) fn run<T: Send>(
 }
 
 /// Runs what takes microseconds, where it is.
-pub(crate) fn short<T>(py: Python<'_>, work: impl FnOnce() -> Result<T, Error>) -> PyResult<T> {
+pub(crate) fn short<T>(
+    py: Python<'_>,
+    names: &[Name],
+    work: impl FnOnce() -> Result<T, Error>,
+) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
-        Ok(result) => result.map_err(|error| errors::of(py, error)),
+        Ok(result) => result.map_err(|error| errors::of_named(py, error, names)),
         Err(_) => Err(errors::defect()),
     }
 }

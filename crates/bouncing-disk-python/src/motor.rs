@@ -1,11 +1,15 @@
 //! Data sheets of motors.
 
-use bouncing_disk::{Motor as Model, MotorParameters, MotorRegime};
+use bouncing_disk::{Motor as Model, MotorParameters};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::arguments::ProgressCallable;
+use crate::real::{Real, optional};
+use crate::regime::regime;
 use crate::system::System;
+use crate::system_names::OF_MOTOR;
+use crate::text::Json;
 use crate::{errors, long_call, results, text};
 
 /// A motor by its data sheet, in SI units.
@@ -62,25 +66,6 @@ use crate::{errors, long_call, results, text};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Motor(pub(crate) Model);
 
-/// The regime by its name, with its numbers: impacts, platform periods, rests, exponent.
-fn regime(regime: &MotorRegime) -> (&'static str, u64, f64, u64, f64) {
-    match regime {
-        MotorRegime::NoLiftOff => ("no-lift-off", 0, f64::NAN, 0, f64::NAN),
-        MotorRegime::Periodic { impacts, platform_periods } => {
-            ("periodic", *impacts as u64, *platform_periods as f64, 0, f64::NAN)
-        }
-        MotorRegime::LowPeriodChattering(cycle) => {
-            ("low-period-chattering", cycle.impacts as u64, cycle.platform_periods as f64, 0, f64::NAN)
-        }
-        MotorRegime::LongChattering { platform_periods, rests } => {
-            ("long-chattering", 0, *platform_periods, *rests, f64::NAN)
-        }
-        MotorRegime::Chaotic { lyapunov_exponent } => ("chaotic", 0, f64::NAN, 0, *lyapunov_exponent),
-        MotorRegime::Undecided { impacts } => ("undecided", *impacts as u64, f64::NAN, 0, f64::NAN),
-        _ => ("unknown", 0, f64::NAN, 0, f64::NAN),
-    }
-}
-
 impl Motor {
     fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let sheet = self.0.parameters();
@@ -117,51 +102,55 @@ impl Motor {
 impl Motor {
     #[new]
     #[pyo3(signature = (
-        *, drive_frequency, amplitude, peak_angular_speed=None, twist_amplitude=None, phase_lag=0.0, mass=None,
+        *, drive_frequency, amplitude, peak_angular_speed=None, twist_amplitude=None, phase_lag=Real(0.0), mass=None,
         density=None, rotor_radius=None, rotor_thickness=None, contact_radius, gyration_radius=None,
-        preload_force=None, preload_acceleration=None, spring_constant=None, friction, restitution, load_torque=0.0
-    ))]
+        preload_force=None, preload_acceleration=None, spring_constant=None, friction, restitution,
+        load_torque=Real(0.0)
+    ), text_signature = "(*, drive_frequency, amplitude, peak_angular_speed=None, twist_amplitude=None, \
+                         phase_lag=0.0, mass=None, density=None, rotor_radius=None, rotor_thickness=None, \
+                         contact_radius, gyration_radius=None, preload_force=None, preload_acceleration=None, \
+                         spring_constant=None, friction, restitution, load_torque=0.0)")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     fn new(
         py: Python<'_>,
-        drive_frequency: f64,
-        amplitude: f64,
-        peak_angular_speed: Option<f64>,
-        twist_amplitude: Option<f64>,
-        phase_lag: f64,
-        mass: Option<f64>,
-        density: Option<f64>,
-        rotor_radius: Option<f64>,
-        rotor_thickness: Option<f64>,
-        contact_radius: f64,
-        gyration_radius: Option<f64>,
-        preload_force: Option<f64>,
-        preload_acceleration: Option<f64>,
-        spring_constant: Option<f64>,
-        friction: f64,
-        restitution: f64,
-        load_torque: f64,
+        drive_frequency: Real,
+        amplitude: Real,
+        peak_angular_speed: Option<Real>,
+        twist_amplitude: Option<Real>,
+        phase_lag: Real,
+        mass: Option<Real>,
+        density: Option<Real>,
+        rotor_radius: Option<Real>,
+        rotor_thickness: Option<Real>,
+        contact_radius: Real,
+        gyration_radius: Option<Real>,
+        preload_force: Option<Real>,
+        preload_acceleration: Option<Real>,
+        spring_constant: Option<Real>,
+        friction: Real,
+        restitution: Real,
+        load_torque: Real,
     ) -> PyResult<Self> {
         let sheet = MotorParameters {
-            drive_frequency,
-            amplitude,
-            peak_angular_speed,
-            twist_amplitude,
-            phase_lag,
-            mass,
-            density,
-            rotor_radius,
-            rotor_thickness,
-            contact_radius,
-            gyration_radius,
-            preload_force,
-            preload_acceleration,
-            spring_constant,
-            friction,
-            restitution,
-            load_torque,
+            drive_frequency: drive_frequency.0,
+            amplitude: amplitude.0,
+            peak_angular_speed: optional(peak_angular_speed),
+            twist_amplitude: optional(twist_amplitude),
+            phase_lag: phase_lag.0,
+            mass: optional(mass),
+            density: optional(density),
+            rotor_radius: optional(rotor_radius),
+            rotor_thickness: optional(rotor_thickness),
+            contact_radius: contact_radius.0,
+            gyration_radius: optional(gyration_radius),
+            preload_force: optional(preload_force),
+            preload_acceleration: optional(preload_acceleration),
+            spring_constant: optional(spring_constant),
+            friction: friction.0,
+            restitution: restitution.0,
+            load_torque: load_torque.0,
         };
-        sheet.build().map(Self).map_err(|error| errors::of(py, error))
+        sheet.build().map(Self).map_err(|error| errors::of_named(py, error, &OF_MOTOR))
     }
 
     /// The same motor with other values in its data sheet.
@@ -374,8 +363,9 @@ impl Motor {
     /// -------
     /// Motor
     #[staticmethod]
-    fn from_json(py: Python<'_>, json: &str) -> PyResult<Self> {
-        Model::from_json(json).map(Self).map_err(|error| errors::of_motor_file(py, &error))
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        let read = Model::from_json(json.as_str());
+        read.map(Self).map_err(|error| errors::of_motor_file(py, &error, &OF_MOTOR))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {

@@ -6,20 +6,28 @@ use pyo3::types::PyTuple;
 
 use crate::arguments::{Count, ProgressCallable, row};
 use crate::motor::Motor;
+use crate::names::{derived, name};
+use crate::real::{Real, optional};
 use crate::{long_call, results};
 
+/// How many doubles an operation has.
+pub(crate) const COLUMNS: usize = 18;
+
 /// The numbers of an operation; NaN where there are none.
-struct Numbers {
-    values: [f64; 18],
-    impacts: i64,
-    status: u8,
+pub(crate) struct Numbers {
+    pub(crate) values: [f64; COLUMNS],
+    pub(crate) impacts: i64,
+    pub(crate) status: u8,
     shortfall: String,
 }
+
+/// What the library makes of a load torque: by the inertia, and without units.
+const LOAD: [&str; 2] = ["load_acceleration", "load"];
 
 const NONE: Estimate = Estimate { value: f64::NAN, standard_error: f64::NAN };
 
 /// Those of a point, in the order of the fields of `OperatingPoint` in `_results.py`.
-fn of_point(point: &OperatingPoint) -> [f64; 18] {
+fn of_point(point: &OperatingPoint) -> [f64; COLUMNS] {
     let efficiency = point.efficiency.unwrap_or(NONE);
     [
         point.load_torque,
@@ -55,7 +63,7 @@ fn shortfall(shortfall: &Shortfall) -> String {
     }
 }
 
-fn numbers(operation: &Operation) -> Numbers {
+pub(crate) fn numbers(operation: &Operation) -> Numbers {
     let impacts = |point: &OperatingPoint| i64::try_from(point.impacts).unwrap_or(i64::MAX);
     match operation {
         Operation::Steady(point) => {
@@ -68,30 +76,30 @@ fn numbers(operation: &Operation) -> Numbers {
             shortfall: shortfall(lack),
         },
         Operation::Runaway { load_torque, acceleration, .. } => {
-            let mut values = [f64::NAN; 18];
+            let mut values = [f64::NAN; COLUMNS];
             (values[0], values[17]) = (*load_torque, *acceleration);
             Numbers { values, impacts: 0, status: 2, shortfall: String::new() }
         }
-        _ => Numbers { values: [f64::NAN; 18], impacts: 0, status: 1, shortfall: "unknown".to_owned() },
+        _ => Numbers { values: [f64::NAN; COLUMNS], impacts: 0, status: 1, shortfall: "unknown".to_owned() },
     }
 }
 
 /// The arguments that all these calls have.
 pub(crate) struct Settings {
-    pub(crate) relative_error: f64,
+    pub(crate) relative_error: Real,
     pub(crate) members: Count,
     pub(crate) most_impacts: Count,
-    pub(crate) relaunch_perturbation: f64,
+    pub(crate) relaunch_perturbation: Real,
     pub(crate) seed: Count,
 }
 
 impl Settings {
-    fn checked(self, py: Python<'_>) -> PyResult<OperatingSettings> {
+    pub(crate) fn checked(self, py: Python<'_>) -> PyResult<OperatingSettings> {
         Ok(OperatingSettings {
-            relative_error: self.relative_error,
+            relative_error: self.relative_error.0,
             members: self.members.usize(py, "members")?,
             most_impacts: self.most_impacts.u64(py, "most_impacts")?,
-            relaunch_perturbation: self.relaunch_perturbation,
+            relaunch_perturbation: self.relaunch_perturbation.0,
             seed: self.seed.u64(py, "seed")?,
         })
     }
@@ -123,28 +131,30 @@ impl Settings {
 /// OperatingPoint
 #[pyfunction]
 #[pyo3(signature = (
-    motor, *, load_torque=None, relative_error=0.01, members=Count::Fits(16),
-    most_impacts=Count::Fits(20_000_000), relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+    motor, *, load_torque=None, relative_error=Real(0.01), members=Count::Fits(16),
+    most_impacts=Count::Fits(20_000_000), relaunch_perturbation=Real(1e-3), seed=Count::Fits(1), progress=ProgressCallable(None)
 ), text_signature = "(motor, *, load_torque=None, relative_error=0.01, members=16, most_impacts=20000000, relaunch_perturbation=0.001, \
                      seed=1, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn operating_point<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
-    load_torque: Option<f64>,
-    relative_error: f64,
+    load_torque: Option<Real>,
+    relative_error: Real,
     members: Count,
     most_impacts: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let settings =
         Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor = motor.get().0;
-    let load = load_torque.unwrap_or_else(|| motor.load_torque());
-    let operation =
-        long_call::run(py, progress.0, |observer| motor.operating_point_observed(load, &settings, observer))?;
+    let load = optional(load_torque).unwrap_or_else(|| motor.load_torque());
+    let names = LOAD.map(|quantity| name(quantity, &["load_torque"]).given(load));
+    let operation = long_call::run_named(py, progress.0, &names, |observer| {
+        motor.operating_point_observed(load, &settings, observer)
+    })?;
     let Numbers { values, impacts, status, shortfall } = numbers(&operation);
     let values = PyTuple::new(py, values)?;
     let name = ["steady", "unsettled", "runaway"][usize::from(status)];
@@ -168,8 +178,8 @@ pub(crate) fn operating_point<'py>(
 /// TorqueSpeedCurve
 #[pyfunction]
 #[pyo3(signature = (
-    motor, *, load_torques, relative_error=0.01, members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
-    relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+    motor, *, load_torques, relative_error=Real(0.01), members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=Real(1e-3), seed=Count::Fits(1), progress=ProgressCallable(None)
 ), text_signature = "(motor, *, load_torques, relative_error=0.01, members=16, most_impacts=20000000, \
                      relaunch_perturbation=0.001, seed=1, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
@@ -177,10 +187,10 @@ pub(crate) fn torque_speed_curve<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
     load_torques: &Bound<'py, PyAny>,
-    relative_error: f64,
+    relative_error: Real,
     members: Count,
     most_impacts: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -188,11 +198,14 @@ pub(crate) fn torque_speed_curve<'py>(
         Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let loads = row(load_torques, "load_torques")?;
     let motor = motor.get().0;
-    let operations = long_call::run(py, progress.0, |observer| {
+    let [load, acceleration] = LOAD.map(|quantity| derived(quantity, &["load_torques", "motor"]));
+    let count = name("number of loads", &["load_torques"]).legal("[1, 1000000] torques");
+    let names = [load, acceleration, count, name("load_torque", &["load_torques"])];
+    let operations = long_call::run_named(py, progress.0, &names, |observer| {
         motor.torque_speed_curve_observed(&loads, &settings, observer)
     })?;
     let all: Vec<_> = operations.iter().map(numbers).collect();
-    let columns: Vec<_> = (0..18)
+    let columns: Vec<_> = (0..COLUMNS)
         .map(|column| results::array(py, all.iter().map(|one| one.values[column]).collect()))
         .collect();
     let rest = (
@@ -217,18 +230,18 @@ pub(crate) fn torque_speed_curve<'py>(
 /// StallLoad
 #[pyfunction]
 #[pyo3(signature = (
-    motor, *, relative_error=0.01, members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
-    relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+    motor, *, relative_error=Real(0.01), members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=Real(1e-3), seed=Count::Fits(1), progress=ProgressCallable(None)
 ), text_signature = "(motor, *, relative_error=0.01, members=16, most_impacts=20000000, relaunch_perturbation=0.001, \
                      seed=1, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn stall_load<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
-    relative_error: f64,
+    relative_error: Real,
     members: Count,
     most_impacts: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -262,18 +275,18 @@ pub(crate) fn stall_load<'py>(
 /// BestPhaseLag
 #[pyfunction]
 #[pyo3(signature = (
-    motor, *, relative_error=0.01, members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
-    relaunch_perturbation=1e-3, seed=Count::Fits(1), progress=ProgressCallable(None)
+    motor, *, relative_error=Real(0.01), members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=Real(1e-3), seed=Count::Fits(1), progress=ProgressCallable(None)
 ), text_signature = "(motor, *, relative_error=0.01, members=16, most_impacts=20000000, relaunch_perturbation=0.001, \
                      seed=1, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn best_phase_lag<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
-    relative_error: f64,
+    relative_error: Real,
     members: Count,
     most_impacts: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {

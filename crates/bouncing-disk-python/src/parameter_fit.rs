@@ -6,11 +6,13 @@ use bouncing_disk::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyMapping, PyTuple};
 
 use crate::arguments::{Count, ProgressCallable, columns, row};
 use crate::fits::interval;
 use crate::motor::Motor;
+use crate::names::{Name, derived, name};
+use crate::real::{Pair, Real, optional};
 use crate::{errors, long_call, results};
 
 /// The parameters that transients may tell.
@@ -22,12 +24,40 @@ const PARAMETERS: [FitParameter; 5] = [
     FitParameter::TwistAmplitude,
 ];
 
-/// The ranges of a dictionary, in its order.
-fn ranges(given: &Bound<'_, PyDict>) -> PyResult<Vec<FitRange>> {
+/// Of a motor whose own value lies outside of the range that is given.
+const SEARCHED: &str = "within the range that is searched";
+
+/// What the library calls the arguments.
+const NAMES: [Name; 22] = [
+    name("number of transients", &["transients"]).legal("[1, 1000] transients"),
+    name("number of fitted parameters", &["ranges"]).legal("[1, 5] parameters"),
+    name("runs", &["transients.speeds"]).legal("[1, inf) runs"),
+    name("number of points of the speed curve", &["transients.times"]).legal("[3, inf) points"),
+    name("number of speeds", &["transients.speeds"]).legal("one for each time"),
+    name("times of the speed curve", &["transients.times"]),
+    name("speed", &["transients.speeds"]),
+    name("preload", &["transients.preload_acceleration"]),
+    name("preload_acceleration", &["transients.preload_acceleration"]),
+    derived("square of a measured speed", &["transients.speeds", "speed_error"]),
+    derived("variance of a mean speed", &["transients.speeds", "speed_error"]),
+    name("upper end of a range", &["ranges"]),
+    name("width of the range of the phase lag", &["ranges.phase_lag"]),
+    name("friction", &["motor.friction"]).only(SEARCHED),
+    name("restitution", &["motor.restitution"]).only(SEARCHED),
+    name("phase_lag", &["motor.phase_lag"]).only(SEARCHED),
+    name("amplitude", &["motor.amplitude"]).only(SEARCHED),
+    name("friction", &["ranges.friction"]),
+    name("restitution", &["ranges.restitution"]),
+    name("phase_lag", &["ranges.phase_lag"]),
+    name("amplitude", &["ranges.amplitude"]),
+    name("twist_amplitude", &["ranges.twist_amplitude"]),
+];
+
+/// The ranges of a mapping, in its order.
+fn ranges(given: &Bound<'_, PyMapping>) -> PyResult<Vec<FitRange>> {
     let mut ranges = Vec::new();
-    for (name, range) in given.iter() {
-        let name: String = name.extract()?;
-        let (low, high) = range.extract()?;
+    for item in given.items()? {
+        let (name, Pair(low, high)): (String, Pair) = item.extract()?;
         let Some(parameter) = PARAMETERS.into_iter().find(|parameter| parameter.name() == name) else {
             let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.name()).collect();
             let text =
@@ -54,7 +84,7 @@ fn measured(
         times: times.clone(),
         speeds,
     });
-    let runs = MeasuredSpeeds::new(runs.collect()).map_err(|error| errors::of(py, error))?;
+    let runs = MeasuredSpeeds::new(runs.collect()).map_err(|error| errors::of_named(py, error, &NAMES))?;
     Ok(MeasuredTransient { preload: RunPreload::Acceleration(preload_acceleration), runs, speed_error })
 }
 
@@ -67,7 +97,7 @@ fn measured(
 /// transients : iterable of (times, speeds, preload_acceleration)
 ///     For each preload the times (n,) (s), the speeds (n,) or (n, m) of one or m runs (rad/s), and the
 ///     preload acceleration (m/s^2).
-/// ranges : dict
+/// ranges : mapping
 ///     The range (low, high) of each parameter that is fitted: of ``friction``, ``restitution``,
 ///     ``phase_lag``, ``amplitude`` and ``twist_amplitude``.
 /// speed_error : float, optional
@@ -95,8 +125,8 @@ fn measured(
 #[pyfunction]
 #[pyo3(signature = (
     motor, *, transients, ranges, speed_error=None, members=Count::Fits(64), windows=Count::Fits(6),
-    relaunch_perturbation=1e-3, seed=Count::Fits(1), most_evaluations=Count::Fits(100), resamples=Count::Fits(1000),
-    largest_misfit=1.0, progress=ProgressCallable(None)
+    relaunch_perturbation=Real(1e-3), seed=Count::Fits(1), most_evaluations=Count::Fits(100), resamples=Count::Fits(1000),
+    largest_misfit=Real(1.0), progress=ProgressCallable(None)
 ), text_signature = "(motor, *, transients, ranges, speed_error=None, members=64, windows=6, \
                      relaunch_perturbation=0.001, seed=1, most_evaluations=100, resamples=1000, largest_misfit=1.0, \
                      progress=None)")]
@@ -105,34 +135,34 @@ pub(crate) fn fit_parameters<'py>(
     py: Python<'py>,
     motor: &Bound<'py, Motor>,
     transients: &Bound<'py, PyAny>,
-    ranges: &Bound<'py, PyDict>,
-    speed_error: Option<f64>,
+    ranges: &Bound<'py, PyMapping>,
+    speed_error: Option<Real>,
     members: Count,
     windows: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     most_evaluations: Count,
     resamples: Count,
-    largest_misfit: f64,
+    largest_misfit: Real,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let mut all = Vec::new();
     for transient in transients.try_iter()? {
-        let (times, speeds, preload): (Bound<'_, PyAny>, Bound<'_, PyAny>, f64) = transient?.extract()?;
-        all.push(measured(py, &times, &speeds, preload, speed_error)?);
+        let (times, speeds, preload): (Bound<'_, PyAny>, Bound<'_, PyAny>, Real) = transient?.extract()?;
+        all.push(measured(py, &times, &speeds, preload.0, optional(speed_error))?);
     }
     let ranges = self::ranges(ranges)?;
     let settings = ParameterFitSettings {
         members: members.usize(py, "members")?,
         windows: windows.usize(py, "windows")?,
-        relaunch_perturbation,
+        relaunch_perturbation: relaunch_perturbation.0,
         seed: seed.u64(py, "seed")?,
         most_evaluations: most_evaluations.usize(py, "most_evaluations")?,
         resamples: resamples.usize(py, "resamples")?,
-        largest_misfit,
+        largest_misfit: largest_misfit.0,
     };
     let nominal = motor.get().0;
-    let fit = long_call::run(py, progress.0, |observer| {
+    let fit = long_call::run_named(py, progress.0, &NAMES, |observer| {
         ParameterFit::new_observed(&nominal, &all, &ranges, &settings, observer)
     })?;
     let (nominal, estimates) = (PyDict::new(py), PyDict::new(py));

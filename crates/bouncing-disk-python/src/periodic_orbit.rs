@@ -6,6 +6,8 @@ use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable};
 use crate::impact_map::ImpactMap;
+use crate::names::name;
+use crate::text::Json;
 use crate::{errors, long_call, results, text};
 
 /// A periodic orbit of the impact map, stable or not.
@@ -127,8 +129,8 @@ impl PeriodicOrbit {
     /// -------
     /// PeriodicOrbit
     #[staticmethod]
-    fn from_json(json: &str) -> PyResult<Self> {
-        text::restored(json).map(Self)
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        json.read(py).map(Self)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<text::Reduced<'py>> {
@@ -194,7 +196,13 @@ pub(crate) fn periodic_orbits(
     let periods = max_platform_periods.u64(py, "max_platform_periods")?;
     let (phases, speeds) = (phases.u32(py, "phases")?, speeds.u32(py, "speeds")?);
     let search = OrbitSearch::new(impacts, periods).and_then(|search| search.with_starts(phases, speeds));
-    let search = search.map_err(|error| errors::of(py, error))?;
+    let names = [
+        name("impacts of an orbit", &["max_impacts"]),
+        name("platform periods of an orbit", &["max_platform_periods"]),
+        name("starts along the phase", &["phases"]),
+        name("starts along the speed", &["speeds"]),
+    ];
+    let search = search.map_err(|error| errors::of_named(py, error, &names))?;
     let map = impact_map.get().map;
     let found =
         long_call::run(py, progress.0, |observer| Ok(map.periodic_orbits_observed(&search, observer)?))?;

@@ -3,6 +3,9 @@
 use bouncing_disk::core::Phase;
 use bouncing_disk::{Error, InitialCondition, System};
 
+use crate::names::{Name, name};
+use crate::real::{Real, optional};
+
 /// The arguments of a start.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start {
@@ -17,6 +20,33 @@ pub(crate) struct Start {
 }
 
 impl Start {
+    /// The arguments of a call.
+    pub(crate) fn new(
+        phase: Real,
+        angular_speed: Option<Real>,
+        gap: Option<Real>,
+        relative_velocity: Option<Real>,
+    ) -> Self {
+        Self {
+            phase: phase.0,
+            angular_speed: optional(angular_speed),
+            gap: optional(gap),
+            relative_velocity: optional(relative_velocity),
+        }
+    }
+
+    /// What the library, which has other units, calls them.
+    pub(crate) fn names(&self) -> [Name; 4] {
+        let given = |number: Option<f64>| number.unwrap_or(f64::NAN);
+        let velocity = given(self.relative_velocity);
+        [
+            name("angular_speed", &["angular_speed"]).given(given(self.angular_speed)),
+            name("gap", &["gap"]).given(given(self.gap)),
+            name("relative_velocity", &["relative_velocity"]).given(velocity),
+            name("relative_speed", &["relative_velocity"]).given(velocity),
+        ]
+    }
+
     /// The start of a system.
     pub(crate) fn condition(&self, system: &System) -> Result<InitialCondition, Error> {
         let (scales, phase) = (system.scales(), Phase::new(self.phase)?);

@@ -6,7 +6,11 @@ use bouncing_disk::{DiskParameters, Platform, PlatformParameters, Stroke, System
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::system_dict::{DISK, PLATFORM};
+use crate::names::Name;
+use crate::real::Real;
+use crate::system_dict::{DISK, PLATFORM, SystemParts};
+use crate::system_names::{DERIVED, OF_LOAD, OF_PARTS, OF_STROKE};
+use crate::text::Json;
 use crate::{errors, system_dict, text};
 
 /// A disk on a vibrating and twisting platform, in SI units.
@@ -48,9 +52,9 @@ use crate::{errors, system_dict, text};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct System(pub(crate) Model);
 
-fn build(py: Python<'_>, platform: PlatformParameters, disk: DiskParameters) -> PyResult<System> {
-    let made = platform.build().and_then(|platform| Model::new(platform, disk.build()?));
-    made.map(System).map_err(|error| errors::of(py, error))
+fn build(py: Python<'_>, parts: SystemParts, names: &[Name]) -> PyResult<System> {
+    let made = parts.platform.build().and_then(|platform| Model::new(platform, parts.disk.build()?));
+    made.map(System).map_err(|error| errors::of_named(py, error, names))
 }
 
 impl System {
@@ -85,46 +89,42 @@ impl System {
 impl System {
     #[new]
     #[pyo3(signature = (
-        *, amplitude, twist_amplitude, angular_frequency, phase_lag=0.0, contact_radius, gyration_radius, friction,
-        restitution, preload_acceleration, load_acceleration=0.0
-    ))]
+        *, amplitude, twist_amplitude, angular_frequency, phase_lag=Real(0.0), contact_radius, gyration_radius,
+        friction, restitution, preload_acceleration, load_acceleration=Real(0.0)
+    ), text_signature = "(*, amplitude, twist_amplitude, angular_frequency, phase_lag=0.0, contact_radius, \
+                         gyration_radius, friction, restitution, preload_acceleration, load_acceleration=0.0)")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     fn new(
         py: Python<'_>,
-        amplitude: f64,
-        twist_amplitude: f64,
-        angular_frequency: f64,
-        phase_lag: f64,
-        contact_radius: f64,
-        gyration_radius: f64,
-        friction: f64,
-        restitution: f64,
-        preload_acceleration: f64,
-        load_acceleration: f64,
+        amplitude: Real,
+        twist_amplitude: Real,
+        angular_frequency: Real,
+        phase_lag: Real,
+        contact_radius: Real,
+        gyration_radius: Real,
+        friction: Real,
+        restitution: Real,
+        preload_acceleration: Real,
+        load_acceleration: Real,
     ) -> PyResult<Self> {
-        let platform = PlatformParameters { amplitude, twist_amplitude, angular_frequency, phase_lag };
-        let disk = DiskParameters {
-            contact_radius,
-            gyration_radius,
-            friction,
-            restitution,
-            preload_acceleration,
-            load_acceleration,
+        let platform = PlatformParameters {
+            amplitude: amplitude.0,
+            twist_amplitude: twist_amplitude.0,
+            angular_frequency: angular_frequency.0,
+            phase_lag: phase_lag.0,
         };
-        build(py, platform, disk)
+        let disk = DiskParameters {
+            contact_radius: contact_radius.0,
+            gyration_radius: gyration_radius.0,
+            friction: friction.0,
+            restitution: restitution.0,
+            preload_acceleration: preload_acceleration.0,
+            load_acceleration: load_acceleration.0,
+        };
+        build(py, SystemParts { platform, disk }, &DERIVED)
     }
 
     /// The pizza toss of Table I of the paper.
-    ///
-    /// Returns
-    /// -------
-    /// System
-    ///
-    /// Examples
-    /// --------
-    /// >>> import bouncing_disk as bd
-    /// >>> bd.System.pizza_toss().angular_frequency
-    /// 15.0
     #[staticmethod]
     fn pizza_toss() -> Self {
         Self(Model::pizza_toss())
@@ -135,12 +135,6 @@ impl System {
     /// Returns
     /// -------
     /// System
-    ///
-    /// Examples
-    /// --------
-    /// >>> import bouncing_disk as bd
-    /// >>> round(bd.System.motor().axial_forcing, 2)
-    /// 62.83
     #[staticmethod]
     fn motor() -> Self {
         Self(Model::motor())
@@ -155,9 +149,8 @@ impl System {
     ///     Stroke c (m), not negative.
     /// amplitude_angle : float
     ///     Amplitude angle phi_L (rad), in [0, pi/2]: 0 lifts only, pi/2 twists only.
-    /// angular_frequency, phase_lag, contact_radius, gyration_radius, friction, restitution,
-    /// preload_acceleration,
-    /// load_acceleration : float
+    /// angular_frequency, phase_lag, contact_radius, gyration_radius : float
+    /// friction, restitution, preload_acceleration, load_acceleration : float
     ///     As of :class:`System`.
     ///
     /// Returns
@@ -173,34 +166,42 @@ impl System {
     /// True
     #[staticmethod]
     #[pyo3(signature = (
-        *, stroke, amplitude_angle, angular_frequency, phase_lag=0.0, contact_radius, gyration_radius, friction,
-        restitution, preload_acceleration, load_acceleration=0.0
-    ))]
+        *, stroke, amplitude_angle, angular_frequency, phase_lag=Real(0.0), contact_radius, gyration_radius, friction,
+        restitution, preload_acceleration, load_acceleration=Real(0.0)
+    ), text_signature = "(*, stroke, amplitude_angle, angular_frequency, phase_lag=0.0, contact_radius, \
+                         gyration_radius, friction, restitution, preload_acceleration, load_acceleration=0.0)")]
     #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     fn from_stroke(
         py: Python<'_>,
-        stroke: f64,
-        amplitude_angle: f64,
-        angular_frequency: f64,
-        phase_lag: f64,
-        contact_radius: f64,
-        gyration_radius: f64,
-        friction: f64,
-        restitution: f64,
-        preload_acceleration: f64,
-        load_acceleration: f64,
+        stroke: Real,
+        amplitude_angle: Real,
+        angular_frequency: Real,
+        phase_lag: Real,
+        contact_radius: Real,
+        gyration_radius: Real,
+        friction: Real,
+        restitution: Real,
+        preload_acceleration: Real,
+        load_acceleration: Real,
     ) -> PyResult<Self> {
-        let hand = Stroke { stroke, amplitude_angle, contact_radius, angular_frequency, phase_lag };
-        let disk = DiskParameters {
-            contact_radius,
-            gyration_radius,
-            friction,
-            restitution,
-            preload_acceleration,
-            load_acceleration,
+        let hand = Stroke {
+            stroke: stroke.0,
+            amplitude_angle: amplitude_angle.0,
+            contact_radius: contact_radius.0,
+            angular_frequency: angular_frequency.0,
+            phase_lag: phase_lag.0,
         };
-        let platform = Platform::from_stroke(hand).map_err(|error| errors::of(py, error))?;
-        build(py, platform.parameters(), disk)
+        let disk = DiskParameters {
+            contact_radius: contact_radius.0,
+            gyration_radius: gyration_radius.0,
+            friction: friction.0,
+            restitution: restitution.0,
+            preload_acceleration: preload_acceleration.0,
+            load_acceleration: load_acceleration.0,
+        };
+        let platform =
+            Platform::from_stroke(hand).map_err(|error| errors::of_named(py, error, &OF_STROKE))?;
+        build(py, SystemParts { platform: platform.parameters(), disk }, &OF_STROKE)
     }
 
     /// The same system with other parameters.
@@ -239,8 +240,9 @@ impl System {
     /// -------
     /// System
     #[pyo3(signature = (*, torque, mass))]
-    fn with_load_torque(&self, py: Python<'_>, torque: f64, mass: f64) -> PyResult<Self> {
-        self.0.with_load_torque(torque, mass).map(Self).map_err(|error| errors::of(py, error))
+    fn with_load_torque(&self, py: Python<'_>, torque: Real, mass: Real) -> PyResult<Self> {
+        let loaded = self.0.with_load_torque(torque.0, mass.0);
+        loaded.map(Self).map_err(|error| errors::of_named(py, error, &OF_LOAD))
     }
 
     /// Amplitude A of the platform's height (m).
@@ -353,17 +355,9 @@ impl System {
     /// Returns
     /// -------
     /// System
-    ///
-    /// Examples
-    /// --------
-    /// >>> import bouncing_disk as bd
-    /// >>> motor = bd.System.motor()
-    /// >>> bd.System.from_dict(motor.to_dict()) == motor
-    /// True
     #[staticmethod]
-    fn from_dict<'py>(py: Python<'py>, parameters: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
-        let arguments = system_dict::arguments(parameters)?;
-        py.get_type::<Self>().call((), Some(&arguments))
+    fn from_dict(py: Python<'_>, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
+        build(py, system_dict::parts(parameters)?, &OF_PARTS)
     }
 
     /// The parameters as JSON, which the Rust library reads as well.
@@ -386,8 +380,8 @@ impl System {
     /// -------
     /// System
     #[staticmethod]
-    fn from_json<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
-        Self::from_dict(py, &text::from_json(py, json)?)
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        build(py, json.read(py)?, &OF_PARTS)
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {

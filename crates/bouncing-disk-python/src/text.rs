@@ -4,7 +4,9 @@ use bouncing_disk::core::numerics::digest::Digest;
 use pyo3::PyTypeInfo;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{PyDict, PyString, PyType};
+
+use crate::errors;
 
 /// The call that makes an object: `Name(one=1.0, other=2.0)`.
 pub(crate) fn call(name: &str, arguments: &Bound<'_, PyDict>) -> PyResult<String> {
@@ -31,19 +33,39 @@ pub(crate) fn to_json(dictionary: &Bound<'_, PyDict>) -> PyResult<String> {
     dictionary.py().import("json")?.call_method1("dumps", (dictionary,))?.extract()
 }
 
-/// The dictionary of a text.
-pub(crate) fn from_json<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyDict>> {
-    Ok(py.import("json")?.call_method1("loads", (json,))?.cast_into()?)
+/// A text that is to be read. What is no `str` is a type error.
+pub(crate) struct Json(String);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Json {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let text = object.cast::<PyString>()?;
+        match text.to_cow() {
+            Ok(text) => Ok(Self(text.into_owned())),
+            Err(error) => {
+                let position = error.value(object.py()).getattr("start")?.extract()?;
+                Err(errors::no_unicode(object.py(), position))
+            }
+        }
+    }
+}
+
+impl Json {
+    /// The text.
+    pub(crate) fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// What the library has stored; its checks are those of a value that is made.
+    pub(crate) fn read<T: serde::de::DeserializeOwned>(&self, py: Python<'_>) -> PyResult<T> {
+        serde_json::from_str(&self.0).map_err(|error| errors::unreadable(py, &error))
+    }
 }
 
 /// What the library stores, as JSON.
 pub(crate) fn stored<T: serde::Serialize>(value: &T) -> PyResult<String> {
     serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
-}
-
-/// What the library has stored; its checks are those of a value that is made.
-pub(crate) fn restored<T: serde::de::DeserializeOwned>(json: &str) -> PyResult<T> {
-    serde_json::from_str(json).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// What pickles an object of a class with `from_json`.

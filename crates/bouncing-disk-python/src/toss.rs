@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use crate::arguments::{Count, ProgressCallable};
 use crate::chatter::{ChatterCut, policy};
 use crate::periodic_orbit::complex;
+use crate::real::Real;
 use crate::start::Start;
 use crate::system::System;
 use crate::{long_call, results};
@@ -82,7 +83,7 @@ pub(crate) fn single_toss<'py>(
     initial_spin: &str,
 ) -> PyResult<Bound<'py, PyAny>> {
     let initial = self::initial_spin(initial_spin)?;
-    let toss = long_call::short(py, || bouncing_disk::single_toss(&system.get().0, initial))?;
+    let toss = long_call::short(py, &[], || bouncing_disk::single_toss(&system.get().0, initial))?;
     performance(py, &toss)
 }
 
@@ -141,8 +142,8 @@ fn class(class: &OrbitClass) -> Class {
 /// 'chattering'
 #[pyfunction]
 #[pyo3(signature = (
-    system, *, phase=0.0, angular_speed=None, gap=None, relative_velocity=None, transient_impacts=Count::Fits(4000),
-    examined_impacts=Count::Fits(1024), longest_period=Count::Fits(128), tolerance=1e-9, chatter=None,
+    system, *, phase=Real(0.0), angular_speed=None, gap=None, relative_velocity=None, transient_impacts=Count::Fits(4000),
+    examined_impacts=Count::Fits(1024), longest_period=Count::Fits(128), tolerance=Real(1e-9), chatter=None,
     progress=ProgressCallable(None)
 ), text_signature = "(system, *, phase=0.0, angular_speed=None, gap=None, relative_velocity=None, \
                      transient_impacts=4000, examined_impacts=1024, longest_period=128, tolerance=1e-09, \
@@ -151,14 +152,14 @@ fn class(class: &OrbitClass) -> Class {
 pub(crate) fn multi_toss<'py>(
     py: Python<'py>,
     system: &Bound<'py, System>,
-    phase: f64,
-    angular_speed: Option<f64>,
-    gap: Option<f64>,
-    relative_velocity: Option<f64>,
+    phase: Real,
+    angular_speed: Option<Real>,
+    gap: Option<Real>,
+    relative_velocity: Option<Real>,
     transient_impacts: Count,
     examined_impacts: Count,
     longest_period: Count,
-    tolerance: f64,
+    tolerance: Real,
     chatter: Option<&Bound<'py, ChatterCut>>,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -168,10 +169,10 @@ pub(crate) fn multi_toss<'py>(
         transient_impacts: transient_impacts.usize(py, "transient_impacts")?,
         examined_impacts: examined_impacts.usize(py, "examined_impacts")?,
         longest_period: longest_period.usize(py, "longest_period")?,
-        tolerance,
+        tolerance: tolerance.0,
     };
-    let start = Start { phase, angular_speed, gap, relative_velocity };
-    let orbit: TossOrbit = long_call::run(py, progress.0, |observer| {
+    let start = Start::new(phase, angular_speed, gap, relative_velocity);
+    let orbit: TossOrbit = long_call::run_named(py, progress.0, &start.names(), |observer| {
         multi_toss_observed(model, start.condition(&model)?, settings, observer)
     })?;
     let (kind, period, platform_periods, long_flights, multipliers, exponent) = class(&orbit.class);

@@ -10,8 +10,10 @@ use pyo3::prelude::*;
 use crate::arguments::{Count, ProgressCallable};
 use crate::chatter::{ChatterCut, policy};
 use crate::diagram::room_for;
+use crate::real::{Real, optional};
 use crate::start::Start;
 use crate::system::System;
+use crate::text::Json;
 use crate::toss::{energy, initial_spin};
 use crate::{errors, long_call, results, text};
 
@@ -94,6 +96,11 @@ impl Trajectory {
     /// -------
     /// TrajectorySamples
     ///
+    /// Raises
+    /// ------
+    /// ComputationError
+    ///     There are no events: the disk stays on its platform for ever, and the trajectory has no duration.
+    ///
     /// Examples
     /// --------
     /// >>> import bouncing_disk as bd
@@ -106,6 +113,9 @@ impl Trajectory {
         let count = count.at_most(py, "count", MOST_SAMPLES, range)?;
         if count < 2 {
             return Err(errors::out_of_range(py, "count", count as f64, range));
+        }
+        if self.motion.records().is_empty() {
+            return Err(errors::no_events(py));
         }
         let scales = self.system.scales();
         let (numbers, modes) = long_call::run(py, None, |observer| {
@@ -236,8 +246,8 @@ impl Trajectory {
     /// -------
     /// Trajectory
     #[staticmethod]
-    fn from_json(json: &str) -> PyResult<Self> {
-        text::restored(json).map(|(system, motion)| Self { system, motion })
+    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
+        json.read(py).map(|(system, motion)| Self { system, motion })
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<text::Reduced<'py>> {
@@ -269,7 +279,7 @@ pub(crate) fn toss_trajectory(
     initial_spin: &str,
 ) -> PyResult<Trajectory> {
     let (system, initial) = (system.get().0, self::initial_spin(initial_spin)?);
-    let motion = long_call::short(py, || toss_motion(&system, initial))?;
+    let motion = long_call::short(py, &[], || toss_motion(&system, initial))?;
     Ok(Trajectory { system, motion })
 }
 
@@ -310,20 +320,20 @@ pub(crate) fn toss_trajectory(
 /// 100
 #[pyfunction]
 #[pyo3(signature = (
-    system, *, phase=0.0, angular_speed=None, gap=None, relative_velocity=None, events=Count::Fits(1000),
-    duration=None, chatter=None, progress=ProgressCallable(None)
+    system, *, phase=Real(0.0), angular_speed=None, gap=None, relative_velocity=None,
+    events=Count::Fits(1000), duration=None, chatter=None, progress=ProgressCallable(None)
 ), text_signature = "(system, *, phase=0.0, angular_speed=None, gap=None, relative_velocity=None, events=1000, \
                      duration=None, chatter=None, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn simulate(
     py: Python<'_>,
     system: &Bound<'_, System>,
-    phase: f64,
-    angular_speed: Option<f64>,
-    gap: Option<f64>,
-    relative_velocity: Option<f64>,
+    phase: Real,
+    angular_speed: Option<Real>,
+    gap: Option<Real>,
+    relative_velocity: Option<Real>,
     events: Count,
-    duration: Option<f64>,
+    duration: Option<Real>,
     chatter: Option<&Bound<'_, ChatterCut>>,
     progress: ProgressCallable,
 ) -> PyResult<Trajectory> {
@@ -332,15 +342,16 @@ pub(crate) fn simulate(
     if most == 0 {
         return Err(errors::out_of_range(py, "events", 0.0, range));
     }
+    let duration = optional(duration);
     if let Some(duration) = duration
         && !(duration > 0.0 && duration.is_finite())
     {
         return Err(errors::out_of_range(py, "duration", duration, "(0, inf) (s)"));
     }
     let system = system.get().0;
-    let start = Start { phase, angular_speed, gap, relative_velocity };
+    let start = Start::new(phase, angular_speed, gap, relative_velocity);
     let policy = policy(chatter);
-    let motion = long_call::run(py, progress.0, |observer| {
+    let motion = long_call::run_named(py, progress.0, &start.names(), |observer| {
         let mut engine = Engine::new(system, start.condition(&system)?, policy)?;
         let (scales, begun) = (system.scales(), engine.time());
         let watch = Watch::begin(observer, 0, most)?;

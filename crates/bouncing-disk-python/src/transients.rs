@@ -12,6 +12,8 @@ use pyo3::prelude::*;
 use crate::arguments::{Count, ProgressCallable, common_length, numbers};
 use crate::chatter::{ChatterCut, policy};
 use crate::diagram::room_for;
+use crate::names::{Name, derived, name};
+use crate::real::Real;
 use crate::system::System;
 use crate::{long_call, results};
 
@@ -43,11 +45,24 @@ impl Matrices {
     }
 }
 
+/// What the library makes of a duration (s).
+fn names(duration: f64) -> [Name; 2] {
+    let periods = name("duration in periods of the platform", &["duration"]).given(duration);
+    [
+        periods.legal("(0, 2^53] (periods of the platform)"),
+        derived("duration of an interval", &["duration", "intervals"]),
+    ]
+}
+
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
-/// A mean with its deviation and standard error.
-fn spread(spread: &Spread) -> (f64, f64, f64) {
-    (spread.mean, spread.deviation, spread.standard_error)
+/// A mean with its deviation and standard error, which one value alone does not have.
+fn spread(spread: &Spread, members: usize) -> (f64, f64, f64) {
+    if members > 1 {
+        (spread.mean, spread.deviation, spread.standard_error)
+    } else {
+        (spread.mean, f64::NAN, f64::NAN)
+    }
 }
 
 /// The speed of a motor from rest, averaged over equal intervals.
@@ -82,7 +97,7 @@ fn spread(spread: &Spread) -> (f64, f64, f64) {
 /// (10,)
 #[pyfunction]
 #[pyo3(signature = (
-    system, *, phase=0.0, duration=3.0, intervals=Count::Fits(600), relaunch_perturbation=1e-3, seed=Count::Fits(1),
+    system, *, phase=Real(0.0), duration=Real(3.0), intervals=Count::Fits(600), relaunch_perturbation=Real(1e-3), seed=Count::Fits(1),
     chatter=None, progress=ProgressCallable(None)
 ), text_signature = "(system, *, phase=0.0, duration=3.0, intervals=600, relaunch_perturbation=0.001, seed=1, \
                      chatter=None, progress=None)")]
@@ -90,20 +105,25 @@ fn spread(spread: &Spread) -> (f64, f64, f64) {
 pub(crate) fn transient<'py>(
     py: Python<'py>,
     system: &Bound<'py, System>,
-    phase: f64,
-    duration: f64,
+    phase: Real,
+    duration: Real,
     intervals: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     chatter: Option<&Bound<'py, ChatterCut>>,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (intervals, seed) = (intervals.usize(py, "intervals")?, seed.u64(py, "seed")?);
-    let settings =
-        TransientSettings { duration, intervals, relaunch_perturbation, seed, policy: policy(chatter) };
+    let settings = TransientSettings {
+        duration: duration.0,
+        intervals,
+        relaunch_perturbation: relaunch_perturbation.0,
+        seed,
+        policy: policy(chatter),
+    };
     let system = system.get().0;
-    let curve = long_call::run(py, progress.0, |observer| {
-        transient_observed(&system, Phase::new(phase)?, &settings, observer)
+    let curve = long_call::run_named(py, progress.0, &names(duration.0), |observer| {
+        transient_observed(&system, Phase::new(phase.0)?, &settings, observer)
     })?;
     let (times, speeds) = (results::array(py, curve.times), results::array(py, curve.speeds));
     results::make(py, "SpeedCurve", (times, speeds, curve.impacts, curve.separations))
@@ -136,7 +156,7 @@ pub(crate) fn transient<'py>(
 /// (10, 3)
 #[pyfunction]
 #[pyo3(signature = (
-    systems, *, phases=None, seeds=None, duration=3.0, intervals=Count::Fits(600), relaunch_perturbation=1e-3,
+    systems, *, phases=None, seeds=None, duration=Real(3.0), intervals=Count::Fits(600), relaunch_perturbation=Real(1e-3),
     chatter=None, progress=ProgressCallable(None)
 ), text_signature = "(systems, *, phases=None, seeds=None, duration=3.0, intervals=600, relaunch_perturbation=0.001, \
                      chatter=None, progress=None)")]
@@ -146,9 +166,9 @@ pub(crate) fn transients<'py>(
     systems: &Bound<'py, PyAny>,
     phases: Option<&Bound<'py, PyAny>>,
     seeds: Option<&Bound<'py, PyAny>>,
-    duration: f64,
+    duration: Real,
     intervals: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     chatter: Option<&Bound<'py, ChatterCut>>,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -187,8 +207,10 @@ pub(crate) fn transients<'py>(
     };
     let members =
         common_length(&[("systems", many_systems), ("phases", phases.len()), ("seeds", many_seeds)])?;
+    let (duration, relaunch_perturbation) = (duration.0, relaunch_perturbation.0);
     let policy = policy(chatter);
-    let matrices = long_call::run(py, progress.0, |observer| {
+    let names = [&names(duration)[..], &[name("phase", &["phases"])]].concat();
+    let matrices = long_call::run_named(py, progress.0, &names, |observer| {
         let mut all = room_for(members)?;
         for member in 0..members {
             let system = systems[if many_systems.is_some() { member } else { 0 }];
@@ -230,7 +252,7 @@ pub(crate) fn transients<'py>(
 /// ((50, 4), (4,))
 #[pyfunction]
 #[pyo3(signature = (
-    system, *, members, duration=3.0, intervals=Count::Fits(600), relaunch_perturbation=1e-3, seed=Count::Fits(1),
+    system, *, members, duration=Real(3.0), intervals=Count::Fits(600), relaunch_perturbation=Real(1e-3), seed=Count::Fits(1),
     chatter=None, progress=ProgressCallable(None)
 ), text_signature = "(system, *, members, duration=3.0, intervals=600, relaunch_perturbation=0.001, seed=1, \
                      chatter=None, progress=None)")]
@@ -239,19 +261,24 @@ pub(crate) fn ensemble<'py>(
     py: Python<'py>,
     system: &Bound<'py, System>,
     members: Count,
-    duration: f64,
+    duration: Real,
     intervals: Count,
-    relaunch_perturbation: f64,
+    relaunch_perturbation: Real,
     seed: Count,
     chatter: Option<&Bound<'py, ChatterCut>>,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (members, intervals) = (members.usize(py, "members")?, intervals.usize(py, "intervals")?);
     let seed = seed.u64(py, "seed")?;
-    let settings =
-        TransientSettings { duration, intervals, relaunch_perturbation, seed, policy: policy(chatter) };
+    let settings = TransientSettings {
+        duration: duration.0,
+        intervals,
+        relaunch_perturbation: relaunch_perturbation.0,
+        seed,
+        policy: policy(chatter),
+    };
     let system = system.get().0;
-    let (runs, matrices) = long_call::run(py, progress.0, |observer| {
+    let (runs, matrices) = long_call::run_named(py, progress.0, &names(duration.0), |observer| {
         let runs = ensemble_observed(&system, &settings, members, observer)?;
         let matrices = Matrices::of(&runs.curves, intervals)?;
         Ok((runs, matrices))
@@ -266,9 +293,9 @@ pub(crate) fn ensemble<'py>(
         fits(|fit| fit.steady_speed),
         fits(|fit| fit.time_constant),
         fits(|fit| fit.residual),
-        results::make(py, "Spread", spread(&runs.steady_speed))?,
-        results::make(py, "Spread", spread(&runs.time_constant))?,
-        results::make(py, "Spread", spread(&runs.stall_acceleration))?,
+        results::make(py, "Spread", spread(&runs.steady_speed, members))?,
+        results::make(py, "Spread", spread(&runs.time_constant, members))?,
+        results::make(py, "Spread", spread(&runs.stall_acceleration, members))?,
     );
     results::make(py, "TransientEnsemble", fields)
 }

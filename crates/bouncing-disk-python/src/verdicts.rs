@@ -6,7 +6,9 @@ use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, Starts};
 use crate::diagram::room_for;
+use crate::names::name;
 use crate::periodic_orbit::complex;
+use crate::real::Real;
 use crate::{long_call, results};
 
 /// The numbers of one verdict; what it does not have is 0 or NaN.
@@ -133,7 +135,7 @@ fn numbers(verdict: &Verdict) -> Numbers {
 #[pyfunction]
 #[pyo3(signature = (
     *, axial_forcing, restitution, impact_phase, normalised_speed, transient=Count::Fits(2000),
-    impacts=Count::Fits(100_000), longest_period=Count::Fits(256), tolerance=1e-7, progress=ProgressCallable(None)
+    impacts=Count::Fits(100_000), longest_period=Count::Fits(256), tolerance=Real(1e-7), progress=ProgressCallable(None)
 ), text_signature = "(*, axial_forcing, restitution, impact_phase, normalised_speed, transient=2000, impacts=100000, \
                      longest_period=256, tolerance=1e-07, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
@@ -146,7 +148,7 @@ pub(crate) fn verdicts<'py>(
     transient: Count,
     impacts: Count,
     longest_period: Count,
-    tolerance: f64,
+    tolerance: Real,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let starts = Starts::new(axial_forcing, restitution, impact_phase, normalised_speed)?;
@@ -154,9 +156,10 @@ pub(crate) fn verdicts<'py>(
         transient: transient.u64(py, "transient")?,
         impacts: impacts.u64(py, "impacts")?,
         longest_period: longest_period.usize(py, "longest_period")?,
-        tolerance,
+        tolerance: tolerance.0,
     };
-    let all = long_call::run(py, progress.0, |observer| {
+    let names = [name("longest period", &["longest_period"])];
+    let all = long_call::run_named(py, progress.0, &names, |observer| {
         let verdicts = verdicts_observed(&starts.states()?, settings, observer)?;
         let mut all = room_for(verdicts.len())?;
         all.extend(verdicts.iter().map(numbers));

@@ -43,6 +43,15 @@ ENDLESS = {
     "settled orbit": "bd.ImpactMap(axial_forcing=0.56, restitution=0.5).settled_orbit("
     "impact_phase=1.2, normalised_speed=1.3, transient=2**32 - 1)",
     "transients": "bd.transients(bd.System.motor(), seeds=range(100), duration=1e5)",
+    "spectra": "bd.lyapunov_spectra(axial_forcing=0.56, impacts=10**12, **STARTS)",
+    "manifold": "bd.manifold(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), SADDLE, arclength=1e6,"
+    " max_points=10**7, chord=1e-6, turn=0.001, max_generations=10**4)",
+    "motor map": "bd.motor_map(MOTOR, axes={'amplitude': np.linspace(1e-8, 2e-8, 50)}, relative_error=1e-6,"
+    " most_impacts=10**15)",
+    "sensitivities": "bd.local_sensitivities(MOTOR, relative_error=1e-6, most_impacts=10**15)",
+    "sobol": "bd.sobol_indices(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
+    "effects": "bd.elementary_effects(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
+    "crisis": "bd.crisis(SADDLE, restitution=0.5, axial_forcing=(0.55, 0.56), samples=10**6, impacts=10**5)",
     "parameter fit": "bd.fit_parameters(MOTOR, transients=[(TIMES, RISE, 9.8)], ranges={'friction': (0.05, 0.2),"
     " 'restitution': (0.3, 0.7)}, members=4096)",
 }
@@ -58,6 +67,8 @@ MOTOR = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, 
                  gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
 TIMES = np.linspace(0.01, 4.0, 80)
 RISE = 22.0 * (1.0 - np.exp(-TIMES / 0.9)) + 0.3 * np.sin(40.0 * TIMES)
+SADDLE = bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=1,
+                            max_platform_periods=1)[-1]
 sent = []
 
 def send():

@@ -116,3 +116,11 @@ def test_the_best_lag_turns_the_motor_fastest() -> None:
     assert best.good_from_to[0] < best.phase_lag < best.good_from_to[1]
     there = bd.operating_point(MOTOR.replace(phase_lag=best.phase_lag), relative_error=0.05)
     assert there.speed == pytest.approx(best.speed, rel=0.2)
+
+
+def test_one_transient_alone_has_no_error() -> None:
+    alone = bd.ensemble(bd.System.motor(), members=1, duration=0.5, intervals=50)
+    for spread in (alone.steady_speed, alone.time_constant, alone.stall_acceleration):
+        assert np.isfinite(spread.mean) and np.isnan(spread.deviation) and np.isnan(spread.standard_error)
+    both = bd.ensemble(bd.System.motor(), members=2, duration=0.5, intervals=50)
+    assert both.steady_speed.standard_error > 0.0

@@ -34,12 +34,29 @@ def orbit() -> bd.PeriodicOrbit:
     return found
 
 
+def saddle() -> bd.PeriodicOrbit:
+    orbits = bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)
+    return next(orbit for orbit in orbits if abs(orbit.multipliers[0]) > 1.0)
+
+
+def edge_crisis() -> bd.Crisis:
+    bouncing = bd.ImpactMap(axial_forcing=0.56, restitution=0.5)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=3, max_platform_periods=3)
+    inside = next(
+        orbit
+        for orbit in orbits
+        if orbit.period == orbit.platform_periods == 3 and orbit.multipliers.real.min() > 0.0
+    )
+    return bd.crisis(inside, restitution=0.5, axial_forcing=(0.559, 0.562))
+
+
 def everything() -> dict[str, Any]:
     """One of each kind of object."""
     found = bd.attractors(MAP, starts=64, impacts=1000)
     branch = bd.continued(MAP, orbit(), parameter_range=(0.1, 0.6))
     runs = bd.ensemble(bd.System.motor(), members=6, duration=4.0, intervals=80)
     times = runs.times[:, 0]
+    crisis = edge_crisis()
     return {
         "System": bd.System.pizza_toss(),
         "ImpactMap": MAP,
@@ -69,6 +86,16 @@ def everything() -> dict[str, Any]:
         "OperatingPoint": bd.operating_point(MOTOR, relative_error=0.1),
         "TorqueSpeedCurve": bd.torque_speed_curve(MOTOR, load_torques=[0.0, 1.0], relative_error=0.1),
         "MotorReport": MOTOR.report(),
+        "LyapunovSpectra": bd.lyapunov_spectra(axial_forcing=[0.2, 0.56], impacts=100, **STARTS),
+        "Manifold": bd.manifold(MAP, saddle(), arclength=2.0),
+        "Crisis": crisis,
+        "CrisisLives": crisis.lives(beyond=[1e-5, 1e-3], orbits=20, impacts=1000),
+        "MotorMap": bd.motor_map(MOTOR, axes={"friction": [0.1, 0.2]}, relative_error=0.1),
+        "LocalSensitivities": bd.local_sensitivities(MOTOR, relative_error=0.1),
+        "SobolIndices": bd.sobol_indices(MOTOR, ranges={"friction": (0.1, 0.2)}, rows=8, relative_error=0.1),
+        "ElementaryEffects": bd.elementary_effects(
+            MOTOR, ranges={"friction": (0.1, 0.2)}, rows=8, relative_error=0.1
+        ),
     }
 
 
@@ -94,7 +121,7 @@ def test_representations_are_one_line(name: str) -> None:
     assert name in text
     if name != "MotorReport":
         assert "\n" not in text
-        assert len(text) < 1200
+        assert len(text) < 1500
 
 
 @pytest.mark.parametrize(
@@ -105,19 +132,21 @@ def test_parameters_are_shown_as_the_call_that_makes_them(one: Any) -> None:
     assert hash(eval(repr(one), vars(bd).copy())) == hash(one)
 
 
-@pytest.mark.parametrize("one", [bd.System.motor(), MAP, MOTOR], ids=lambda one: type(one).__name__)
+@pytest.mark.parametrize(
+    "one", [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()], ids=lambda one: type(one).__name__
+)
 def test_parameters_survive_dictionaries_and_json(one: Any) -> None:
     assert type(one).from_dict(one.to_dict()) == one
     assert type(one).from_json(one.to_json()) == one
     assert type(one).from_dict(json.loads(one.to_json())) == one
 
 
-@pytest.mark.parametrize("name", ["PeriodicOrbit", "Attractors", "Branch", "Trajectory"])
+@pytest.mark.parametrize("name", ["PeriodicOrbit", "Attractors", "Branch", "Trajectory", "Crisis"])
 def test_stored_objects_survive_json(name: str) -> None:
     one = EVERYTHING[name]
     assert type(one).from_json(one.to_json()) == one
     for text in ["", "{}", "[]", "null", "1", one.to_json()[:-2], one.to_json().replace("0.", "x.")]:
-        with pytest.raises(ValueError):
+        with pytest.raises(bd.InvalidError):
             type(one).from_json(text)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import bouncing_disk as bd
+from good_calls import MOTOR
 
 DIGESTS = json.loads((Path(__file__).parent / "digests.json").read_text())
 
@@ -104,6 +105,73 @@ def motors() -> Digest:
     return digest
 
 
+def spectra() -> Digest:
+    found = bd.lyapunov_spectra(
+        axial_forcing=forcings(60, 0.2, 0.01),
+        restitution=0.5,
+        impact_phase=1.2,
+        normalised_speed=1.3,
+        impacts=5000,
+    )
+    digest = Digest()
+    for k, name in enumerate(found.names()):
+        if name == "exponents":
+            digest.numbers(found.largest[k], found.standard_error[k], found.second[k], found.exact_sum[k])
+        else:
+            digest.numbers(found.impacts[k] if name == "rested" else found.phase[k])
+    return digest
+
+
+def manifolds() -> Digest:
+    bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
+    digest = Digest()
+    for orbit in bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1):
+        if abs(orbit.multipliers[0]) <= 1.0:
+            continue
+        for kind in ("unstable", "stable"):
+            found = bd.manifold(bouncing, orbit, kind=kind, arclength=10.0, max_points=20_000)
+            digest.numbers(found.multiplier)
+            digest.bytes(
+                np.stack([found.impact_phase, found.axial_impact_velocity], axis=1).astype("<f8").tobytes()
+            )
+    return digest
+
+
+def saddle() -> bd.PeriodicOrbit:
+    bouncing = bd.ImpactMap(axial_forcing=0.56, restitution=0.5)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=3, max_platform_periods=3)
+    return next(
+        orbit
+        for orbit in orbits
+        if orbit.period == orbit.platform_periods == 3
+        and not orbit.multipliers.imag.any()
+        and orbit.multipliers.real.min() > 0.0
+    )
+
+
+def crisis() -> Digest:
+    found = bd.crisis(saddle(), restitution=0.5, axial_forcing=(0.559, 0.562))
+    digest = Digest()
+    digest.numbers(found.axial_forcing, found.forcing_error, found.share, found.curvature)
+    digest.numbers(*found.lives(beyond=[1e-4, 1e-3], orbits=50, impacts=20_000).impacts)
+    return digest
+
+
+def operations() -> Digest:
+    axes = {"friction": [0.1, 0.2], "amplitude": [1e-8, 1.1e-8]}
+    digest = Digest()
+    digest.numbers(*bd.motor_map(MOTOR, axes=axes, relative_error=0.05).speed.ravel())
+    digest.numbers(*bd.local_sensitivities(MOTOR, parameters=["friction"], relative_error=0.05).derivative)
+    ranges = {"friction": (0.05, 0.2), "phase_lag": (-0.2, 0.2)}
+    digest.numbers(
+        *bd.sobol_indices(MOTOR, ranges=ranges, rows=8, sampling_seed=3, relative_error=0.05).total
+    )
+    digest.numbers(
+        *bd.elementary_effects(MOTOR, ranges=ranges, rows=8, sampling_seed=3, relative_error=0.05).mean
+    )
+    return digest
+
+
 CALLS = {
     "diagram": lambda: diagram(None),
     "diagram with the paper's cut": lambda: diagram(bd.ChatterCut.paper()),
@@ -111,6 +179,10 @@ CALLS = {
     "verdicts": verdicts,
     "tosses": tosses,
     "motors": motors,
+    "spectra": spectra,
+    "manifolds": manifolds,
+    "crisis": crisis,
+    "operations": operations,
 }
 
 

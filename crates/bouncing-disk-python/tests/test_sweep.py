@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pickle
+from concurrent import futures
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -116,11 +118,14 @@ def test_a_chunk_size_is_an_integer(option: Any) -> None:
         serial(functions.product, **option)
 
 
-def test_what_is_no_function_or_client_is_refused() -> None:
+def test_what_is_no_function_or_client_is_refused(tmp_path: Path) -> None:
     with pytest.raises(TypeError, match="callable"):
         serial(3.0)
-    with pytest.raises(TypeError, match="client"):
-        bd.sweep(functions.product, GRID, 4)
+    with futures.ThreadPoolExecutor(1) as threads:
+        for client in (4, "parallel", b"serial", np.array([1]), threads, object):
+            with pytest.raises(TypeError, match="client must be"):
+                bd.sweep(functions.product, GRID, client, folder=tmp_path / "x")
+    assert not list(tmp_path.iterdir())
     with pytest.raises(bd.OutOfRangeError, match="max_failures"):
         serial(functions.product, max_failures=-1)
 
@@ -179,12 +184,6 @@ def test_what_does_not_fit_is_refused_by_name() -> None:
     ]:
         with pytest.raises(bd.SweepFunctionError, match=message):
             serial(function, chunk_size=12)
-
-
-@pytest.mark.parametrize("chunk_size", [1, 3, 12])
-def test_one_type_for_all_points(chunk_size: int) -> None:
-    with pytest.raises(bd.SweepFunctionError, match="int64.*float64|float64.*int64"):
-        serial(functions.type_by_value, pointwise=True, chunk_size=chunk_size)
 
 
 def test_progress_counts_and_stops() -> None:

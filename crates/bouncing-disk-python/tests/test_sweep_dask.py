@@ -134,6 +134,55 @@ def test_lambdas_are_sent_and_what_cannot_be_is_refused(two: Any) -> None:
         bd.sweep(lambda a: (lock, a)[1], grid, two)
 
 
+def other_versions() -> None:
+    """Has a worker report another NumPy than it has, as a badly installed node would."""
+    from importlib import metadata
+
+    from bouncing_disk._sweep import identity
+
+    own = metadata.version
+    setattr(metadata, "version", lambda package: "1.0.0" if package == "numpy" else own(package))
+    identity._KNOWN["numpy"] = "1.0.0"
+
+
+def test_workers_with_other_versions_are_refused_before_the_work(tmp_path: Path) -> None:
+    log, folder = tmp_path / "log", tmp_path / "sweep"
+    with cluster(2) as processes, distributed.Client(processes) as client:
+        first, second = client.scheduler_info()["workers"]
+        client.run(other_versions, workers=[second])
+        with pytest.raises(bd.SweepClusterError, match="numpy 1.0.0 instead of") as refused:
+            swept(client, log, folder=folder)
+        assert refused.value.kind == "versions" and list(refused.value.workers) == [second]
+        assert refused.value.workers[second]["numpy"] == "1.0.0"
+        assert not log.exists() and not list(folder.glob("chunk-*"))
+    # The folder serves on.
+    assert swept("serial", log, folder=folder).values.shape == (12, 4)
+
+
+def test_a_worker_with_other_versions_that_joins_later_is_noticed(tmp_path: Path) -> None:
+    with cluster(1) as processes, distributed.Client(processes) as client:
+
+        def spoil(done: int, total: int) -> None:
+            if done == 5:
+                client.run(other_versions)
+
+        with pytest.raises(bd.SweepClusterError, match="joined later.*numpy 1.0.0"):
+            swept(client, tmp_path / "log", 0.02, folder=tmp_path / "sweep", progress=spoil)
+    assert len(list((tmp_path / "sweep").glob("chunk-*.npz"))) >= 5
+
+
+def test_clients_that_cannot_be_used_are_refused_at_once(tmp_path: Path) -> None:
+    with cluster(1) as processes:
+        client = distributed.Client(processes)
+        with pytest.raises(TypeError, match=r"give Client\(cluster\)"):
+            swept(processes, tmp_path / "log")
+        client.close()
+        with pytest.raises(bd.SweepClusterError, match="closed") as refused:
+            swept(client, tmp_path / "log", folder=tmp_path / "x")
+        assert refused.value.kind == "closed"
+    assert not list(tmp_path.iterdir())
+
+
 def test_an_interrupt_leaves_the_cluster_and_the_chunks(two: Any, tmp_path: Path) -> None:
     def interrupt(done: int, total: int) -> None:
         if done == 5:

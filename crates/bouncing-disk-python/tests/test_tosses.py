@@ -135,3 +135,12 @@ def test_a_branch_is_continued_through_its_doubling() -> None:
         branch.orbit(len(branch))
     with pytest.raises(bd.InvalidError, match="1 of 1 is not a doubling"):
         branch.switched(index=1, parameter_range=(0.1, 0.6))
+
+
+def test_a_trajectory_without_events_says_that_it_has_no_samples() -> None:
+    resting = bd.simulate(bd.System.pizza_toss().replace(amplitude=0.0, twist_amplitude=0.0), duration=1.0)
+    assert len(resting) == 0 and resting.start_time == resting.end_time
+    assert resting.events().names() == []
+    with pytest.raises(bd.ComputationError, match="no events") as refused:
+        resting.samples(count=10)
+    assert refused.value.kind == "no-events"

@@ -29,11 +29,11 @@ class OutOfRangeError(BouncingDiskError, ValueError):
     Attributes
     ----------
     field : str
-        The name of the argument.
+        The name of the argument, or a path into it, such as ``disk.restitution`` in a dictionary.
     value : float
-        The value that was given.
+        The value that was given; of a list that is too short or too long its length.
     range : str
-        The legal range, in words.
+        The legal range, in words; where it is in other units than the value, they stand there.
 
     Examples
     --------
@@ -78,9 +78,20 @@ class InvalidError(BouncingDiskError, ValueError):
     Attributes
     ----------
     kind : str
-        What is wrong, such as ``"not-given"`` or ``"both-given"``.
+        What is wrong, such as ``"not-given"``, ``"both-given"``, ``"text"``, or ``"out-of-range-together"`` for what
+        follows from several arguments, each of them legal by itself.
     details : dict
-        Its names and numbers.
+        Its names and numbers: of a text its ``line`` and ``column``, of what follows from several arguments the
+        ``quantity``, its ``value`` and ``range``, and the ``arguments``.
+
+    Examples
+    --------
+    >>> import bouncing_disk as bd
+    >>> try:
+    ...     bd.System.pizza_toss().replace(amplitude=1e300)
+    ... except bd.InvalidError as error:
+    ...     print(error.details["quantity"], "follows from", error.details["arguments"])
+    peak_acceleration follows from amplitude, angular_frequency, preload_acceleration
     """
 
     def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:

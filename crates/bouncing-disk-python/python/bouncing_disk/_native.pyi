@@ -1,6 +1,6 @@
 """The types of the compiled module; what its functions and classes do is in their docstrings."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex, TypeAlias, final
 
 import numpy as np
@@ -11,14 +11,21 @@ from bouncing_disk._results import (
     Basins,
     BestPhaseLag,
     Bifurcation,
+    CrisisLives,
     DoublingCascade,
+    ElementaryEffects,
     Energy,
     EventTable,
     ExponentialFit,
+    LocalSensitivities,
+    LyapunovSpectra,
+    Manifold,
+    MotorMap,
     MotorReport,
     OperatingPoint,
     OrbitDiagram,
     ParameterFit,
+    SobolIndices,
     SpeedCurve,
     SpeedCurves,
     StallLoad,
@@ -39,6 +46,7 @@ __all__ = [
     "Attractors",
     "Branch",
     "ChatterCut",
+    "Crisis",
     "ImpactMap",
     "Motor",
     "PeriodicOrbit",
@@ -49,13 +57,19 @@ __all__ = [
     "best_phase_lag",
     "best_toss",
     "continued",
+    "crisis",
     "doubling_cascade",
+    "elementary_effects",
     "ensemble",
     "fit_exponential",
     "fit_parameters",
     "fit_transients",
     "iterate_orbits",
+    "local_sensitivities",
     "lyapunov_exponents",
+    "lyapunov_spectra",
+    "manifold",
+    "motor_map",
     "multi_toss",
     "operating_point",
     "orbit_diagram",
@@ -63,6 +77,7 @@ __all__ = [
     "set_threads",
     "simulate",
     "single_toss",
+    "sobol_indices",
     "stall_load",
     "survival_times",
     "threads",
@@ -75,6 +90,7 @@ __all__ = [
 
 _Float: TypeAlias = SupportsFloat | SupportsIndex
 _Int: TypeAlias = SupportsIndex
+_Pair: TypeAlias = tuple[_Float, _Float] | list[float]
 _Progress: TypeAlias = Callable[[int, int], object] | None
 
 UNDECIDED: int
@@ -93,9 +109,9 @@ class Attractors:
         self,
         *,
         phases: _Int = 400,
-        phase_range: tuple[_Float, _Float] = (0.0, 1.0),
+        phase_range: _Pair = (0.0, 1.0),
         speeds: _Int = 300,
-        speed_range: tuple[_Float, _Float] = (0.0, 3.0),
+        speed_range: _Pair = (0.0, 3.0),
         max_impacts: _Int = 2000,
         chatter: ChatterCut | None = None,
         progress: _Progress = None,
@@ -135,7 +151,7 @@ class Branch:
         self,
         *,
         index: _Int,
-        parameter_range: tuple[_Float, _Float],
+        parameter_range: _Pair,
         first_step: _Float = 0.01,
         largest_step: _Float = 0.05,
         max_points: _Int = 10000,
@@ -161,9 +177,55 @@ class ChatterCut:
     @staticmethod
     def paper() -> ChatterCut: ...
     def to_dict(self) -> dict[str, float]: ...
+    @staticmethod
+    def from_dict(parameters: dict[str, float]) -> ChatterCut: ...
+    def to_json(self) -> str: ...
+    @staticmethod
+    def from_json(json: str) -> ChatterCut: ...
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, float]]: ...
+
+@final
+class Crisis:
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def axial_forcing(self) -> float: ...
+    @property
+    def forcing_error(self) -> float: ...
+    @property
+    def bracket(self) -> tuple[float, float]: ...
+    @property
+    def inside(self) -> PeriodicOrbit: ...
+    @property
+    def touched(self) -> PeriodicOrbit: ...
+    @property
+    def impact_phase(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def axial_impact_velocity(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def side(self) -> str: ...
+    @property
+    def share(self) -> float: ...
+    @property
+    def curvature(self) -> float: ...
+    @property
+    def life_exponent(self) -> float | None: ...
+    def lives(
+        self,
+        *,
+        beyond: npt.ArrayLike,
+        orbits: _Int = 1000,
+        impacts: _Int = 100000,
+        progress: _Progress = None,
+    ) -> CrisisLives: ...
+    def to_json(self) -> str: ...
+    @staticmethod
+    def from_json(json: str) -> Crisis: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    def __reduce__(self) -> tuple[Callable[[Any, str], Any], tuple[type[Any], str]]: ...
 
 @final
 class ImpactMap:
@@ -185,6 +247,7 @@ class ImpactMap:
     @staticmethod
     def of_system(system: System) -> ImpactMap: ...
     def step(self, *, impact_phase: _Float, axial_impact_velocity: _Float) -> tuple[float, float]: ...
+    def step_back(self, *, impact_phase: _Float, axial_impact_velocity: _Float) -> tuple[float, float]: ...
     def iterate(
         self,
         *,
@@ -438,9 +501,9 @@ def basins(
     impact_map: ImpactMap,
     *,
     phases: _Int = 400,
-    phase_range: tuple[_Float, _Float] = (0.0, 1.0),
+    phase_range: _Pair = (0.0, 1.0),
     speeds: _Int = 300,
-    speed_range: tuple[_Float, _Float] = (0.0, 3.0),
+    speed_range: _Pair = (0.0, 3.0),
     known_orbits: Iterable[PeriodicOrbit | tuple[PeriodicOrbit, _Float]] | None = None,
     max_impacts: _Int = 2000,
     chatter: ChatterCut | None = None,
@@ -463,9 +526,9 @@ def best_toss(
     preload_acceleration: _Float | None = None,
     initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
     stroke: _Float | None = None,
-    friction: tuple[_Float, _Float] | None = None,
-    angular_frequency: tuple[_Float, _Float] | None = None,
-    phase_lag: tuple[_Float, _Float] | None = None,
+    friction: _Pair | None = None,
+    angular_frequency: _Pair | None = None,
+    phase_lag: _Pair | None = None,
     highest_flight: _Float | None = None,
     objective: Literal["airborne-speed", "efficiency", "turns-per-toss"] = "airborne-speed",
     over_friction: Literal["worst", "mean"] = "worst",
@@ -476,7 +539,7 @@ def continued(
     orbit: PeriodicOrbit,
     *,
     parameter: Literal["axial_forcing", "restitution"] = "axial_forcing",
-    parameter_range: tuple[_Float, _Float],
+    parameter_range: _Pair,
     rising: bool = True,
     first_step: _Float = 0.01,
     largest_step: _Float = 0.05,
@@ -505,7 +568,7 @@ def fit_parameters(
     motor: Motor,
     *,
     transients: Iterable[tuple[npt.ArrayLike, npt.ArrayLike, _Float]],
-    ranges: dict[str, tuple[_Float, _Float]],
+    ranges: Mapping[str, _Pair],
     speed_error: _Float | None = None,
     members: _Int = 64,
     windows: _Int = 6,
@@ -679,3 +742,90 @@ def verdicts(
     tolerance: _Float = 1e-07,
     progress: _Progress = None,
 ) -> Verdicts: ...
+def crisis(
+    inside: PeriodicOrbit,
+    touched: PeriodicOrbit | None = None,
+    *,
+    restitution: _Float,
+    axial_forcing: _Pair,
+    side: Literal["later", "earlier"] = "later",
+    samples: _Int = 2048,
+    impacts: _Int = 200,
+    progress: _Progress = None,
+) -> Crisis: ...
+def elementary_effects(
+    motor: Motor,
+    *,
+    ranges: Mapping[str, _Pair],
+    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
+    rows: _Int = 64,
+    sampling_seed: _Int = 1,
+    relative_error: _Float = 0.01,
+    members: _Int = 16,
+    most_impacts: _Int = 20000000,
+    relaunch_perturbation: _Float = 0.001,
+    seed: _Int = 1,
+    progress: _Progress = None,
+) -> ElementaryEffects: ...
+def local_sensitivities(
+    motor: Motor,
+    *,
+    parameters: Iterable[str] | None = None,
+    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
+    half_range: _Float = 0.2,
+    points: _Int = 24,
+    relative_error: _Float = 0.01,
+    members: _Int = 16,
+    most_impacts: _Int = 20000000,
+    relaunch_perturbation: _Float = 0.001,
+    seed: _Int = 1,
+    progress: _Progress = None,
+) -> LocalSensitivities: ...
+def lyapunov_spectra(
+    *,
+    axial_forcing: npt.ArrayLike,
+    restitution: npt.ArrayLike,
+    impact_phase: npt.ArrayLike,
+    normalised_speed: npt.ArrayLike,
+    transient: _Int = 1000,
+    impacts: _Int = 10000,
+    progress: _Progress = None,
+) -> LyapunovSpectra: ...
+def manifold(
+    impact_map: ImpactMap,
+    orbit: PeriodicOrbit,
+    *,
+    kind: Literal["unstable", "stable"] = "unstable",
+    arclength: _Float,
+    max_points: _Int = 100000,
+    chord: _Float = 0.05,
+    turn: _Float = 0.2,
+    max_generations: _Int = 200,
+    launch_speed: _Float | None = None,
+    progress: _Progress = None,
+) -> Manifold: ...
+def motor_map(
+    motor: Motor,
+    *,
+    axes: Mapping[str, npt.ArrayLike],
+    relative_error: _Float = 0.01,
+    members: _Int = 16,
+    most_impacts: _Int = 20000000,
+    relaunch_perturbation: _Float = 0.001,
+    seed: _Int = 1,
+    progress: _Progress = None,
+) -> MotorMap: ...
+def sobol_indices(
+    motor: Motor,
+    *,
+    ranges: Mapping[str, _Pair],
+    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
+    rows: _Int = 256,
+    sampling_seed: _Int = 1,
+    relative_error: _Float = 0.01,
+    members: _Int = 16,
+    most_impacts: _Int = 20000000,
+    relaunch_perturbation: _Float = 0.001,
+    seed: _Int = 1,
+    progress: _Progress = None,
+) -> SobolIndices: ...

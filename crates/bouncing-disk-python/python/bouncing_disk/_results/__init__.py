@@ -11,12 +11,19 @@ from bouncing_disk._results._dynamics import (
     OrbitDiagram,
     Verdicts,
 )
+from bouncing_disk._results._invariant import CrisisLives, LyapunovSpectra, Manifold
 from bouncing_disk._results._motors import (
     BestPhaseLag,
     MotorReport,
     OperatingPoint,
     StallLoad,
     TorqueSpeedCurve,
+)
+from bouncing_disk._results._sensitivities import (
+    ElementaryEffects,
+    LocalSensitivities,
+    MotorMap,
+    SobolIndices,
 )
 from bouncing_disk._results._tosses import (
     Energy,
@@ -43,17 +50,24 @@ __all__ = [
     "Basins",
     "BestPhaseLag",
     "Bifurcation",
+    "CrisisLives",
     "DoublingCascade",
+    "ElementaryEffects",
     "Energy",
     "EventTable",
     "ExponentialFit",
     "IntervalEstimate",
+    "LocalSensitivities",
+    "LyapunovSpectra",
+    "Manifold",
+    "MotorMap",
     "MotorReport",
     "OperatingPoint",
     "OrbitDiagram",
     "ParameterFit",
     "Result",
     "RiseEstimate",
+    "SobolIndices",
     "SpeedCurve",
     "SpeedCurves",
     "Spread",

@@ -28,6 +28,8 @@ def _same(one: Any, other: Any) -> bool:
         return other != other
     if isinstance(one, (tuple, list)) and type(one) is type(other):
         return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        return list(one) == list(other) and all(_same(one[key], other[key]) for key in one)
     return type(one) is type(other) and bool(one == other)
 
 

@@ -10,7 +10,10 @@ from bouncing_disk._results._base import FloatArray, IntArray, Result
 
 
 class Spread(NamedTuple):
-    """A mean of many values, with their standard deviation and the standard error of the mean."""
+    """A mean of many values, with their standard deviation and the standard error of the mean.
+
+    One value alone tells neither: both are NaN then.
+    """
 
     mean: float
     deviation: float

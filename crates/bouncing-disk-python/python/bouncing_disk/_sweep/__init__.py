@@ -4,6 +4,7 @@ from bouncing_disk._sweep.api import read_sweep, sweep
 from bouncing_disk._sweep.errors import (
     FailedPoint,
     MissingDependencyError,
+    SweepClusterError,
     SweepFailedError,
     SweepFolderError,
     SweepFolderWarning,
@@ -14,6 +15,7 @@ from bouncing_disk._sweep.result import SweepResult
 __all__ = [
     "FailedPoint",
     "MissingDependencyError",
+    "SweepClusterError",
     "SweepFailedError",
     "SweepFolderError",
     "SweepFolderWarning",

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from bouncing_disk._errors import OutOfRangeError
 from bouncing_disk._sweep.chunks import Assembly, Chunks
+from bouncing_disk._sweep.cluster import check_client
 from bouncing_disk._sweep.errors import SweepFailedError, SweepFolderError
 from bouncing_disk._sweep.files import Damaged, StoredChunk, read_chunk
 from bouncing_disk._sweep.grid import Array, Grid
@@ -55,14 +56,17 @@ def sweep(
     function : callable
         Called with keywords: for each axis an array with its values at the points of a chunk (all of one
         length, at most `chunk_size`), and the `arguments`. It returns one result for each point: an array
-        whose first axis is that of the points, or a mapping of names to such arrays.
+        whose first axis is that of the points, or a mapping of names to such arrays. Their types may change from
+        point to point: the result has one that holds all, where integers become floats and floats complex
+        numbers. Truth values and texts mix with nothing, nor do integers beyond 2^53 with floats.
     grid : mapping of str to (n,) array
         The axes by their names. The points are their Cartesian product, the last axis fastest. An axis
         without values makes a grid without points, for which the function is not called.
     client : distributed.Client, "serial" or None
         The client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``,
         ``SSHCluster`` ...). By default local processes, one for each processor; without Dask, and with
-        ``"serial"``, this process.
+        ``"serial"``, this process. Its workers must have the versions of this package and of NumPy that the
+        caller has.
     arguments : mapping, optional
         What the function is called with at every point: numbers, text, arrays, objects of this package.
     folder : path, optional
@@ -92,7 +96,10 @@ def sweep(
     SweepFolderError
         The folder is in use, of another sweep, or cannot be written in.
     SweepFunctionError
-        The function has no lasting name (with a folder), cannot be sent to workers, or returns no array.
+        The function has no lasting name (with a folder), cannot be sent to workers, or returns no array, or what
+        no type holds.
+    SweepClusterError
+        Workers lack this package, or have other versions of it or of NumPy; nothing has been computed by them.
 
     Notes
     -----
@@ -108,8 +115,7 @@ def sweep(
     array([[ 3.,  4.,  5.],
            [ 6.,  8., 10.]])
     """
-    if client is not None and client != "serial" and not hasattr(client, "submit"):
-        raise TypeError(f'client must be a distributed.Client, "serial" or None, not {type(client).__name__}')
+    check_client(client)
     run = _Run(function, grid, arguments, folder, chunk_size, pointwise, max_failures, progress)
     with ExitStack() as stack:
         if run.journal is not None:
@@ -193,24 +199,20 @@ class _Run:
                 failed += len(outcome.failures)
             if outcome.given_up or failed > self.job.max_failures:
                 raise SweepFailedError.of(self._failed_points(), None)
-            self._keep(chunk, start, stop, outcome)
+            self._keep(chunk, start, outcome)
             self.done += stop - start
             self._tell()
 
-    def _keep(self, chunk: int, start: int, stop: int, outcome: Outcome) -> None:
+    def _keep(self, chunk: int, start: int, outcome: Outcome) -> None:
         values = outcome.values
         failed = np.array([failure.point - start for failure in outcome.failures], dtype=np.int64)
         if (mended := self.to_mend.get(chunk)) is not None:
-            whole = mended.values.copy()
+            known = np.delete(np.arange(len(mended.values)), mended.failed)
+            pieces = [(known, mended.values[known])]
             if values is not None:
-                if values.dtype != whole.dtype or values.shape[1:] != whole.shape[1:]:
-                    # The assembly refuses both in one sweep, with the names of the types.
-                    self.assembly.put(chunk, start, mended.values)
-                    self.assembly.put(chunk, start, values)
-                whole[mended.failed] = values
-            values = whole
+                pieces.append((mended.failed.astype(np.int64), values))
+            values = self.job.put_together(len(mended.values), pieces)
         if values is None:
-            self.assembly.leave_out(start, stop)
             return
         self.assembly.put(chunk, start, values)
         if self.journal is not None:
@@ -230,7 +232,7 @@ class _Run:
         points = self._failed_points()
         for point in points:
             failed[point.place] = True
-        result = _result(self.assembly.whole(), self.grid, failed, self.job)
+        result = _result(self.assembly.whole(failed), self.grid, failed, self.job)
         if points:
             raise SweepFailedError.of(points, result)
         return result
@@ -289,7 +291,7 @@ def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
         assembly.put(chunk, start, stored.values)
         failed[start + stored.failed] = True
     return SweepResult(
-        assembly.whole(),
+        assembly.whole(failed),
         dict(grid.axes),
         failed.reshape(grid.shape),
         str(described["function"]),

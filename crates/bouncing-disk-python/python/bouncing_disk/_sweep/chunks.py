@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from bouncing_disk._errors import OutOfRangeError, TooLargeError
+from bouncing_disk._sweep.dtypes import Lossy, converted, joined
 from bouncing_disk._sweep.errors import SweepFunctionError
 from bouncing_disk._sweep.grid import Array, Grid
 from bouncing_disk._sweep.job import filled
@@ -58,39 +60,47 @@ class Assembly:
         self._function = function
         self._values: Array | None = None
         self._first_chunk = 0
-        self._missing: list[tuple[int, int]] = []
 
     def put(self, chunk: int, start: int, values: Array) -> None:
         """The results of a chunk, whose first point is `start`."""
         if self._values is None:
-            self._values = self._room(values)
+            self._values = self._room(values.shape[1:], values.dtype)
             self._first_chunk = chunk
         whole = self._values
-        if values.dtype != whole.dtype or values.shape[1:] != whole.shape[1:]:
+        kind = joined(whole.dtype, values.dtype)
+        if kind is None or values.shape[1:] != whole.shape[1:]:
             raise SweepFunctionError(
                 f"{self._function} returned {values.dtype} of shape {values.shape[1:]} in chunk {chunk} and "
                 f"{whole.dtype} of shape {whole.shape[1:]} in chunk {self._first_chunk}",
                 self._function,
             )
-        whole[start : start + len(values)] = values
-
-    def leave_out(self, start: int, stop: int) -> None:
-        """Points of which nothing is known."""
-        self._missing.append((start, stop))
-
-    def _room(self, values: Array) -> Array:
-        shape = (self._grid.points, *values.shape[1:])
         try:
-            return np.empty(shape, values.dtype)
+            if kind != whole.dtype:
+                self._values = self._wider(whole, kind)
+            self._values[start : start + len(values)] = converted(values, kind)
+        except Lossy as loss:
+            message = f"{self._function} returned integers and floats: {loss}"
+            raise SweepFunctionError(message, self._function) from loss
+
+    def _room(self, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
+        """Zeros, for which the system gives no memory before they are written."""
+        try:
+            return np.zeros((self._grid.points, *shape), dtype)
         except (MemoryError, ValueError) as error:
-            wanted = self._grid.points * values[:1].nbytes
+            wanted = self._grid.points * np.zeros((1, *shape), dtype).nbytes
             message = f"the results need {wanted} bytes, for which there is no memory"
             raise TooLargeError(message, "bytes", wanted, 0) from error
 
-    def whole(self) -> Array:
-        """All results, in the shape of the grid."""
-        values: Array = np.empty(self._grid.points) if self._values is None else self._values
-        fill: Any = filled((1, *values.shape[1:]), values.dtype)
-        for start, stop in self._missing:
-            values[start:stop] = fill
+    def _wider(self, whole: Array, kind: np.dtype[Any]) -> Array:
+        """The results so far in a type that holds those of another chunk, too."""
+        wider = self._room(whole.shape[1:], kind)
+        for start in range(0, len(whole), _LARGEST):
+            some = slice(start, start + _LARGEST)
+            wider[some] = converted(whole[some], kind)
+        return wider
+
+    def whole(self, failed: npt.NDArray[np.bool_]) -> Array:
+        """All results, in the shape of the grid; where the function failed, what says so in their type."""
+        values: Array = np.zeros(self._grid.points) if self._values is None else self._values
+        values[failed.ravel()] = filled((1, *values.shape[1:]), values.dtype)
         return values.reshape(*self._grid.shape, *values.shape[1:])

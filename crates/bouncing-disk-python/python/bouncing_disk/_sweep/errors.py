@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from bouncing_disk._errors import BouncingDiskError
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FailedPoint",
     "MissingDependencyError",
+    "SweepClusterError",
     "SweepFailedError",
     "SweepFolderError",
     "SweepFolderWarning",
@@ -88,6 +90,24 @@ class SweepFolderError(BouncingDiskError, RuntimeError):
         super().__init__(message, folder, kind)
         self.folder = folder
         self.kind = kind
+
+
+class SweepClusterError(BouncingDiskError, RuntimeError):
+    """A cluster cannot be used: its workers would not compute what this process would.
+
+    Attributes
+    ----------
+    kind : str
+        Why: ``"versions"`` if this package or NumPy have other versions there or are missing, ``"closed"`` if
+        the client is.
+    workers : dict of str to dict
+        The versions that each worker has which differs, by its address: of ``"bouncing-disk"`` and ``"numpy"``.
+    """
+
+    def __init__(self, message: str, kind: str, workers: Mapping[str, Mapping[str, str]]) -> None:
+        super().__init__(message, kind, workers)
+        self.kind = kind
+        self.workers = workers
 
 
 class SweepFolderWarning(UserWarning):

@@ -17,7 +17,10 @@ import numpy as np
 from bouncing_disk._sweep.errors import SweepFunctionError
 from bouncing_disk._sweep.grid import Grid, array_digest, refuse_masked
 
-__all__ = ["Identity", "function_name", "lasting_name"]
+__all__ = ["PACKAGES", "Identity", "function_name", "lasting_name", "package_version", "versions"]
+
+#: What must have the same version everywhere.
+PACKAGES = ("bouncing-disk", "numpy")
 
 #: The name and the version of the files; the version rises when who reads older files could misunderstand
 #: newer ones.
@@ -147,7 +150,19 @@ def digest_of(described: Mapping[str, Any]) -> str:
 
 def package_version() -> str:
     """The version of this package."""
-    try:
-        return version("bouncing-disk")
-    except PackageNotFoundError:
-        return "unknown"
+    return versions()["bouncing-disk"]
+
+
+#: The versions as they were read first: reading them takes milliseconds.
+_KNOWN: dict[str, str] = {}
+
+
+def versions() -> dict[str, str]:
+    """The versions of what the bits depend on: this package, and NumPy for functions of the caller."""
+    if not _KNOWN:
+        for package in PACKAGES:
+            try:
+                _KNOWN[package] = version(package)
+            except PackageNotFoundError:
+                _KNOWN[package] = "unknown"
+    return dict(_KNOWN)

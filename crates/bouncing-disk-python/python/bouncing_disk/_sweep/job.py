@@ -7,20 +7,23 @@ computed.
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from bouncing_disk._sweep.dtypes import Lossy, converted, joined
 from bouncing_disk._sweep.errors import FailedPoint, SweepFunctionError
 from bouncing_disk._sweep.grid import Array, Grid
-from bouncing_disk._sweep.identity import function_name
+from bouncing_disk._sweep.identity import function_name, versions
 
 __all__ = ["Failure", "Job", "Outcome", "filled"]
 
 Points = npt.NDArray[np.int64]
+#: Results, and their places among the points of a chunk.
+Piece = tuple["slice | Points", Array]
 
 
 class Failure(NamedTuple):
@@ -47,6 +50,8 @@ class Outcome(NamedTuple):
     failures: tuple[Failure, ...]
     #: Whether more points failed than are allowed, so that the others were not looked at.
     given_up: bool
+    #: The versions of this package and of NumPy where it was computed; older ones of this package tell none.
+    versions: Mapping[str, str] = {}
 
 
 class _GivenUp(Exception):
@@ -69,7 +74,7 @@ class Job:
             points: Points = np.arange(chosen.start, chosen.stop, dtype=np.int64)
         else:
             points = chosen
-        pieces: list[tuple[int, Array]] = []
+        pieces: list[Piece] = []
         failures: list[Failure] = []
         try:
             if self.pointwise:
@@ -77,19 +82,19 @@ class Job:
             else:
                 self._together(points, pieces, failures)
         except _GivenUp:
-            return Outcome(None, tuple(failures), True)
-        return Outcome(self._joined(len(points), pieces), tuple(failures), False)
+            return Outcome(None, tuple(failures), True, versions())
+        return Outcome(self.put_together(len(points), pieces), tuple(failures), False, versions())
 
-    def _one_by_one(self, points: Points, pieces: list[tuple[int, Array]], failures: list[Failure]) -> None:
+    def _one_by_one(self, points: Points, pieces: list[Piece], failures: list[Failure]) -> None:
         for place, point in enumerate(points.tolist()):
             try:
                 returned = self.function(**self.grid.values(point), **self.arguments)
             except (Exception, SystemExit) as error:
                 self._failed(point, error, failures)
             else:
-                pieces.append((place, self._array(returned, None)))
+                pieces.append((slice(place, place + 1), self._array(returned, None)))
 
-    def _together(self, points: Points, pieces: list[tuple[int, Array]], failures: list[Failure]) -> None:
+    def _together(self, points: Points, pieces: list[Piece], failures: list[Failure]) -> None:
         """All points in one call; where this raises an exception, halves, down to the points that do so."""
         # The last one is the next to be looked at, so that points come in their order.
         waiting = [(0, len(points))]
@@ -107,7 +112,7 @@ class Job:
                     middle = (start + stop) // 2
                     waiting += [(middle, stop), (start, middle)]
             else:
-                pieces.append((start, self._array(returned, stop - start)))
+                pieces.append((slice(start, stop), self._array(returned, stop - start)))
         if first_error is not None and not failures:
             name = function_name(self.function)
             raise SweepFunctionError(
@@ -159,21 +164,29 @@ class Job:
             array[name] = part
         return array
 
-    def _joined(self, count: int, pieces: list[tuple[int, Array]]) -> Array | None:
+    def put_together(self, count: int, pieces: Sequence[Piece]) -> Array | None:
         """Pieces of results put together; what is missing is filled up."""
         if not pieces:
             return None
-        kind = pieces[0][1]
-        if len(kind) == count:
-            return np.ascontiguousarray(kind)
-        joined = filled((count, *kind.shape[1:]), kind.dtype)
-        for start, piece in pieces:
-            if piece.dtype != kind.dtype or piece.shape[1:] != kind.shape[1:]:
+        first = pieces[0][1]
+        if len(first) == count:
+            return np.ascontiguousarray(first)
+        kind = first.dtype
+        for _, piece in pieces:
+            held = joined(kind, piece.dtype)
+            if held is None or piece.shape[1:] != first.shape[1:]:
                 raise self._refused(
-                    f"returned {_described(kind)} for one point and {_described(piece)} for another"
+                    f"returned {kind} of shape {first.shape[1:]} for one point and {piece.dtype} of shape "
+                    f"{piece.shape[1:]} for another"
                 )
-            joined[start : start + len(piece)] = piece
-        return joined
+            kind = held
+        whole = filled((count, *first.shape[1:]), kind)
+        for places, piece in pieces:
+            try:
+                whole[places] = converted(piece, kind)
+            except Lossy as loss:
+                raise self._refused(f"returned integers and floats: {loss}") from loss
+        return whole
 
     def _refused(self, what: str) -> SweepFunctionError:
         name = function_name(self.function)
@@ -187,10 +200,6 @@ def _packed(array: Array) -> Array:
     for name, _ in plain:
         packed[name] = array[name]
     return packed
-
-
-def _described(array: Array) -> str:
-    return f"{array.dtype} of shape {array.shape[1:]}"
 
 
 def filled(shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from bouncing_disk._errors import InvalidError
 from bouncing_disk._sweep.errors import MissingDependencyError
 from bouncing_disk._sweep.grid import Array
+from bouncing_disk._sweep.netcdf import write_netcdf
 
 if TYPE_CHECKING:
     import xarray
@@ -117,33 +118,19 @@ class SweepResult:
     def to_netcdf(self, path: str | os.PathLike[str], name: str | None = None) -> None:
         """Store the results as a NetCDF file, by xarray and one of its backends.
 
+        NetCDF has no complex numbers: such a variable NAME is stored as two, ``NAME_real`` and ``NAME_imag``,
+        and so is a complex axis, beside a dimension without coordinates.
+
         Parameters
         ----------
         path : path
             The file. It is written beside its place and renamed into it.
         name : str, optional
             As in `to_xarray`.
+
+        Raises
+        ------
+        InvalidError
+            A type that NetCDF does not have, such as ``longdouble``; or two names that become one.
         """
-        dataset: Any = self.to_xarray(name)
-        engine = next((engine for engine, needs in _ENGINES.items() if all(map(_is_installed, needs))), None)
-        if engine is None:
-            raise MissingDependencyError.of("netCDF4", "a NetCDF file", "netcdf")
-        beside = os.fspath(path) + ".unfinished"
-        try:
-            dataset.to_netcdf(beside, engine=engine)
-            os.replace(beside, path)
-        finally:
-            if os.path.exists(beside):
-                os.unlink(beside)
-
-
-#: What writes NetCDF files, by the name that xarray knows it by, and the packages that it needs.
-_ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": ("scipy",)}
-
-
-def _is_installed(package: str) -> bool:
-    try:
-        import_module(package)
-    except ImportError:
-        return False
-    return True
+        write_netcdf(self.to_xarray(name), path)

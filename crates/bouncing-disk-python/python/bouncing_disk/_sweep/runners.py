@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from bouncing_disk._sweep.cluster import check_versions, unlike
 from bouncing_disk._sweep.errors import SweepFunctionError
-from bouncing_disk._sweep.identity import function_name
+from bouncing_disk._sweep.identity import function_name, versions
 from bouncing_disk._sweep.job import Job, Outcome
 
 __all__ = ["distributed_outcomes", "has_distributed", "local_client", "serial_outcomes"]
@@ -78,6 +79,7 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
     cancelled.
     """
     _check_sendable(job)
+    check_versions(client)
     distributed = import_module("distributed")
     name = f"{function_name(job.function)}-{uuid.uuid4().hex[:12]}"
     waiting = iter(tasks)
@@ -113,6 +115,8 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
         while pending:
             future = next(finished)
             outcome = future.result()
+            if outcome.versions != versions():
+                raise unlike({"a worker that joined later": outcome.versions})
             del pending[future.key]
             # Released, so that the workers forget what the client has.
             chunk = chunk_of.pop(future.key)

@@ -1,0 +1,185 @@
+"""A quick legal call of everything that takes arguments, which tests then spoil."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+import bouncing_disk as bd
+
+STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
+MAP = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+TOSS = bd.System.pizza_toss()
+MOTOR = bd.Motor(
+    drive_frequency=70e3,
+    amplitude=1e-8,
+    peak_angular_speed=30.0,
+    mass=1e-3,
+    contact_radius=1.25e-3,
+    gyration_radius=6.3e-3,
+    preload_acceleration=9.8,
+    friction=0.1,
+    restitution=0.5,
+)
+
+
+def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
+    """Calls that are quick, of everything that takes arguments."""
+    orbit = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert orbit is not None
+    branch = bd.continued(MAP, orbit, parameter_range=(0.4, 0.5), max_points=20)
+    found = bd.attractors(MAP, starts=4, impacts=64)
+    saddle = next(
+        one
+        for one in bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)
+        if abs(one.multipliers[0]) > 1.0
+    )
+    near = bd.periodic_orbits(
+        bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=3, max_platform_periods=3
+    )
+    edge = next(
+        one for one in near if one.platform_periods == one.period == 3 and one.multipliers.real.min() > 0.0
+    )
+    crisis = bd.crisis(edge, restitution=0.5, axial_forcing=(0.559, 0.562))
+    trajectory = bd.toss_trajectory(TOSS)
+    impact = {"impact_phase": 1.0, "axial_impact_velocity": -4.0}
+    quick: dict[str, Any] = {"relative_error": 0.5, "members": 4, "most_impacts": 100}
+    run: dict[str, Any] = {"duration": 1e-4, "intervals": 3, "relaunch_perturbation": 1e-3}
+    toss: dict[str, Any] = {"phase": 4.7, "angular_speed": 0.0, "gap": 0.1, "relative_velocity": 0.0}
+    starts: dict[str, Any] = {"axial_forcing": 0.5, **STARTS, "progress": None}
+    grid: dict[str, Any] = {
+        "phases": 3,
+        "phase_range": (0.0, 1.0),
+        "speeds": 3,
+        "speed_range": (0.0, 2.0),
+        "max_impacts": 10,
+        "chatter": None,
+        "progress": None,
+    }
+    times = np.linspace(0.01, 5.0, 60)
+    speeds = 30.0 * (1.0 - np.exp(-times))
+    return [
+        (bd.System, [], TOSS.to_dict()["platform"] | TOSS.to_dict()["disk"]),
+        (TOSS.replace, [], {"friction": 0.5}),
+        (TOSS.with_load_torque, [], {"torque": 0.1, "mass": 1.0}),
+        (bd.System.from_dict, [TOSS.to_dict()], {}),
+        (bd.System.from_json, [TOSS.to_json()], {}),
+        (
+            bd.System.from_stroke,
+            [],
+            {"stroke": 0.2, "amplitude_angle": 0.5, "angular_frequency": 15.0} | TOSS.to_dict()["disk"],
+        ),
+        (bd.ImpactMap, [], {"axial_forcing": 0.5, "restitution": 0.5}),
+        (bd.ImpactMap, [], {"peak_acceleration": 0.5, "restitution": 0.5}),
+        (bd.ImpactMap.of_system, [TOSS], {}),
+        (bd.ImpactMap.from_json, [MAP.to_json()], {}),
+        (bd.Motor, [], MOTOR.to_dict()),
+        (bd.Motor.from_json, [MOTOR.to_json()], {}),
+        (bd.ChatterCut, [], bd.ChatterCut.paper().to_dict()),
+        (MAP.step, [], impact),
+        (MAP.step_back, [], impact),
+        (MAP.derivative, [], impact),
+        (MAP.iterate, [], impact | {"impacts": 10, "progress": None}),
+        (MAP.period_one, [], {"platform_periods": 1}),
+        (MAP.refine, [], {"impact_phase": [0.7], "axial_impact_velocity": [-4.2]}),
+        (
+            MAP.settled_orbit,
+            [],
+            {"impact_phase": 1.0, "normalised_speed": 1.0, "transient": 10, "tolerance": 1e-7},
+        ),
+        (orbit.trapping_radius, [MAP], {"samples": 4}),
+        (bd.PeriodicOrbit.from_json, [orbit.to_json()], {}),
+        (bd.orbit_diagram, [], starts | {"transient": 10, "recorded": 3, "chatter": None}),
+        (bd.survival_times, [], starts | {"most": 10, "chatter": None}),
+        (bd.lyapunov_exponents, [], starts | {"transient": 10, "impacts": 10}),
+        (bd.verdicts, [], starts | {"transient": 10, "impacts": 64, "longest_period": 8, "tolerance": 1e-7}),
+        (bd.basins, [MAP], grid | {"known_orbits": [orbit, (orbit, 0.1)]}),
+        (bd.periodic_orbits, [MAP], {"max_impacts": 1, "max_platform_periods": 1, "phases": 3, "speeds": 3}),
+        (
+            bd.attractors,
+            [MAP],
+            {"starts": 4, "transient": 10, "impacts": 64, "longest_period": 8, "cells": 8},
+        ),
+        (found.basins, [], grid),
+        (
+            bd.continued,
+            [MAP, orbit],
+            {"parameter": "axial_forcing", "parameter_range": (0.4, 0.5), "max_points": 5},
+        ),
+        (branch.switched, [], {"index": 0, "parameter_range": (0.4, 0.5), "max_points": 5}),
+        (branch.orbit, [0], {}),
+        (bd.doubling_cascade, [], {"restitution": 0.5, "count": 1}),
+        (bd.single_toss, [TOSS], {"initial_spin": "with-hand"}),
+        (bd.toss_trajectory, [TOSS], {"initial_spin": "with-hand"}),
+        (trajectory.samples, [], {"count": 5}),
+        (bd.simulate, [TOSS], toss | {"events": 5, "duration": 1.0, "chatter": None, "progress": None}),
+        (bd.multi_toss, [TOSS], toss | {"transient_impacts": 5, "examined_impacts": 5, "longest_period": 2}),
+        (bd.transient, [TOSS], run | {"phase": 0.0, "seed": 1, "chatter": None}),
+        (bd.transients, [[TOSS, TOSS]], run | {"phases": [0.0, 1.0], "seeds": [1, 2], "chatter": None}),
+        (bd.ensemble, [TOSS], run | {"members": 3, "seed": 1}),
+        (bd.operating_point, [MOTOR], quick | {"load_torque": 0.0}),
+        (bd.torque_speed_curve, [MOTOR], quick | {"load_torques": [0.0, 1e-9]}),
+        (bd.stall_load, [MOTOR], quick),
+        (bd.best_phase_lag, [MOTOR], quick),
+        (bd.fit_exponential, [], {"times": times, "speeds": speeds, "progress": None}),
+        (bd.fit_transients, [], {"times": times, "speeds": speeds, "resamples": 200, "seed": 1}),
+        (
+            bd.best_toss,
+            [],
+            {"friction": (0.6, 0.6), "objective": "efficiency", "stroke": 0.2, "progress": None},
+        ),
+        (
+            bd.fit_parameters,
+            [MOTOR],
+            {"transients": [(times, speeds, 9.8)], "ranges": {"friction": (0.05, 0.2)}, "progress": None},
+        ),
+        (bd.set_threads, [], {"count": 2}),
+        (bd.iterate_orbits, [], starts | {"impacts": 3}),
+        (MOTOR.replace, [], {"friction": 0.2}),
+        (crisis.lives, [], {"beyond": [1e-3], "orbits": 2, "impacts": 10, "progress": None}),
+        (bd.lyapunov_spectra, [], starts | {"transient": 10, "impacts": 16}),
+        (
+            bd.manifold,
+            [MAP, saddle],
+            {
+                "arclength": 0.5,
+                "max_points": 50,
+                "chord": 0.05,
+                "turn": 0.2,
+                "max_generations": 20,
+                "launch_speed": 1.0,
+                "kind": "stable",
+                "progress": None,
+            },
+        ),
+        (
+            bd.crisis,
+            [saddle, saddle],
+            {
+                "restitution": 0.5,
+                "axial_forcing": (0.4, 0.5),
+                "samples": 64,
+                "impacts": 10,
+                "side": "earlier",
+                "progress": None,
+            },
+        ),
+        (
+            bd.motor_map,
+            [MOTOR],
+            quick | {"axes": {"friction": [0.1, 0.2], "amplitude": [1e-8]}, "progress": None},
+        ),
+        (
+            bd.local_sensitivities,
+            [MOTOR],
+            quick | {"parameters": ["friction"], "half_range": 0.2, "points": 5, "quantity": "steady-speed"},
+        ),
+        (
+            bd.sobol_indices,
+            [MOTOR],
+            quick | {"ranges": {"friction": (0.1, 0.2)}, "rows": 8, "sampling_seed": 1},
+        ),
+        (bd.elementary_effects, [MOTOR], quick | {"ranges": {"friction": (0.1, 0.2)}, "rows": 8}),
+    ]
