@@ -11,7 +11,7 @@ use crate::real::Real;
 use crate::{long_call, results};
 
 /// What the library calls the curves that are fitted.
-const NAMES: [Name; 8] = [
+pub(crate) const NAMES: [Name; 8] = [
     name("number of points of the speed curve", &["times"]).legal("[3, inf) points"),
     name("number of speeds", &["speeds"]).legal("one for each time"),
     name("times of the speed curve", &["times"]),

@@ -7,6 +7,7 @@
 mod arguments;
 mod attractors;
 mod basins;
+mod braking;
 mod branch;
 mod chatter;
 mod crisis;
@@ -50,6 +51,8 @@ mod _native {
     use crate::attractors::{Attractors, attractors};
     #[pymodule_export]
     use crate::basins::basins;
+    #[pymodule_export]
+    use crate::braking::fit_braking;
     #[pymodule_export]
     use crate::branch::{Branch, continued, doubling_cascade};
     #[pymodule_export]

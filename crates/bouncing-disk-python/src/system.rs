@@ -2,16 +2,21 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk::core::Phase;
 use bouncing_disk::{DiskParameters, Platform, PlatformParameters, Stroke, System as Model};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::names::Name;
+use crate::arguments::row;
+use crate::names::{Name, Named, name};
 use crate::real::Real;
 use crate::system_dict::{DISK, PLATFORM, SystemParts};
 use crate::system_names::{DERIVED, OF_LOAD, OF_PARTS, OF_STROKE};
 use crate::text::Json;
-use crate::{errors, system_dict, text};
+use crate::{errors, results, system_dict, text};
+
+type Row<'py> = Bound<'py, PyArray1<f64>>;
 
 /// A disk on a vibrating and twisting platform, in SI units.
 ///
@@ -267,6 +272,61 @@ impl System {
     #[getter]
     fn period(&self) -> f64 {
         TAU / self.0.platform().angular_frequency()
+    }
+
+    /// Largest angular speed omega Phi of the platform (rad/s).
+    #[getter]
+    fn peak_angular_speed(&self) -> f64 {
+        self.0.platform().peak_angular_speed()
+    }
+
+    /// Stroke c = (A^2 + (a_e Phi)^2)^(1/2) at the contact radius (m), Eq. (13).
+    #[getter]
+    fn stroke(&self) -> f64 {
+        self.0.stroke().stroke
+    }
+
+    /// Amplitude angle phi_L = arctan(a_e Phi/A) (rad): 0 lifts, pi/2 turns; 0 where nothing moves.
+    #[getter]
+    fn amplitude_angle(&self) -> f64 {
+        self.0.stroke().amplitude_angle
+    }
+
+    /// Height and angle of the platform.
+    ///
+    /// Parameters
+    /// ----------
+    /// phases : (n,) array_like
+    ///     Phases omega t (rad).
+    ///
+    /// Returns
+    /// -------
+    /// ((n,) float64 array, (n,) float64 array)
+    ///     A sin(omega t) (m) and Phi sin(omega t + theta) (rad), Eq. (1).
+    ///
+    /// Examples
+    /// --------
+    /// >>> import bouncing_disk as bd
+    /// >>> import numpy as np
+    /// >>> pizza = bd.System.pizza_toss()
+    /// >>> height, angle = pizza.platform_motion(phases=[0.5 * np.pi])
+    /// >>> float(height[0]) == pizza.amplitude, float(angle[0]) == pizza.twist_amplitude
+    /// (True, True)
+    #[pyo3(signature = (*, phases))]
+    fn platform_motion<'py>(
+        &self,
+        py: Python<'py>,
+        phases: &Bound<'py, PyAny>,
+    ) -> PyResult<(Row<'py>, Row<'py>)> {
+        let platform = self.0.platform();
+        let phases = row(phases, "phases")?
+            .into_iter()
+            .map(|phase| Phase::new(phase).named(&[name("phase", &["phases"])]))
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|error| errors::of(py, error))?;
+        let of =
+            |value: &dyn Fn(Phase) -> f64| results::array(py, phases.iter().copied().map(value).collect());
+        Ok((of(&|phase| platform.height(phase)), of(&|phase| platform.angle(phase))))
     }
 
     /// Phase lag theta of the twist (rad).

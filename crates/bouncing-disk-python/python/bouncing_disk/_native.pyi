@@ -16,6 +16,7 @@ from bouncing_disk._results import (
     ElementaryEffects,
     Energy,
     EventTable,
+    BrakingFit,
     ExponentialFit,
     LocalSensitivities,
     LyapunovSpectra,
@@ -61,6 +62,7 @@ __all__ = [
     "doubling_cascade",
     "elementary_effects",
     "ensemble",
+    "fit_braking",
     "fit_exponential",
     "fit_parameters",
     "fit_transients",
@@ -424,6 +426,15 @@ class System:
     @property
     def phase_lag(self) -> float: ...
     @property
+    def peak_angular_speed(self) -> float: ...
+    @property
+    def stroke(self) -> float: ...
+    @property
+    def amplitude_angle(self) -> float: ...
+    def platform_motion(
+        self, *, phases: npt.ArrayLike
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
+    @property
     def angular_frequency(self) -> float: ...
     @property
     def contact_radius(self) -> float: ...
@@ -451,7 +462,7 @@ class System:
         contact_radius: _Float,
         gyration_radius: _Float,
         friction: _Float,
-        restitution: npt.ArrayLike,
+        restitution: _Float,
         preload_acceleration: _Float,
         load_acceleration: _Float = 0.0,
     ) -> System: ...
@@ -558,6 +569,15 @@ def ensemble(
     chatter: ChatterCut | None = None,
     progress: _Progress = None,
 ) -> TransientEnsemble: ...
+def fit_braking(
+    *,
+    times: npt.ArrayLike,
+    speeds: npt.ArrayLike,
+    normal_force: _Float,
+    mass: _Float,
+    contact_radius: _Float,
+    gyration_radius: _Float,
+) -> BrakingFit: ...
 def fit_exponential(
     *,
     times: npt.ArrayLike,

@@ -34,6 +34,7 @@ from bouncing_disk._results._tosses import (
     TrajectorySamples,
 )
 from bouncing_disk._results._transients import (
+    BrakingFit,
     ExponentialFit,
     IntervalEstimate,
     ParameterFit,
@@ -55,6 +56,7 @@ __all__ = [
     "ElementaryEffects",
     "Energy",
     "EventTable",
+    "BrakingFit",
     "ExponentialFit",
     "IntervalEstimate",
     "LocalSensitivities",

@@ -121,6 +121,35 @@ class IntervalEstimate(NamedTuple):
 
 
 @dataclass(frozen=True)
+class BrakingFit:
+    """The straight line of a rotor that slows down, and the friction that it means.
+
+    Attributes
+    ----------
+    friction : IntervalEstimate
+        Coefficient of friction mu (Eq. 17). Its interval is that of the deceleration: what is uncertain of the
+        rotor is not in it.
+    deceleration : IntervalEstimate
+        Angular deceleration (rad/s^2), positive whichever way the rotor turns.
+    sliding_until : float
+        Last time of the sliding part (s).
+    points : int
+        Points of the sliding part.
+    correlation_time : float
+        Integrated correlation time of the residuals (s).
+    residual : float
+        Root mean square of the residuals of the sliding part (rad/s).
+    """
+
+    friction: IntervalEstimate
+    deceleration: IntervalEstimate
+    sliding_until: float
+    points: int
+    correlation_time: float
+    residual: float
+
+
+@dataclass(frozen=True)
 class RiseEstimate:
     """A form of rise that was fitted to runs.
 

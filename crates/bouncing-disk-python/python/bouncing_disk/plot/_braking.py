@@ -125,9 +125,7 @@ def _beginning(
     for times, speeds, measured_preload in own:
         if measured_preload == preload and len(speeds) and speeds[0] != 0.0:
             return float(times[0]), float(speeds[0])
-    if isinstance(motor, bd.Motor):
-        return 0.0, motor.peak_angular_speed
-    return 0.0, motor.angular_frequency * motor.twist_amplitude
+    return 0.0, motor.peak_angular_speed
 
 
 def _curve(system: bd.System, preload: float, begin: float, first_speed: float) -> tuple[_Array, _Array]:

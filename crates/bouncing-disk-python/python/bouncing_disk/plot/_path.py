@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["platform_path", "stroke_of"]
+__all__ = ["platform_path"]
 
 _Array = npt.NDArray[np.float64]
 
@@ -70,7 +70,7 @@ def platform_path(
     3
     """
     named = _named(systems)
-    sizes = [stroke_of(system) / system.contact_radius for _, system in named]
+    sizes = [system.stroke / system.contact_radius for _, system in named]
     magnification = _magnification(max(sizes))
     paths = [_path(system, magnification) for _, system in named]
     half = max(_LEAST_HALF, *(float(np.abs(height).max()) + _ROOM for _, height in paths))
@@ -120,11 +120,6 @@ def _named(systems: Any) -> list[tuple[str, bd.System]]:
     return named
 
 
-def stroke_of(system: bd.System) -> float:
-    """The stroke (A^2 + (a_e Phi)^2)^(1/2)."""
-    return float(np.hypot(system.amplitude, system.contact_radius * system.twist_amplitude))
-
-
 def _magnification(size: float) -> float:
     """How many times larger than they are motions are drawn; the largest has so many contact radii."""
     if size == 0.0 or _TRUE_SIZE[0] <= size <= _TRUE_SIZE[1]:
@@ -136,19 +131,7 @@ def _magnification(size: float) -> float:
 
 def _path(system: bd.System, magnification: float) -> tuple[_Array, _Array]:
     """Angle (rad) and height (contact radii) of the platform over a period, magnified, from phase 0 on."""
-    # The platform is sampled below a disk in flight. One that is launched at the crest, where the platform is
-    # at rest, with the speed by which it returns after a period, lands at the next crest: a flight of one
-    # period, for all systems.
-    launched = bd.simulate(
-        system,
-        phase=0.5 * np.pi,
-        relative_velocity=0.5 * system.preload_acceleration * system.period,
-        events=1,
-    )
-    samples = launched.samples(count=_POINTS + 1)
-    # From the crest on, phase 0 comes after three quarters. The last point is the first one.
-    angle = np.roll(samples.platform_angle[:-1], -3 * _POINTS // 4 + _POINTS)
-    height = np.roll(samples.platform_height[:-1], -3 * _POINTS // 4 + _POINTS)
+    height, angle = system.platform_motion(phases=2.0 * np.pi * np.arange(_POINTS) / _POINTS)
     closed = [np.append(values, values[:1]) for values in (angle, height / system.contact_radius)]
     return magnification * closed[0], magnification * closed[1]
 
@@ -244,8 +227,7 @@ def _motion(ax: Axes, angle: _Array, height: _Array) -> None:
 
 def _shape(system: bd.System) -> str:
     """Phase lag and amplitude angle."""
-    ratio = float(np.arctan2(system.contact_radius * system.twist_amplitude, system.amplitude))
-    angle = rf"$\phi_L = {of_pi(ratio)}$" if stroke_of(system) > 0.0 else "at rest"
+    angle = rf"$\phi_L = {of_pi(system.amplitude_angle)}$" if system.stroke > 0.0 else "at rest"
     return rf"$\theta = {of_pi(system.phase_lag)}$, {angle}"
 
 

@@ -10,7 +10,6 @@ import numpy.typing as npt
 
 import bouncing_disk as bd
 from bouncing_disk.plot._checks import finite_array, whole_number
-from bouncing_disk.plot._path import stroke_of
 from bouncing_disk.plot._style import BLACK, ORANGE, drawn_on, drawn_on_rows, pyplot, style
 from bouncing_disk.plot._words import labelled, legend_above, note, of_pi, unit_of
 
@@ -122,11 +121,12 @@ def toss_performance(
 
 def _toss(system: bd.System, angle: float, lag: float) -> tuple[float, float, float]:
     """Speed, efficiency and ratio of the toss with this amplitude angle and phase lag."""
-    stroke = stroke_of(system)
-    changed = system.replace(
-        amplitude=stroke * float(np.cos(angle)),
-        twist_amplitude=stroke * float(np.sin(angle)) / system.contact_radius,
+    changed = bd.System.from_stroke(
+        stroke=system.stroke,
+        amplitude_angle=angle,
+        angular_frequency=system.angular_frequency,
         phase_lag=lag,
+        **system.to_dict()["disk"],
     )
     try:
         toss = bd.single_toss(changed)
