@@ -82,8 +82,8 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// Whether the files can be written, as far as that is seen before anything is computed. None of them may be an
-    /// input, or the journal.
+    /// Whether the files can be written, as far as that is seen before anything is computed. None of them may
+    /// be an input, or the journal.
     ///
     /// # Errors
     /// [`Failure::Usage`] names the file.

@@ -71,7 +71,8 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     fn report(self, prepared: Self::Prepared, rows: Vec<Self::Row>) -> Result<Report, Failure>;
 }
 
-/// Computes a job, or its part, and delivers what comes out; `inputs` are the files that the job was read from.
+/// Computes a job, or its part, and delivers what comes out; `inputs` are the files that the job was read
+/// from.
 pub(crate) fn run<J: GridJob>(
     job: J,
     inputs: &[&Path],
@@ -108,8 +109,8 @@ pub(crate) fn run<J: GridJob>(
     }
 }
 
-/// Whether there is room for `count` <= `limit` things of so many bytes each, in which all rows end: better told
-/// now than after a day of computing.
+/// Whether there is room for `count` <= `limit` things of so many bytes each, in which all rows end: better
+/// told now than after a day of computing.
 ///
 /// # Errors
 /// The core's [`TooLarge`](bouncing_disk::core::Error::TooLarge) names the number and the limit.

@@ -44,8 +44,8 @@ const TOGETHER: usize = 100_000;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct BasinsArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless given; without
-    /// these 0.486, that of the paper's Fig. 7(b)
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
+    /// given; without these 0.486, that of the paper's Fig. 7(b)
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]

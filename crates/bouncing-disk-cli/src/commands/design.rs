@@ -81,8 +81,8 @@ pub(crate) struct DesignArgs {
     /// How the dough turns at the start
     #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
     spin: Spin,
-    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given, and
-    /// 400 at least
+    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given,
+    /// and 400 at least
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
     samples: Option<u32>,
     #[command(flatten)]

@@ -45,8 +45,9 @@ const TOGETHER: usize = 256;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct DiagramArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends included. That
-    /// of FILE, --preset or --set unless given; without these 0.30:0.62:641, those of the paper's Fig. 6
+    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
+    /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:641, those of the
+    /// paper's Fig. 6
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]

@@ -15,8 +15,8 @@ use crate::range::Range;
 /// The heading of forcing and restitution in the help.
 pub(crate) const VERTICAL: &str = "Vertical motion (no units)";
 
-/// The restitution, and the system that both it and the forcing are taken from unless they are given. The forcing is an
-/// option of each command, whose help says what it takes without any system.
+/// The restitution, and the system that both it and the forcing are taken from unless they are given. The
+/// forcing is an option of each command, whose help says what it takes without any system.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = VERTICAL)]
 pub(crate) struct MapArgs {

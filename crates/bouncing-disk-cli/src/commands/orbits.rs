@@ -31,8 +31,8 @@ const FORCING: f64 = 0.535;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct OrbitsArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless given; without
-    /// these 0.535, past the second period doubling
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
+    /// given; without these 0.535, past the second period doubling
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]

@@ -82,8 +82,8 @@ pub(crate) struct TossArgs {
     /// With --many: periods of the platform in the file of the motion, from the start, at most 2^30
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 10, requires = "many")]
     periods: u64,
-    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given, and
-    /// 400 at least
+    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given,
+    /// and 400 at least
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
     samples: Option<u32>,
     #[command(flatten)]

@@ -53,8 +53,8 @@ const PLAIN: u64 = 4;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct VerdictsArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends included. That
-    /// of FILE, --preset or --set unless given; without these 0.30:0.62:33
+    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
+    /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:33
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]

@@ -144,8 +144,8 @@ pub(crate) fn check_place(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A path whose folder has neither links nor detours, so that all spellings of one path are alike. A new file takes
-/// the place of a link and not of what it leads to, so the last part is left as it is.
+/// A path whose folder has neither links nor detours, so that all spellings of one path are alike. A new file
+/// takes the place of a link and not of what it leads to, so the last part is left as it is.
 pub(crate) fn place(path: &Path) -> PathBuf {
     match (fs::canonicalize(folder_of(path)), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
@@ -153,8 +153,8 @@ pub(crate) fn place(path: &Path) -> PathBuf {
     }
 }
 
-/// The [`place`] that a path leads to if it is opened: where the last of its links ends, whether there is a file
-/// or not.
+/// The [`place`] that a path leads to if it is opened: where the last of its links ends, whether there is a
+/// file or not.
 pub(crate) fn opened_place(path: &Path) -> PathBuf {
     /// Systems follow no more links than this.
     const LINKS: usize = 40;

@@ -43,8 +43,8 @@ pub(crate) struct MotorArgs {
     /// Gives a field of the data sheet another value: friction=0.2; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Writes the data sheet as a commented TOML file, to the terminal or with --out FILE.toml into a file, and
-    /// computes nothing
+    /// Writes the data sheet as a commented TOML file, to the terminal or with --out FILE.toml into a file,
+    /// and computes nothing
     #[arg(long)]
     pub(crate) template: bool,
 }
@@ -67,8 +67,8 @@ impl MotorArgs {
         Ok(motor)
     }
 
-    /// What is set takes the place of what the file says before anything is checked, so that it can put a wrong file
-    /// right.
+    /// What is set takes the place of what the file says before anything is checked, so that it can put a
+    /// wrong file right.
     fn changed(&self) -> Result<Motor, Failure> {
         let field = |setting: &Setting| match setting.key.parse::<MotorField>() {
             Ok(field) => Ok((field, setting.value)),

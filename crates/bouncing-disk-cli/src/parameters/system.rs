@@ -41,8 +41,8 @@ pub(crate) struct SystemArgs {
     /// Gives a parameter another value, in the unit of the file: disk.friction=0.2; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Writes the parameters as a commented TOML file, to the terminal or with --out FILE.toml into a file, and
-    /// computes nothing
+    /// Writes the parameters as a commented TOML file, to the terminal or with --out FILE.toml into a file,
+    /// and computes nothing
     #[arg(long)]
     pub(crate) template: bool,
 }

@@ -58,7 +58,8 @@ pub(crate) fn draw(ends: (f64, f64), names: &[String], layers: &[Vec<Point>]) ->
         let mut panel = Panel::new(grid.cell(0, column))
             .x(Axis::linear(ends.0, ends.1).label(r"$\Gamma$"))
             .y(y)
-            // Above the frame: no corner is free for certain. There stands the power of ten of large speeds, too.
+            // Above the frame: no corner is free for certain. There stands the power of ten of large speeds,
+            // too.
             .layer(Text::at_axes(
                 if column == 1 && fastest >= 1e3 { 0.2 } else { 0.0 },
                 1.045,

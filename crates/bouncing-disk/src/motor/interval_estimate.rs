@@ -1,4 +1,5 @@
-//! A number that was estimated from scattered data, with its interval, and what small samples make intervals with.
+//! A number that was estimated from scattered data, with its interval, and what small samples make intervals
+//! with.
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::read_checked;

@@ -39,8 +39,8 @@ impl<L: RestitutionLaw> Engine<L> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for fewer than two instants, or for more than [`MAX_SAMPLED_PERIODS`]; an error of
-    /// the core for more than [`MAX_SAMPLES`] instants or than there is memory for; those of
+    /// [`Error::OutOfRange`] for fewer than two instants, or for more than [`MAX_SAMPLED_PERIODS`]; an error
+    /// of the core for more than [`MAX_SAMPLES`] instants or than there is memory for; those of
     /// [`Self::advance`].
     pub fn sample(&mut self, span: PhaseSpan, count: usize) -> Result<Vec<Snapshot>, Error> {
         self.sample_observed(span, count, &Unobserved)
@@ -49,8 +49,8 @@ impl<L: RestitutionLaw> Engine<L> {
     /// [`Self::sample`] with an observer; the items are the periods of the platform.
     ///
     /// # Errors
-    /// Those of [`Self::sample`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
+    /// Those of [`Self::sample`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+    /// the observer breaks.
     pub fn sample_observed(
         &mut self,
         span: PhaseSpan,

@@ -116,8 +116,8 @@ enum Value {
     Other(&'static str),
 }
 
-/// The motor of these keys and values, each with its line, in the order of the file, and of the `changes`, which
-/// take the place of what the file says before anything is checked.
+/// The motor of these keys and values, each with its line, in the order of the file, and of the `changes`,
+/// which take the place of what the file says before anything is checked.
 fn motor_of(
     entries: impl Iterator<Item = (String, usize, Value)>,
     changes: &[(MotorField, f64)],
