@@ -344,3 +344,20 @@ fn names_of_files_need_not_be_texts() {
     assert_eq!(output.status.code(), Some(2));
     assert!(errors(&output).contains("UTF-8"), "{}", errors(&output));
 }
+
+/// The words of a picture are about what it shows.
+#[test]
+fn a_torque_curve_names_what_lies_within_its_loads() {
+    let folder = Folder::new();
+    let (limit, nothing) = ("largest torque", "no load has a steady speed");
+    for (loads, has_limit, has_nothing) in
+        [("0:1e-5:2", false, false), ("0:45e-6:2", true, false), ("1e-3:2e-3:2", false, true)]
+    {
+        let line =
+            format!("motor curve --loads {loads} --relative-error 0.5 --members 4 --out a.svg --force");
+        folder.done(&line);
+        let svg = String::from_utf8(folder.read("a.svg")).unwrap();
+        assert_eq!((svg.contains(limit), svg.contains(nothing)), (has_limit, has_nothing), "{loads}");
+        assert_eq!(svg.contains("efficiency</"), !has_nothing, "{loads}");
+    }
+}

@@ -104,8 +104,18 @@ pub(crate) struct BasinsJob {
 
 impl BasinsJob {
     fn window(&self) -> Result<Grid, Failure> {
-        let axis = |[low, high]: [f64; 2]| Axis::new(low, high, self.cells);
-        Ok(Grid::new(axis(self.phase_periods)?, axis(self.normalised_speed)?)?)
+        let axis = |option: &str, [low, high]: [f64; 2]| {
+            let axis = Axis::new(low, high, self.cells)?;
+            // Cells that are finer than the numbers would have one middle.
+            if (1..self.cells).all(|cell| axis.centre(cell - 1) < axis.centre(cell)) {
+                return Ok(axis);
+            }
+            let cells = self.cells;
+            Err(Failure::usage(format!(
+                "{option}: {cells} cells from {low:?} to {high:?} are nearer than numbers can be"
+            )))
+        };
+        Ok(Grid::new(axis("--phase", self.phase_periods)?, axis("--speed", self.normalised_speed)?)?)
     }
 }
 

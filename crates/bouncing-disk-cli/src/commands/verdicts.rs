@@ -214,7 +214,7 @@ impl GridJob for VerdictsJob {
         }
         let drawn = Rc::clone(&found);
         let figure = move || {
-            let VerdictsJob { axial_forcings, restitutions, .. } = drawn.job;
+            let Self { axial_forcings, restitutions, .. } = drawn.job;
             pictures::regimes::draw(axial_forcings, restitutions, &drawn.kinds)
         };
         Ok(Report {

@@ -13,8 +13,11 @@ pub(crate) enum Data {
     Whole(Value),
     /// A list whose elements are tables or lists, each made when it is written: all of them together may take
     /// more memory than what they are made from.
-    List(Box<dyn Fn(&mut Elements<'_>) -> io::Result<()>>),
+    List(Box<List>),
 }
+
+/// Gives all elements of a list.
+pub(crate) type List = dyn Fn(&mut Elements<'_>) -> io::Result<()>;
 
 impl From<Value> for Data {
     fn from(value: Value) -> Self {
@@ -61,7 +64,7 @@ fn below(to: &mut dyn Write, value: &Value) -> io::Result<()> {
         Value::Array(elements)
             if elements.iter().any(|element| element.is_array() || element.is_object()) =>
         {
-            list(to, |each| elements.iter().try_for_each(|element| each(element)))
+            list(to, |each| elements.iter().try_for_each(each))
         }
         Value::Object(fields) if !fields.is_empty() => {
             let mut before = "{";

@@ -73,9 +73,9 @@ pub(crate) fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
     };
     let (low, high) = ends(&mut input.iter().chain(&output).map(|point| point.1));
     let low = 1.1 * low;
-    let high = low + (at_least_one(high) - low) / UNDER_LEGEND;
+    let high = low + (or_one(high) - low) / UNDER_LEGEND;
     let below = -low / high;
-    let best = 1.1 * at_least_one(ends(&mut efficiency.iter().map(|point| point.1)).1)
+    let best = 1.1 * or_one(ends(&mut efficiency.iter().map(|point| point.1)).1)
         / (UNDER_LEGEND - (1.0 - UNDER_LEGEND) * below).max(0.2);
     let mut lower = Panel::new(grid.cell(1, 0))
         .x(x().label(format!("load torque $T$ ({torque_unit})")))
@@ -88,13 +88,15 @@ pub(crate) fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
     let share = efficiency.iter().map(|point| (point.0, point.1)).collect::<Vec<_>>();
     lower = lower
         .layer_right(Line::new(share.clone()).width(0.8).colour(Colour::VERMILION))
-        .layer_right(Scatter::new(share).size(2.6).colour(Colour::VERMILION).name("efficiency"))
-        .legend(Legend::at(Corner::TopLeft).without_frame().inset(4.0));
+        .layer_right(Scatter::new(share).size(2.6).colour(Colour::VERMILION).name("efficiency"));
+    if !speeds.is_empty() {
+        lower = lower.legend(Legend::at(Corner::TopLeft).without_frame().inset(4.0));
+    }
     Figure::new(SINGLE_COLUMN + 30.0, HEIGHT).panels([upper, lower])
 }
 
 /// The largest value of an axis; where nothing is above zero, one.
-fn at_least_one(largest: f64) -> f64 {
+fn or_one(largest: f64) -> f64 {
     if largest > 0.0 { largest } else { 1.0 }
 }
 

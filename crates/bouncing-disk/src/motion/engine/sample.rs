@@ -83,7 +83,9 @@ impl<L: RestitutionLaw> Engine<L> {
                 if until.is_some_and(|until| time.order(&until) != Ordering::Less) {
                     break;
                 }
-                states.push(segment.state_after(&self.system, time.since(&segment.start)));
+                // The instant itself: the sum of the segment's start and what follows it is rounded.
+                let state = segment.state_after(&self.system, time.since(&segment.start));
+                states.push(Snapshot { time, ..state });
             }
             if states.len() == count {
                 break;
@@ -188,7 +190,8 @@ mod tests {
             let recorded = Trajectory::record(&mut again, |record| record.time.order(&end) == Ordering::Greater);
             let recorded = recorded.expect("as before");
             for state in states.iter().filter(|state| state.time.order(&recorded.end()) == Ordering::Less) {
-                prop_assert_eq!(recorded.at(state.time), Some(*state));
+                let at = recorded.at(state.time).map(|at| (at.disk, at.platform));
+                prop_assert_eq!(at, Some((state.disk, state.platform)));
             }
         }
     }

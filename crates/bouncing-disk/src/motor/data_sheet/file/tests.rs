@@ -90,7 +90,7 @@ fn check_common(read: fn(&str) -> Result<Motor, MotorFileError>, write: fn(&[(&s
 
 /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of two.
 fn check_changes(
-    read: fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>,
+    read: impl Fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>,
     write: fn(&[(&str, &str)]) -> String,
 ) {
     let motor = Motor::paper_70_khz();
