@@ -20,7 +20,8 @@ pub(crate) const VERTICAL: &str = "Vertical motion (no units)";
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = VERTICAL)]
 pub(crate) struct MapArgs {
-    /// Coefficient of restitution, in [0, 1). That of FILE, --preset or --set unless given, else 0.5
+    /// Coefficient of restitution, in [0, 1); with `verdicts` a range, too. That of FILE, --preset or --set
+    /// unless given, else 0.5
     #[arg(long, short, value_name = "EPSILON", allow_hyphen_values = true)]
     pub(crate) restitution: Option<Range>,
     #[command(flatten)]
