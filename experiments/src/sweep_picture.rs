@@ -1,14 +1,12 @@
 //! The picture of a sweep of a motor: a curve with its errors over one parameter, a map over two.
 
+use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::{MotorSweepResult, SweepAxis, SweepQuantity};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Figure, Line, Panel, Raster, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };
 
 use crate::colour_scale::colour;
-
-/// Of a normal distribution, so many standard errors hold 95 %.
-const BARS: f64 = 1.96;
 
 /// Pixels of a map in each direction: each has the colour of the cell whose values are nearest.
 const PIXELS: usize = 240;
@@ -51,7 +49,7 @@ fn curve(result: &MotorSweepResult, quantity: SweepQuantity, axis: &SweepAxis) -
         .iter()
         .zip(result.cells())
         .map(|(&value, cell)| match quantity.of(cell) {
-            Some(estimate) => (value, estimate.value, BARS * estimate.standard_error),
+            Some(estimate) => (value, estimate.value, NORMAL_975 * estimate.standard_error),
             None => (value, f64::NAN, f64::NAN),
         })
         .collect();

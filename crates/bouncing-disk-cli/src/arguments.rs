@@ -1,14 +1,16 @@
 //! The command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
 
 use crate::commands;
+use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::files::{Kind, Target};
-use crate::output::report::no_picture;
+use crate::output::files::{Kind, Target, opened_place, place};
+use crate::output::lines::say;
+use crate::output::report::{no_picture, no_result, wrote};
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
@@ -45,7 +47,7 @@ pub(crate) struct CommonArgs {
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
     /// Threads to compute with; all of the processor's unless given
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, allow_negative_numbers = true, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
 }
 
@@ -70,8 +72,8 @@ pub(crate) enum Command {
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Result")]
 pub(crate) struct OutputArgs {
-    /// Writes the result to a file in place of the terminal; its ending says how: .csv, .json, .png or .svg.
-    /// May be repeated
+    /// Writes the result to a file in place of the terminal; its ending says how: .csv, .json, .png or .svg
+    /// (.toml with --template). May be repeated
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Vec<Target>,
     /// Replaces files that are there already
@@ -80,14 +82,39 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// Whether the files can be written, as far as that is seen before anything is computed.
+    /// Whether the files can be written, as far as that is seen before anything is computed. None of them may
+    /// be an input, or the journal.
     ///
     /// # Errors
     /// [`Failure::Usage`] names the file.
-    pub(crate) fn check(&self, has_picture: bool) -> Result<(), Failure> {
+    pub(crate) fn check(
+        &self,
+        has_picture: bool,
+        inputs: &[&Path],
+        journal: Option<&Path>,
+    ) -> Result<(), Failure> {
+        let places: Vec<PathBuf> = self.out.iter().map(|target| place(&target.path)).collect();
         for (index, target) in self.out.iter().enumerate() {
-            if self.out[..index].contains(target) {
-                return Err(Failure::usage(format!("{target}: it is asked for twice")));
+            if let Some(first) = places[..index].iter().position(|place| *place == places[index]) {
+                let as_well = if self.out[first] == *target {
+                    String::new()
+                } else {
+                    format!(", as {} before", self.out[first])
+                };
+                return Err(Failure::usage(format!("{target}: it is asked for twice{as_well}")));
+            }
+        }
+        let others = inputs.iter().map(|path| (*path, "an input"));
+        for (path, what) in others.chain(journal.map(|path| (path, "the journal"))) {
+            let opened = opened_place(path);
+            if let Some(index) = places.iter().position(|place| *place == opened) {
+                let target = &self.out[index];
+                return Err(Failure::usage(format!("{target}: it cannot be {what} and the result")));
+            }
+        }
+        for target in &self.out {
+            if target.kind == Kind::Toml {
+                return Err(no_result(target));
             }
             if !has_picture && matches!(target.kind, Kind::Png | Kind::Svg) {
                 return Err(no_picture().in_context(&target.to_string()));
@@ -95,6 +122,25 @@ impl OutputArgs {
             target.check(self.force)?;
         }
         Ok(())
+    }
+
+    /// Writes a file of parameters, to the terminal or where --out says.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for a file of another kind, or for several.
+    pub(crate) fn write_template(&self, text: &str, context: Context) -> Result<(), Failure> {
+        match &self.out[..] {
+            [] => Ok(say!("{}", text.trim_end())?),
+            [target] if target.kind == Kind::Toml => {
+                target.check(self.force)?;
+                target.write(self.force, |to| to.write_all(text.as_bytes()))?;
+                wrote(target, context.quiet);
+                Ok(())
+            }
+            _ => Err(Failure::usage(
+                "--template writes TOML, to the terminal or with one --out FILE.toml into a file",
+            )),
+        }
     }
 }
 
@@ -135,7 +181,7 @@ impl Chunk {
 pub(crate) struct GridArgs {
     /// Computes the I-th of N parts of the rows and writes it to --out FILE.json; `bouncing-disk merge` puts
     /// all parts together
-    #[arg(long, value_name = "I/N")]
+    #[arg(long, value_name = "I/N", allow_hyphen_values = true)]
     pub(crate) chunk: Option<Chunk>,
     /// Keeps finished rows in a file: the same command goes on where it was stopped or killed
     #[arg(long, value_name = "FILE")]

@@ -122,7 +122,10 @@ impl From<StorageError> for Failure {
     fn from(error: StorageError) -> Self {
         match error {
             StorageError::Model(error) => error.into(),
-            StorageError::Io { .. } | StorageError::NotStorable { .. } => Self::Failed(with_causes(&error)),
+            // A journal that is locked now may be free later: the line is not at fault.
+            StorageError::Io { .. } | StorageError::NotStorable { .. } | StorageError::Busy { .. } => {
+                Self::Failed(with_causes(&error))
+            }
             _ => Self::Usage(with_causes(&error)),
         }
     }

@@ -19,7 +19,8 @@ use crate::arguments::{GridArgs, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::files::Kind;
+use crate::output::files::{Kind, check_place};
+use crate::output::json;
 use crate::output::report::{PROGRAM, Report, VERSION, wrote};
 
 /// The first rows are so many times fewer than the most that are computed together.
@@ -70,19 +71,22 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     fn report(self, prepared: Self::Prepared, rows: Vec<Self::Row>) -> Result<Report, Failure>;
 }
 
-/// Computes a job, or its part, and delivers what comes out.
+/// Computes a job, or its part, and delivers what comes out; `inputs` are the files that the job was read
+/// from.
 pub(crate) fn run<J: GridJob>(
     job: J,
+    inputs: &[&Path],
     grid: &GridArgs,
     output: &OutputArgs,
     context: Context,
 ) -> Result<(), Failure> {
-    output.check(true)?;
+    let journal = grid.journal.as_deref();
+    output.check(true, inputs, journal)?;
+    if let Some(path) = journal {
+        check_place(path).map_err(|failure| failure.in_context("--journal"))?;
+    }
     if grid.chunk.is_some() && !matches!(&output.out[..], [target] if target.kind == Kind::Json) {
         return Err(Failure::usage("--chunk needs one --out FILE.json for its part"));
-    }
-    if let Some(target) = output.out.iter().find(|target| grid.journal.as_ref() == Some(&target.path)) {
-        return Err(Failure::usage(format!("{target}: it cannot be the journal and the result")));
     }
     let rows = job.rows();
     let range = grid.chunk.map_or(0..rows, |chunk| chunk.rows(rows));
@@ -95,12 +99,29 @@ pub(crate) fn run<J: GridJob>(
     match grid.chunk {
         Some(chunk) => {
             let target = &output.out[0];
-            target.write(chunk::text(&job, chunk, range, &computed)?.as_bytes(), output.force)?;
+            let fields = chunk::fields(&job, chunk, range, &computed)?;
+            target
+                .write(output.force, |to| json::write(to, fields.iter().map(|(name, data)| (*name, data))))?;
             wrote(target, context.quiet);
             Ok(())
         }
         None => job.report(prepared, computed)?.deliver(output, context.quiet),
     }
+}
+
+/// Whether there is room for `count` <= `limit` things of so many bytes each, in which all rows end: better
+/// told now than after a day of computing.
+///
+/// # Errors
+/// The core's [`TooLarge`](bouncing_disk::core::Error::TooLarge) names the number and the limit.
+pub(crate) fn check_room(what: &'static str, count: u64, limit: u64, bytes: u64) -> Result<(), Failure> {
+    let fits = |bytes: u64| {
+        usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
+    };
+    if count <= limit && count.checked_mul(bytes).is_some_and(fits) {
+        return Ok(());
+    }
+    Err(bouncing_disk::core::Error::TooLarge { what, count, limit }.into())
 }
 
 /// Rows that are computed, and where they are kept.

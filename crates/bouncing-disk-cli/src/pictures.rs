@@ -12,6 +12,8 @@ pub(crate) mod transient;
 
 use bouncing_disk_plot::{Axis, Ticks};
 
+use crate::output::numbers::shown;
+
 /// What the impact phase is called, and the normalised impact speed.
 const PHASE: &str = r"$\tau_{imp}/2\pi$";
 const SPEED: &str = r"$|w_A\Gamma/(\omega A)|$";
@@ -19,6 +21,12 @@ const SPEED: &str = r"$|w_A\Gamma/(\omega A)|$";
 /// A linear axis between the least and the largest of these numbers, with room beyond them; the same for one
 /// number alone.
 fn axis(values: impl IntoIterator<Item = f64>) -> Axis {
+    let (low, high) = with_room(values);
+    spanned(low, high)
+}
+
+/// The ends of such an axis.
+fn with_room(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
@@ -30,7 +38,7 @@ fn axis(values: impl IntoIterator<Item = f64>) -> Axis {
         _ if size > 0.0 => 0.1 * size,
         _ => 1.0,
     };
-    spanned(low - room, high + room)
+    (low - room, high + room)
 }
 
 /// A linear axis from one number to another, with three to five labels: some panels are too narrow for more.
@@ -50,6 +58,15 @@ fn step(span: f64) -> (f64, u32) {
     steps.into_iter().find(|(step, _)| *step >= least).unwrap_or((10.0 * power, 5))
 }
 
+/// A number as it stands between dollar signs: powers of ten as such.
+fn math(value: f64) -> String {
+    let text = shown(value);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!(r"{mantissa}\times 10^{{{exponent}}}"),
+        None => text,
+    }
+}
+
 /// The most of these numbers, at least `least`.
 fn largest(values: impl IntoIterator<Item = f64>, least: f64) -> f64 {
     values.into_iter().filter(|value| value.is_finite()).fold(least, f64::max)
@@ -65,6 +82,23 @@ mod tests {
             let (step, _) = step(span);
             let labels = span / step;
             assert!((2.0..=5.000_001).contains(&labels), "{span}: {step}");
+        }
+    }
+
+    #[test]
+    fn numbers_in_mathematics_have_powers_of_ten() {
+        use bouncing_disk_plot::{Figure, Panel, Rect};
+
+        for (value, text) in [
+            (0.486, "0.486"),
+            (0.0, "0"),
+            (1e300, r"1\times 10^{300}"),
+            (1.5e-7, r"1.5\times 10^{-7}"),
+            (f64::MAX, r"1.79769\times 10^{308}"),
+        ] {
+            assert_eq!(math(value), text);
+            let panel = Panel::new(Rect::new(40.0, 30.0, 100.0, 100.0)).title(format!("${}$", math(value)));
+            assert!(Figure::new(150.0, 150.0).panel(panel).to_svg().is_ok(), "{text}");
         }
     }
 

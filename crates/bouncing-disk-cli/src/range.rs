@@ -43,13 +43,27 @@ impl Range {
         }
         match count {
             0 => Err("it has no values; give the number of points as the third part, at least 1".to_owned()),
-            1 if first < last => Err(format!("one point cannot be both {first} and {last}")),
+            1 if first < last => Err(format!("one point cannot be both {first:?} and {last:?}")),
             _ if count > MOST => Err(format!("{count} points are more than {MOST}")),
             1 => Ok(Self { first, last, count }),
-            _ if first < last && (last - first).is_finite() => Ok(Self { first, last, count }),
-            _ if last < first => Err(format!("it is reversed: {last} is below {first}")),
-            _ => Err(format!("{count} points from {first} to {last} cannot be told apart")),
+            _ if last < first => Err(format!("it is reversed: {last:?} is below {first:?}")),
+            _ if !(last - first).is_finite() => {
+                Err(format!("from {first:?} to {last:?} is farther than a number can be"))
+            }
+            _ => {
+                let range = Self { first, last, count };
+                if range.rises() {
+                    Ok(range)
+                } else {
+                    Err(format!("{count} points from {first:?} to {last:?} are nearer than numbers can be"))
+                }
+            }
         }
+    }
+
+    /// Whether every value is above the one before: a step that is finer than the numbers gives some twice.
+    fn rises(&self) -> bool {
+        (1..self.count).all(|index| self.value(index - 1) < self.value(index))
     }
 
     /// One value.
@@ -84,7 +98,11 @@ impl Range {
 
     /// The outer ends of equal cells with the values in their middles; `width` is that of a single one.
     pub(crate) fn cell_ends(&self, width: f64) -> (f64, f64) {
-        let step = if self.count > 1 { (self.last - self.first) / (self.count - 1) as f64 } else { width };
+        let step = match self.count {
+            // Of a huge number `width` is nothing.
+            1 => width.max(0.01 * self.first.abs()),
+            count => (self.last - self.first) / (count - 1) as f64,
+        };
         (self.first - 0.5 * step, self.last + 0.5 * step)
     }
 }
@@ -181,14 +199,30 @@ mod tests {
             ("0:1:0", "no values"),
             ("0:1:1", "one point"),
             ("1:0:5", "reversed"),
-            ("0:0:2", "cannot be told apart"),
+            ("0:0:2", "2 points from 0.0 to 0.0 are nearer than numbers can be"),
+            ("0.3:0.30000000000000004:3", "3 points from 0.3 to 0.30000000000000004 are nearer"),
+            ("1:1.0000000000000004:1000", "nearer than numbers can be"),
+            ("0:1e-322:100", "nearer than numbers can be"),
             ("0:1:-1", "number of points"),
             ("0:1:1.5", "number of points"),
             ("0:1:1000001", "more than 1000000"),
-            ("-1e308:1e308:3", "cannot be told apart"),
+            ("-1e308:1e308:3", "from -1e308 to 1e308 is farther"),
         ] {
             let error = read(text).unwrap_err();
             assert!(error.contains(told), "{text}: {error}");
+        }
+    }
+
+    /// The next number above is as near as a point can be.
+    #[test]
+    fn neighbouring_numbers_are_a_range() {
+        let first = 0.3_f64;
+        for step in 1..5_u64 {
+            let last = f64::from_bits(first.to_bits() + step);
+            let range = Range::new(first, last, step as usize + 1).unwrap();
+            let bits: Vec<u64> = range.values().map(f64::to_bits).collect();
+            assert_eq!(bits, (0..=step).map(|up| first.to_bits() + up).collect::<Vec<_>>());
+            assert!(Range::new(first, last, step as usize + 2).is_err());
         }
     }
 

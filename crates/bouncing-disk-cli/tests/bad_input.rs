@@ -64,6 +64,10 @@ fn values_of_files_that_are_not_legal() {
     folder.write("motor.json", "{\"amplitud\": 1e-8}");
     let text = folder.refused("motor report motor.json", 2);
     assert!(text.contains("motor.json: line 1") && text.contains("did you mean \"amplitude\"?"), "{text}");
+    // A setting that is not legal itself.
+    folder.write("motor.toml", &folder.done("motor report --template"));
+    let text = folder.refused("motor report motor.toml --set friction=-1", 2);
+    assert!(text.contains("motor.toml with --set: friction = -1.0 is outside"), "{text}");
 }
 
 #[test]
@@ -103,12 +107,49 @@ fn words_of_the_line_that_are_not_legal() {
         ("diagram --chunk 1/3", "--chunk needs one --out FILE.json"),
         ("diagram --chunk 1/3 --out a.csv", "--chunk needs one --out FILE.json"),
         ("diagram --journal a.json --out a.json", "a.json: it cannot be the journal and the result"),
+        ("diagram --journal ./a.json --out a.json", "a.json: it cannot be the journal and the result"),
+        ("diagram --journal rows/", "--journal: rows/: this is the name of a folder"),
+        ("diagram --journal no/rows", "--journal: no/rows: there is no folder no"),
+        ("diagram --journal .", "--journal: .: this is the name of a folder"),
         ("toss --out a.csv --out b.csv --out a.csv", "a.csv: it is asked for twice"),
+        ("toss --out a.csv --out ./a.csv", "./a.csv: it is asked for twice, as a.csv before"),
+        ("toss --out a.csv/", "a.csv/: this is the name of a folder"),
+        ("toss --out a.csv/.", "a.csv/.: this is the name of a folder"),
+        (
+            "toss --out a.toml",
+            "a.toml: a result is .csv, .json, .png or .svg; .toml is the file of --template",
+        ),
+        ("toss --template --out a.csv", "--template writes TOML"),
+        ("motor sweep --template --out a.json", "--template writes TOML"),
+        ("verdicts --template --out a.toml --out b.toml", "with one --out FILE.toml"),
+        ("orbits --template --out no/a.toml", "there is no folder no"),
+        ("doublings -G 0.5", "unexpected argument '-G'"),
+        ("doublings --axial-forcing 0.5", "unexpected argument '--axial-forcing'"),
+        ("toss --many --periods 1073741825 --transient 1", "periods = 1073741825.0 is outside"),
+        ("toss --many --periods 18446744073709551615", "periods"),
+        ("toss --many --periods 18446744073709551616", "--periods"),
+        ("diagram -G 0.3:0.30000000000000004:1000", "nearer than numbers can be"),
+        ("verdicts -r 0.5:0.5000000000000002:9", "nearer than numbers can be"),
+        ("motor curve --loads 0:1e-320:100000", "nearer than numbers can be"),
+        (
+            "verdicts -G 0:3:1000000 -r 0:0.9:1000000",
+            "no room for 1000000000000 cells of a map of verdicts: at most 2147483648",
+        ),
+        (
+            "verdicts -G 0:3:10000 -r 0:0.9:10000 --details --chunk 1/100 --out a.json",
+            "no room for 100000000 verdicts with their evidence: at most 16777216",
+        ),
+        (
+            "diagram -G 0:3:1000000 --recorded 1000000",
+            "no room for 2000000000000 impacts of a diagram: at most 2147483648",
+        ),
         ("verdicts --impacts 1", "impacts"),
         ("basins --cells 0", "cells"),
         ("basins -G 0.1:0.2:3", "takes a single number"),
         ("basins --phase 1:0", "reversed"),
         ("basins --phase 0.5:0.5", "axis"),
+        ("basins --phase 0.5:0.5000000000000002", "--phase: 300 cells from 0.5 to 0.5000000000000002"),
+        ("basins --speed 1:1.0000000000000002 --cells 9", "are nearer than numbers can be"),
         ("orbits --impacts 0", "impacts"),
         ("doublings --count 99", "count"),
         ("doublings -r 0", "restitution"),
@@ -125,6 +166,93 @@ fn words_of_the_line_that_are_not_legal() {
         assert!(text.contains(told), "{line}: {text}");
     }
     assert!(folder.names().is_empty(), "{:?}", folder.names());
+}
+
+/// A value that begins with a minus is a value and no option: what is said is about the number.
+#[test]
+fn negative_values_are_values() {
+    let folder = Folder::new();
+    folder.write("a.csv", "time_s,speed_rad_s\n0.1,1\n0.2,2\n0.3,3\n0.4,4\n");
+    for line in [
+        "toss --many --transient -1",
+        "toss --many --examined -1",
+        "toss --many --periods -1",
+        "toss --samples -1",
+        "toss --threads -1",
+        "toss --set disk.friction=-1",
+        "motor report --set friction=-1",
+        "motor transient --members -1",
+        "motor transient --duration -1",
+        "motor transient --duration -1e-3",
+        "motor transient --intervals -1",
+        "motor transient --perturbation -1",
+        "motor transient --seed -1",
+        "motor curve --relative-error -1",
+        "motor curve --relative-error -1e-3",
+        "motor curve --perturbation -1e-3",
+        "verdicts --tolerance -1e-9",
+        "design --highest-flight -1e-1",
+        "motor curve --members -1",
+        "motor curve --most-impacts -1",
+        "motor curve --perturbation -1",
+        "motor curve --seed -1",
+        "motor stall --relative-error -1",
+        "motor phase-lag --relative-error -1",
+        "motor sweep --over friction=-1:1:3",
+        "orbits -G -1",
+        "orbits -r -1",
+        "orbits --impacts -1",
+        "orbits --platform-periods -1",
+        "orbits --starts -1",
+        "diagram -G -1:1:3",
+        "diagram --axial-forcing -1",
+        "diagram -r -0.5",
+        "diagram --restitution -0.5",
+        "diagram --transient -1",
+        "diagram --recorded -1",
+        "diagram --start 0.1,-1",
+        "diagram --start -0.1,-1",
+        "diagram --chunk -1/3 --out b.json",
+        "verdicts --start -0.1,-1",
+        "verdicts --transient -1",
+        "verdicts --impacts -1",
+        "verdicts --longest-period -1",
+        "verdicts --tolerance -1",
+        "basins --cells -1",
+        "basins --impacts -1",
+        "basins --starts -1",
+        "basins --speed -1:5 --starts 1",
+        "doublings --count -1",
+        "doublings -n -1",
+        "doublings -r -1",
+        "fit a.csv --resamples -1",
+        "fit a.csv --seed -1",
+        "fit a.csv --parameter friction=-1:0.4",
+        "design --stroke -1",
+        "design --friction -1:0.5",
+        "design --angular-frequency -1:5",
+        "design --highest-flight -1",
+        "design --samples -1",
+    ] {
+        let text = folder.refused(line, 2);
+        assert!(text.contains("-1") || text.contains("-0."), "{line}: {text}");
+        assert!(
+            !text.contains("unexpected argument") && !text.contains("a value is required"),
+            "{line}: {text}"
+        );
+    }
+    // These are legal.
+    for line in [
+        "verdicts -G 0.4 --start -0.1,1 --impacts 64",
+        "diagram -G 0.4 --start -0.1,1 --transient 0 --recorded 1",
+        "motor curve --loads -1e-6 --relative-error 0.5 --members 4",
+        "motor sweep --over phase_lag=-1:-0.5:2 --relative-error 0.5 --members 4",
+        "basins --cells 2 --starts 1 --phase -0.5:0.5",
+        "design --phase-lag -0.5:-0.25",
+        "toss --set platform.phase_lag=-1",
+    ] {
+        folder.done(line);
+    }
 }
 
 #[test]

@@ -120,6 +120,35 @@ fn every_command_has_an_example_in_its_help() {
     }
 }
 
+/// What a command takes where no forcing is given stands in its help, and is what it takes.
+#[test]
+fn the_help_of_each_command_says_its_own_forcing() {
+    let folder = Folder::new();
+    for (line, forcing) in [
+        ("basins --cells 2 --starts 1", "0.486"),
+        ("orbits --impacts 1 --starts 2", "0.535"),
+        ("verdicts --impacts 64", "0.30:0.62:33"),
+        ("diagram --transient 0 --recorded 1", "0.30:0.62:641"),
+    ] {
+        let help = folder.done(&format!("{} --help", line.split(' ').next().unwrap()));
+        let own: String =
+            help.split("--axial-forcing").nth(1).unwrap().split("--restitution").next().unwrap().into();
+        let words: Vec<&str> = own.split_whitespace().collect();
+        let text = words.join(" ");
+        assert!(text.contains(&format!("without these {forcing}")), "{line}: {text}");
+        assert!(text.contains("That of FILE, --preset or --set unless given"), "{line}: {text}");
+        folder.done(&format!("{line} --out a.json --force"));
+        let without = folder.read("a.json");
+        folder.done(&format!("{line} -G {forcing} --out a.json --force"));
+        assert!(folder.read("a.json") == without, "{line}");
+        // A system brings its own.
+        folder.done(&format!("{line} --set disk.friction=0.1 --out a.json --force"));
+        assert!(folder.read("a.json") != without, "{line}");
+    }
+    let help = folder.done("doublings --help");
+    assert!(help.contains("no --axial-forcing"), "{help}");
+}
+
 #[test]
 fn completions_and_manual_pages_know_the_commands() {
     let folder = Folder::new();

@@ -177,16 +177,187 @@ fn pictures_of_the_least_are_drawn() {
         "motor sweep --over load_torque=1e-3 --over phase_lag=-0.1 --relative-error 0.5 --members 4",
         "motor curve --loads 1e-3 --relative-error 0.5 --members 4",
         "motor curve --loads -1e-6:0:2 --set friction=0 --relative-error 0.5 --members 4",
+        "motor curve --loads 0:1e-5:2 --relative-error 0.5 --members 4",
+        "motor curve --loads 1e-3:2e-3:3 --relative-error 0.5 --members 4",
+        "diagram -G 0.4:0.6:3 --start rest --start rise --start 0.1,1 --start 0.2,1 --start -0.123456,0.1234567",
+        "diagram -G 1e6 --recorded 4 --transient 0",
+        "verdicts -G 1e6 --impacts 64",
+        "verdicts -G 1e6:2e6:2 --impacts 64",
+        "orbits -G 1e6 --impacts 1 --starts 2",
+        "toss --preset motor --many --transient 1 --examined 2 --periods 400",
         "motor transient --members 1 --intervals 3 --duration 0.01",
         "motor transient --members 5 --intervals 10 --set peak_angular_speed=0",
         "toss --set platform.twist_amplitude=0 --samples 2",
         "toss --many --set platform.amplitude=0 --transient 1 --examined 2",
         "toss --many --periods 0 --transient 1 --examined 2",
+        "toss --many --set platform.amplitude=0 --periods 3 --transient 1 --examined 2",
         "design --phase-lag 3.1416",
     ]
     .into_iter()
     .enumerate()
     {
         folder.done(&format!("{line} --out {index}.svg --out {index}.json --out {index}.csv --quiet"));
+    }
+}
+
+/// A file that is wrong, or lacks something, is put right by what is set.
+#[test]
+fn settings_come_before_the_checks() {
+    let folder = Folder::new();
+    let motor = folder.done("motor report --template");
+    let toss = folder.done("toss --template");
+    let (friction, disk) = ("friction = 0.1", "friction = 0.6");
+    assert!(motor.contains(friction) && toss.contains(disk));
+    for wrong in ["friction = -1", "friction = nan", "# none"] {
+        folder.write("motor.toml", &motor.replace(friction, wrong));
+        folder.write("toss.toml", &toss.replace(disk, wrong));
+        folder.refused("motor report motor.toml", 2);
+        folder.refused("toss toss.toml", 2);
+        assert_eq!(folder.done("motor report motor.toml --set friction=0.1"), folder.done("motor report"));
+        assert_eq!(folder.done("toss toss.toml --set disk.friction=0.6"), folder.done("toss"));
+    }
+    // Two alternatives, of which one is set again.
+    folder.write("motor.toml", &(motor.clone() + "preload_force = 0.3\n"));
+    folder.refused("motor report motor.toml", 2);
+    assert_eq!(
+        folder.done("motor report motor.toml --set preload_acceleration=9.8"),
+        folder.done("motor report --set preload_acceleration=9.8")
+    );
+}
+
+#[test]
+fn a_template_goes_into_a_file_by_the_rules_of_results() {
+    let folder = Folder::new();
+    for (line, name) in [
+        ("toss --template", "toss.toml"),
+        ("design --template --set disk.friction=0.25", "design.toml"),
+        ("basins --template --preset motor", "basins.toml"),
+        ("motor sweep --template --preset paper-184-khz", "motor.toml"),
+        ("motor stall --template", "stall.toml"),
+    ] {
+        let text = folder.done(line);
+        assert_eq!(folder.done(&format!("{line} --out {name}")), "");
+        assert_eq!(String::from_utf8(folder.read(name)).unwrap(), text, "{line}");
+        let refused = folder.refused(&format!("{line} --out {name}"), 2);
+        assert!(refused.contains("it is there already; --force replaces it"), "{refused}");
+        folder.done(&format!("{line} --out {name} --force"));
+    }
+}
+
+/// The motion of many tosses ends after as many periods as are asked for, and not with the next impact.
+#[test]
+fn a_motion_has_the_periods_that_are_asked_for() {
+    let folder = Folder::new();
+    for (periods, samples) in [(1, 2), (3, 50), (10, 400)] {
+        let line = format!("toss --many --periods {periods} --samples {samples} --transient 1 --examined 2");
+        folder.done(&format!("{line} --out a.json --force"));
+        let stored: Value = serde_json::from_slice(&folder.read("a.json")).unwrap();
+        let motion = stored["motion"].as_array().unwrap();
+        assert_eq!(motion.len(), samples);
+        let end = f64::from(periods) * std::f64::consts::TAU / 15.0;
+        for (index, sample) in motion.iter().enumerate() {
+            let time = sample["time_s"].as_f64().unwrap();
+            assert!((time - end * index as f64 / (samples - 1) as f64).abs() < 1e-12, "{periods}: {time}");
+        }
+    }
+}
+
+/// Every number of a fit of parameters stands beside its unit.
+#[test]
+fn fitted_parameters_have_units() {
+    let folder = Folder::new();
+    folder.done("motor transient --members 2 --duration 1 --intervals 20 --out run.csv");
+    folder.done(
+        "fit run.csv --parameter friction=0.09:0.11 --parameter phase_lag=-0.1:0.1 --resamples 200 --out fit.csv",
+    );
+    let table = String::from_utf8(folder.read("fit.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().skip(1).collect();
+    assert_eq!(lines[0], "parameter,unit,nominal,value,low,high,determined");
+    assert!(lines[1].starts_with("friction,1,0.1,"), "{table}");
+    assert!(lines[2].starts_with("phase_lag,rad,0.0,"), "{table}");
+}
+
+#[test]
+fn an_input_is_no_result() {
+    let folder = Folder::new();
+    folder.done("motor transient --members 6 --duration 2 --intervals 20 --out run.csv");
+    folder.done("verdicts -G 0.3:0.4:2 --impacts 64 --chunk 1/1 --out part.json");
+    folder.write("toss.json", "{}");
+    for line in [
+        "fit run.csv --out ./run.csv --force",
+        "merge part.json --out part.json --force",
+        "toss toss.json --out toss.json --force",
+    ] {
+        let text = folder.refused(line, 2);
+        assert!(text.contains("it cannot be an input and the result"), "{line}: {text}");
+    }
+    assert_eq!(folder.read("toss.json"), b"{}");
+}
+
+#[cfg(unix)]
+#[test]
+fn one_file_by_two_names_is_seen_before_anything_is_computed() {
+    use std::os::unix::fs::symlink;
+
+    let folder = Folder::new();
+    std::fs::create_dir(folder.join("inner")).unwrap();
+    symlink("inner", folder.join("other")).unwrap();
+    symlink("inner/a.json", folder.join("rows")).unwrap();
+    // These would take hours.
+    let long = "verdicts -G 0:3:20000 -r 0:0.9:20000";
+    for (options, told) in [
+        ("--out inner/a.json --out other/a.json", "it is asked for twice, as inner/a.json before"),
+        ("--out inner/a.json --out inner/../inner/a.json", "it is asked for twice"),
+        // The journal would be opened through the link.
+        ("--journal rows --out other/a.json --force", "it cannot be the journal and the result"),
+    ] {
+        let text = folder.refused(&format!("{long} {options}"), 2);
+        assert!(text.contains(told), "{options}: {text}");
+    }
+    assert_eq!(folder.names(), ["inner", "other", "rows"]);
+}
+
+/// Names of files are bytes on most systems.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_of_files_need_not_be_texts() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt as _;
+
+    let folder = Folder::new();
+    let name = |bytes: &'static [u8]| OsStr::from_bytes(bytes);
+    let run = |line: &str, names: &[&OsStr]| {
+        let output = folder.command(line).args(names).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", errors(&output));
+    };
+    run("toss --template", &[name(b"--out=\xff.toml")]);
+    run("toss --out a.csv", &[name(b"\xff.toml")]);
+    run(
+        "verdicts -G 0.3:0.4:2 --impacts 64 --chunk 1/1 --journal",
+        &[name(b"\xfe"), name(b"--out=\xff.json")],
+    );
+    run("merge --out b.csv", &[name(b"\xff.json")]);
+    run("toss --template", &[name(b"-o"), name(b"\xfd.toml")]);
+    assert!(folder.join("a.csv").exists() && folder.join("b.csv").exists());
+    // What is no file is a text, and that is told.
+    let output = folder.command("toss --set").arg(name(b"\xff=1")).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(errors(&output).contains("UTF-8"), "{}", errors(&output));
+}
+
+/// The words of a picture are about what it shows.
+#[test]
+fn a_torque_curve_names_what_lies_within_its_loads() {
+    let folder = Folder::new();
+    let (limit, nothing) = ("largest torque", "no load has a steady speed");
+    for (loads, has_limit, has_nothing) in
+        [("0:1e-5:2", false, false), ("0:45e-6:2", true, false), ("1e-3:2e-3:2", false, true)]
+    {
+        let line =
+            format!("motor curve --loads {loads} --relative-error 0.5 --members 4 --out a.svg --force");
+        folder.done(&line);
+        let svg = String::from_utf8(folder.read("a.svg")).unwrap();
+        assert_eq!((svg.contains(limit), svg.contains(nothing)), (has_limit, has_nothing), "{loads}");
+        assert_eq!(svg.contains("efficiency</"), !has_nothing, "{loads}");
     }
 }

@@ -223,6 +223,20 @@ fn period_one_is_a_fixed_point_where_it_exists() {
     assert!(map(0.3333, 0.5).period_one(1).is_none());
 }
 
+/// The speed is that of the orbit where there is one, and there is one to every speed at some forcing.
+#[test]
+fn the_impact_speed_of_period_one_does_not_depend_on_the_forcing() {
+    for (restitution, periods) in [(0.0, 1), (0.3, 1), (0.5, 2), (0.9, 3), (0.5, 1_000)] {
+        let speed = map(0.0, restitution).period_one_impact_speed(periods);
+        assert!((speed * (1.0 + restitution) - TAU * periods as f64).abs() < 1e-15 * speed);
+        let born = periods as f64 * (1.0 - restitution) / (1.0 + restitution);
+        for forcing in [1.01 * born, 1.5 * born, 3.0 * born] {
+            let orbit = map(forcing, restitution).period_one(periods).expect("above its birth");
+            assert_eq!((-orbit.velocity()).to_bits(), speed.to_bits());
+        }
+    }
+}
+
 #[test]
 fn cascade_agrees_with_the_closed_form_and_with_feigenbaum() {
     let cascade = period_doublings(0.5, 6).expect("the cascade exists");

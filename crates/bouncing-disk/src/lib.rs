@@ -80,6 +80,7 @@ pub use bouncing_disk_core::{Observer, Progress, Unobserved};
 pub use error::Error;
 pub use motion::energy::EnergyLedger;
 pub use motion::engine::Engine;
+pub use motion::engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
 pub use motion::event::{Event, EventRecord};
 pub use motion::friction::MAX_CONTACT_EVENTS;
 pub use motion::initial_condition::InitialCondition;

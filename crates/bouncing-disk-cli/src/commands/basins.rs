@@ -1,5 +1,6 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
+use std::io::{self, Write};
 use std::ops::Range as Rows;
 use std::rc::Rc;
 
@@ -10,15 +11,15 @@ use bouncing_disk::core::{
 use bouncing_disk::{Observer, Progress};
 use clap::Args;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::commands::map::{MapArgs, map, single};
+use crate::commands::map::{MapArgs, VERTICAL, map, single};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, value};
-use crate::output::table::Table;
+use crate::output::report::{Report, provenance, stored};
+use crate::output::table::{Column, Csv, Table};
 use crate::pictures;
 use crate::range::{Interval, Range};
 
@@ -43,10 +44,14 @@ const TOGETHER: usize = 100_000;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct BasinsArgs {
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
+    /// given; without these 0.486, that of the paper's Fig. 7(b)
+    #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
+    axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
     /// Cells along each axis
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 300)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 300)]
     cells: usize,
     /// Impact phases of the window, in periods
     #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true)]
@@ -55,10 +60,10 @@ pub(crate) struct BasinsArgs {
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5")]
     speed: Interval,
     /// Impacts after which a start is left undecided
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
     impacts: u32,
     /// Starts from which attractors are looked for
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = AttractorSearch::default().starts())]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = AttractorSearch::default().starts())]
     starts: u32,
     #[command(flatten)]
     grid: GridArgs,
@@ -68,10 +73,10 @@ pub(crate) struct BasinsArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template()? {
+    if args.map.wrote_template(&args.output, context)? {
         return Ok(());
     }
-    let values = args.map.values(Range::single(FORCING))?;
+    let values = args.map.values(args.axial_forcing, Range::single(FORCING))?;
     let job = BasinsJob {
         axial_forcing: single(values.axial_forcings, "--axial-forcing")?,
         restitution: single(values.restitutions, "--restitution")?,
@@ -81,7 +86,7 @@ pub(crate) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
     };
-    grid::run(job, &args.grid, &args.output, context)
+    grid::run(job, &args.map.inputs(), &args.grid, &args.output, context)
 }
 
 /// What basins depend on.
@@ -99,8 +104,18 @@ pub(crate) struct BasinsJob {
 
 impl BasinsJob {
     fn window(&self) -> Result<Grid, Failure> {
-        let axis = |[low, high]: [f64; 2]| Axis::new(low, high, self.cells);
-        Ok(Grid::new(axis(self.phase_periods)?, axis(self.normalised_speed)?)?)
+        let axis = |option: &str, [low, high]: [f64; 2]| {
+            let axis = Axis::new(low, high, self.cells)?;
+            // Cells that are finer than the numbers would have one middle.
+            if (1..self.cells).all(|cell| axis.centre(cell - 1) < axis.centre(cell)) {
+                return Ok(axis);
+            }
+            let cells = self.cells;
+            Err(Failure::usage(format!(
+                "{option}: {cells} cells from {low:?} to {high:?} are nearer than numbers can be"
+            )))
+        };
+        Ok(Grid::new(axis("--phase", self.phase_periods)?, axis("--speed", self.normalised_speed)?)?)
     }
 }
 
@@ -173,9 +188,9 @@ impl GridJob for BasinsJob {
             listed.push(json!({ "label": label, "attractor": words, "cells": count }));
         }
         let data = vec![
-            ("labels", listed.into()),
-            ("attractors", value(&attractors)?),
-            ("hexadecimal_labels_by_speed", value(&rows)?),
+            ("labels", Value::from(listed).into()),
+            ("attractors", stored(&attractors)?),
+            ("hexadecimal_labels_by_speed", stored(&rows)?),
         ];
         drop(rows);
         let text = format!(
@@ -197,21 +212,25 @@ impl GridJob for BasinsJob {
             legend,
             impacts: impacts(&attractors),
         };
-        let table = Box::new(move || table(&window, &labels));
+        let table = Box::new(move |to: &mut dyn Write| write_csv(to, &window, &labels));
         Ok(Report { provenance, text, table, data, figure: Some(Box::new(move || picture.draw())) })
     }
 }
 
-fn table(window: &Grid, labels: &[Label]) -> Table {
-    let mut table =
-        Table::new(&[("impact_phase", "periods"), ("normalised_impact_speed", "1"), ("label", "1")]);
+fn write_csv(to: &mut dyn Write, window: &Grid, labels: &[Label]) -> io::Result<()> {
+    let columns = [
+        Column::new("impact_phase", "periods"),
+        Column::new("normalised_impact_speed", "1"),
+        Column::new("label", "1"),
+    ];
+    let mut csv = Csv::begin(to, &columns)?;
     for (row, labels) in labels.chunks(window.phase().cells()).enumerate() {
         for (column, label) in labels.iter().enumerate() {
             let (phase, speed) = (window.phase().centre(column), window.speed().centre(row));
-            table.push([phase.into(), speed.into(), u64::from(*label).into()]);
+            csv.row(&[phase.into(), speed.into(), u64::from(*label).into()])?;
         }
     }
-    table
+    Ok(())
 }
 
 fn hexadecimal(labels: &[Label]) -> String {

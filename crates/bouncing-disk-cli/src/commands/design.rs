@@ -1,18 +1,21 @@
 //! `bouncing-disk design`: the hand motion that tosses best.
 
+use std::rc::Rc;
+
 use bouncing_disk::{
-    OverFriction, Platform, System, TossConstraints, TossDesign, TossObjective, best_toss_observed,
-    toss_trajectory,
+    OverFriction, System, TossConstraints, TossDesign, TossObjective, best_toss_observed, toss_trajectory,
 };
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::arguments::{OWN, OutputArgs};
 use crate::commands::map::wrote_template;
-use crate::commands::toss::{Spin, quantities, samples, table};
+use crate::commands::toss::{
+    MOST_INSTANTS, Sample, Spin, instants, motion, quantities, samples, write_table,
+};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, stored};
 use crate::output::table::Quantities;
 use crate::parameters::system::SystemArgs;
 use crate::pictures;
@@ -55,7 +58,7 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     system: SystemArgs,
     /// Stroke c (m): half the length of the path of the hand at the contact radius
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
     stroke: f64,
     /// Coefficient of friction; that of the dough unless given
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH")]
@@ -67,7 +70,7 @@ pub(crate) struct DesignArgs {
     #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_hyphen_values = true)]
     phase_lag: Option<Interval>,
     /// The highest that the dough may fly above the place where it leaves the hand (m)
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "METRES")]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "METRES")]
     highest_flight: Option<f64>,
     /// What the toss is to be best at
     #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed")]
@@ -78,9 +81,10 @@ pub(crate) struct DesignArgs {
     /// How the dough turns at the start
     #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
     spin: Spin,
-    /// Instants of the motion in a file
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
-    samples: u32,
+    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given,
+    /// and 400 at least
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
+    samples: Option<u32>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -119,31 +123,26 @@ impl DesignArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.system)? {
+    if wrote_template(&args.system, &args.output, context)? {
         return Ok(());
     }
-    args.output.check(true)?;
+    args.output.check(true, &args.system.inputs(), None)?;
     let constraints = args.constraints()?;
     let design = best_toss_observed(&constraints, &context.watch("design"))?;
-    let system = designed(&design)?;
-    let motion = toss_trajectory(&system, constraints.initial)?;
-    let samples = samples(&system, &motion, args.samples);
+    let system = design.system()?;
+    let trajectory = toss_trajectory(&system, constraints.initial)?;
+    let samples: Rc<[Sample]> = {
+        let periods = trajectory.end().since(&trajectory.start()).periods;
+        samples(&system, trajectory.uniform(instants(args.samples, periods) as usize)).into()
+    };
     let report = Report {
         provenance: provenance("bouncing-disk design", &Job { constraints: &constraints })?,
         text: list(&design, &system).to_text(),
-        table: ready(table(&samples)),
-        data: vec![("design", value(&design)?), ("motion", value(&samples)?)],
+        table: write_table(&samples),
+        data: vec![("design", stored(&design)?), ("motion", motion(&samples))],
         figure: Some(Box::new(move || pictures::toss::draw(&samples))),
     };
     report.deliver(&args.output, context.quiet)
-}
-
-/// The dough on the hand that was found, with the friction in the middle of its range.
-fn designed(design: &TossDesign) -> Result<System, Failure> {
-    let [low, high] = design.constraints.friction;
-    let mut dough = design.constraints.dough;
-    dough.friction = low + 0.5 * (high - low);
-    Ok(System::new(Platform::from_stroke(design.hand)?, dough.build()?)?)
 }
 
 fn list(design: &TossDesign, system: &System) -> Quantities {

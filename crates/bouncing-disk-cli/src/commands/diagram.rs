@@ -1,21 +1,26 @@
 //! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
 
+use std::io::{self, Write};
 use std::ops::Range as Rows;
+use std::rc::Rc;
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, orbit_diagram_observed};
+use bouncing_disk::core::numerics::circular::distinct;
+use bouncing_disk::core::numerics::statistics::extent;
+use bouncing_disk::core::{ChatterPolicy, ImpactState, MAX_RECORDED, Orbit, orbit_diagram_observed};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::commands::map::{MapArgs, map, single};
+use crate::commands::map::{MapArgs, VERTICAL, map, single};
 use crate::commands::start::{STARTS, Start};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, ready, value};
-use crate::output::table::Table;
+use crate::output::json::{Data, Elements};
+use crate::output::report::{Report, provenance};
+use crate::output::table::{self, Csv, Table};
 use crate::pictures;
 use crate::range::Range;
 
@@ -40,15 +45,20 @@ const TOGETHER: usize = 256;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct DiagramArgs {
+    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
+    /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:641, those of the
+    /// paper's Fig. 6
+    #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
+    axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
-    #[arg(help_heading = OWN, long, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given"))]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given"))]
     start: Vec<Start>,
     /// Impacts that are not looked at
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 3_000)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 3_000)]
     transient: usize,
     /// Impacts of each orbit that are recorded
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 256)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 256)]
     recorded: usize,
     #[command(flatten)]
     grid: GridArgs,
@@ -58,11 +68,12 @@ pub(crate) struct DiagramArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &DiagramArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template()? {
+    if args.map.wrote_template(&args.output, context)? {
         return Ok(());
     }
     let (first, last, count) = FORCINGS;
-    let values = args.map.values(Range::new(first, last, count).map_err(Failure::usage)?)?;
+    let values =
+        args.map.values(args.axial_forcing, Range::new(first, last, count).map_err(Failure::usage)?)?;
     let starts = if args.start.is_empty() { vec![Start::Rest, Start::PeriodOne] } else { args.start.clone() };
     let job = DiagramJob {
         axial_forcings: values.axial_forcings,
@@ -71,11 +82,14 @@ pub(crate) fn run(args: &DiagramArgs, context: Context) -> Result<(), Failure> {
         transient: args.transient,
         recorded: args.recorded,
     };
-    grid::run(job, &args.grid, &args.output, context)
+    grid::run(job, &args.map.inputs(), &args.grid, &args.output, context)
 }
 
 /// Phases nearer than this count as one (periods).
 const SAME_PHASE: f64 = 1e-6;
+
+/// What an impact takes (bytes): a phase and a speed.
+const IMPACT: u64 = 16;
 
 /// What a diagram depends on.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -106,20 +120,70 @@ impl Impacts {
 
     /// How many phases differ by more than a millionth of a period from the next one.
     fn distinct(&self) -> usize {
-        let mut phases = self.impact_phase_periods.clone();
-        phases.sort_unstable_by(f64::total_cmp);
-        let (Some(first), Some(last)) = (phases.first(), phases.last()) else { return 0 };
-        let gaps = phases.windows(2).filter(|pair| pair[1] - pair[0] > SAME_PHASE).count();
-        // The end of a period is the beginning of the next.
-        (gaps + usize::from(first + 1.0 - last > SAME_PHASE)).max(1)
+        distinct(self.impact_phase_periods.iter().copied(), SAME_PHASE)
+    }
+}
+
+/// The impacts of each start of one forcing; none where it has no such start.
+type Column = Vec<Option<Impacts>>;
+
+/// The columns of the diagram, each with its forcing, and the names of the starts.
+struct Columns {
+    axial_forcings: Range,
+    starts: Vec<String>,
+    rows: Vec<Column>,
+}
+
+impl Columns {
+    /// Forcing, place of the start and impacts of all orbits that there are.
+    fn orbits(&self) -> impl Iterator<Item = (f64, usize, &Impacts)> {
+        self.axial_forcings.values().zip(&self.rows).flat_map(|(forcing, row)| {
+            let there = row.iter().enumerate();
+            there.filter_map(move |(start, impacts)| Some((forcing, start, impacts.as_ref()?)))
+        })
+    }
+
+    /// Each impact a row.
+    fn write_csv(&self, to: &mut dyn Write) -> io::Result<()> {
+        let columns = [
+            ("axial_forcing", "1"),
+            ("start", "1"),
+            ("impact_phase", "periods"),
+            ("normalised_impact_speed", "1"),
+        ];
+        let mut csv = Csv::begin(to, &columns.map(|(name, unit)| table::Column::new(name, unit)))?;
+        for (forcing, start, impacts) in self.orbits() {
+            let start = &self.starts[start];
+            for (phase, speed) in impacts.impact_phase_periods.iter().zip(&impacts.normalised_impact_speed) {
+                csv.row(&[forcing.into(), start.as_str().into(), (*phase).into(), (*speed).into()])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Each orbit a line.
+    fn write_json(&self, each: &mut Elements<'_>) -> io::Result<()> {
+        self.orbits().try_for_each(|(forcing, start, impacts)| {
+            each(&json!({ "axial_forcing": forcing, "start": self.starts[start], "impacts": impacts }))
+        })
+    }
+
+    /// The points of a picture: forcing, phase and speed, in a layer for each start.
+    fn layers(&self) -> Vec<Vec<(f64, f64, f64)>> {
+        let mut layers = vec![Vec::new(); self.starts.len()];
+        for (forcing, start, impacts) in self.orbits() {
+            let speeds = &impacts.normalised_impact_speed;
+            let points = impacts.impact_phase_periods.iter().zip(speeds);
+            layers[start].extend(points.map(|(phase, speed)| (forcing, *phase, *speed)));
+        }
+        layers
     }
 }
 
 impl GridJob for DiagramJob {
     const COMMAND: &'static str = "diagram";
 
-    /// The impacts of each start; none where the forcing has no such start.
-    type Row = Vec<Option<Impacts>>;
+    type Row = Column;
 
     type Prepared = ();
 
@@ -137,7 +201,13 @@ impl GridJob for DiagramJob {
         for forcing in [low, high] {
             map(forcing, self.restitution)?;
         }
-        Ok(())
+        let orbits = (self.axial_forcings.count() * self.starts.len()) as u64;
+        grid::check_room(
+            "impacts of a diagram",
+            orbits.saturating_mul(self.recorded as u64),
+            MAX_RECORDED,
+            IMPACT,
+        )
     }
 
     fn compute(
@@ -175,75 +245,37 @@ impl GridJob for DiagramJob {
             ("largest_phase", "periods"),
             ("largest_speed", "1"),
         ]);
-        let columns = [
-            ("axial_forcing", "1"),
-            ("start", "1"),
-            ("impact_phase", "periods"),
-            ("normalised_impact_speed", "1"),
-        ];
-        let mut table = Table::new(&columns);
-        let mut data = Vec::new();
-        let mut layers = vec![Vec::new(); self.starts.len()];
-        for (forcing, row) in self.axial_forcings.values().zip(&rows) {
-            for ((start, impacts), layer) in self.starts.iter().zip(row).zip(&mut layers) {
-                let Some(impacts) = impacts else { continue };
-                let ends = |values: &[f64]| {
-                    let low = values.iter().copied().reduce(f64::min);
-                    (low, values.iter().copied().reduce(f64::max))
-                };
-                let (least, largest) = ends(&impacts.impact_phase_periods);
-                let fastest = ends(&impacts.normalised_impact_speed).1;
-                let phases = impacts.impact_phase_periods.len();
-                let start = start.to_string();
-                shown.push([
-                    forcing.into(),
-                    start.as_str().into(),
-                    phases.into(),
-                    impacts.distinct().into(),
-                    least.into(),
-                    largest.into(),
-                    fastest.into(),
-                ]);
-                for (phase, speed) in
-                    impacts.impact_phase_periods.iter().zip(&impacts.normalised_impact_speed)
-                {
-                    table.push([forcing.into(), start.as_str().into(), (*phase).into(), (*speed).into()]);
-                    layer.push((forcing, *phase, *speed));
-                }
-                data.push(json!({ "axial_forcing": forcing, "start": start, "impacts": value(impacts)? }));
-            }
+        let starts = self.starts.iter().map(Start::to_string).collect();
+        let columns = Columns { axial_forcings: self.axial_forcings, starts, rows };
+        for (forcing, start, impacts) in columns.orbits() {
+            let (least, largest) = ends(&impacts.impact_phase_periods);
+            shown.push([
+                forcing.into(),
+                columns.starts[start].as_str().into(),
+                impacts.impact_phase_periods.len().into(),
+                impacts.distinct().into(),
+                least.into(),
+                largest.into(),
+                ends(&impacts.normalised_impact_speed).1.into(),
+            ]);
         }
         let ends = self.axial_forcings.cell_ends(0.01);
         let provenance =
             provenance("bouncing-disk diagram", &self)?.with_chatter_policy(ChatterPolicy::Complete);
-        let names: Vec<String> = self.starts.iter().map(Start::to_string).collect();
+        let columns = Rc::new(columns);
+        let (listed, drawn) = (Rc::clone(&columns), Rc::clone(&columns));
         Ok(Report {
             provenance,
             text: shown.to_text(),
-            table: ready(table),
-            data: vec![("columns", data.into())],
-            figure: Some(Box::new(move || pictures::diagram::draw(ends, &names, &layers))),
+            table: Box::new(move |to| columns.write_csv(to)),
+            data: vec![("columns", Data::List(Box::new(move |each| listed.write_json(each))))],
+            figure: Some(Box::new(move || pictures::diagram::draw(ends, &drawn.starts, &drawn.layers()))),
         })
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn phases_are_counted_whatever_millionth_they_are_next_to() {
-        let counted = |phases: &[f64]| {
-            let speeds = vec![1.0; phases.len()];
-            Impacts { impact_phase_periods: phases.to_vec(), normalised_impact_speed: speeds }.distinct()
-        };
-        assert_eq!(counted(&[]), 0);
-        assert_eq!(counted(&[0.3]), 1);
-        let ulp = f64::EPSILON;
-        assert_eq!(counted(&[0.125, 0.125 - ulp, 0.125 + ulp]), 1);
-        assert_eq!(counted(&[0.05 * (1.0 - ulp), 0.05, 0.7, 0.7]), 2);
-        // One place at the seam of the phase.
-        assert_eq!(counted(&[0.0, 1.0 - ulp, ulp]), 1);
-        assert_eq!(counted(&[0.0, 0.5, 1.0 - ulp]), 2);
-    }
+/// The least and the largest value, if there are any.
+fn ends(values: &[f64]) -> (Option<f64>, Option<f64>) {
+    let (least, largest) = extent(values.iter().copied());
+    if values.is_empty() { (None, None) } else { (Some(least), Some(largest)) }
 }

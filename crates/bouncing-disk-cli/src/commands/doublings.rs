@@ -7,20 +7,19 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::arguments::{OWN, OutputArgs};
-use crate::commands::map::{MapArgs, single};
+use crate::commands::map::MapArgs;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::output::numbers::rounded;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::Table;
 use crate::pictures;
-use crate::range::Range;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
 The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
 the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. The forcing of a system does not matter here, its restitution does. See docs/numerics/dynamics.md.
+forcing by. The forcings are what is found, so that there is no --axial-forcing; of a system its restitution alone matters. See docs/numerics/dynamics.md.
 
 Examples:
   bouncing-disk doublings
@@ -33,7 +32,7 @@ pub(crate) struct DoublingsArgs {
     #[command(flatten)]
     map: MapArgs,
     /// Doublings that are looked for, at most 13
-    #[arg(help_heading = OWN, long, short = 'n', value_name = "N", default_value_t = 8)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, short = 'n', value_name = "N", default_value_t = 8)]
     count: usize,
     #[command(flatten)]
     output: OutputArgs,
@@ -47,19 +46,18 @@ struct Job {
 
 /// Runs the command.
 pub(crate) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template()? {
+    if args.map.wrote_template(&args.output, context)? {
         return Ok(());
     }
-    args.output.check(true)?;
-    let values = args.map.values(Range::single(0.0))?;
-    let job = Job { restitution: single(values.restitutions, "--restitution")?, count: args.count };
+    args.output.check(true, &args.map.inputs(), None)?;
+    let job = Job { restitution: args.map.single_restitution()?, count: args.count };
     let found = doubling_cascade_observed(job.restitution, job.count, &context.watch("doublings"))?;
     let estimates = feigenbaum_estimates(&found);
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,
         text: text(&found, &estimates),
         table: ready(table(&found, &estimates)),
-        data: vec![("doublings", value(&found)?), ("feigenbaum_estimates", value(&estimates)?)],
+        data: vec![("doublings", stored(&found)?), ("feigenbaum_estimates", stored(&estimates)?)],
         figure: Some(Box::new(move || pictures::doublings::draw(job.restitution, &found))),
     };
     report.deliver(&args.output, context.quiet)

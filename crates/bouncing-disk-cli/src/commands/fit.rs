@@ -1,6 +1,6 @@
 //! `bouncing-disk fit`: what measured run-ups say.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use bouncing_disk::{
@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::arguments::{OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::motor::{MotorArgs, MotorPreset};
 use crate::parameters::setting::Setting;
@@ -51,10 +51,10 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter")]
     set: Vec<Setting>,
     /// Resampled fits
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = FitSettings::default().resamples)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = FitSettings::default().resamples)]
     resamples: usize,
     /// Seed of the resampling
-    #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = FitSettings::default().seed)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SEED", default_value_t = FitSettings::default().seed)]
     seed: u64,
     #[command(flatten)]
     output: OutputArgs,
@@ -102,7 +102,9 @@ struct ParameterJob<'a> {
 
 /// Runs the command.
 pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
-    args.output.check(args.parameter.is_empty())?;
+    let inputs: Vec<&Path> =
+        [Some(&args.file), args.motor.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+    args.output.check(args.parameter.is_empty(), &inputs, None)?;
     let speeds = MeasuredSpeeds::from_csv(&args.file)?;
     let report = if args.parameter.is_empty() {
         rise(args, speeds, context)?
@@ -115,24 +117,10 @@ pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
 fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
     let settings = FitSettings { resamples: args.resamples, seed: args.seed, ..FitSettings::default() };
     let watcher = context.watch("fit");
-    let runs = speeds.runs();
-    // As `MeasuredSpeeds::fit` does, which takes no observer: one run by its residuals, several by their
-    // scatter.
-    let fit = match runs {
-        [run] => TransientFit::of_measured_observed(&run.times, &run.speeds, &settings, &watcher)?,
-        _ => {
-            let curves: Vec<&[f64]> = runs.iter().map(|run| &run.speeds[..]).collect();
-            if runs.iter().any(|run| run.times != runs[0].times) {
-                // The library names the time that differs.
-                speeds.fit(&settings)?
-            } else {
-                TransientFit::of_runs_observed(&runs[0].times, &curves, &settings, &watcher)?
-            }
-        }
-    };
+    let fit = speeds.fit_observed(&settings, &watcher)?;
     drop(watcher);
     let mut list = Quantities::default();
-    list.push("runs", runs.len(), "1");
+    list.push("runs", speeds.runs().len(), "1");
     list.push("points", fit.points, "1");
     list.push("duration", fit.duration, "s");
     estimates(&fit, &mut list);
@@ -140,7 +128,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
         provenance: provenance("bouncing-disk fit", &Job { speeds: &speeds, settings })?.with_seed(args.seed),
         text: list.to_text(),
         table: ready(list.to_table()),
-        data: vec![("fit", value(&fit)?)],
+        data: vec![("fit", stored(&fit)?)],
         figure: Some(Box::new(move || pictures::transient::measured(&speeds, &fit))),
     })
 }
@@ -195,6 +183,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     )?;
     let mut table = Table::new(&[
         ("parameter", "1"),
+        ("unit", "1"),
         ("nominal", "1"),
         ("value", "1"),
         ("low", "1"),
@@ -204,6 +193,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     for own in &fit.parameters {
         table.push([
             own.parameter.name().into(),
+            own.parameter.unit().into(),
             own.nominal.into(),
             own.estimate.map(|estimate| estimate.value).into(),
             own.estimate.map(|estimate| estimate.low).into(),
@@ -223,7 +213,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
         provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
         text,
         table: ready(table),
-        data: vec![("fit", value(&fit)?)],
+        data: vec![("fit", stored(&fit)?)],
         figure: None,
     })
 }

@@ -1,23 +1,27 @@
 //! The parameters of the vertical motion, which has no units: axial forcing and restitution.
 
+use std::path::Path;
+
 use bouncing_disk::System;
 use bouncing_disk::core::{Error, ImpactMap, Vibration};
 use clap::Args;
 
+use crate::arguments::OutputArgs;
+use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::lines::say;
 use crate::parameters::system::{SystemArgs, template};
 use crate::range::Range;
 
-/// Forcing and restitution, each from the system unless given.
+/// The heading of forcing and restitution in the help.
+pub(crate) const VERTICAL: &str = "Vertical motion (no units)";
+
+/// The restitution, and the system that both it and the forcing are taken from unless they are given. The
+/// forcing is an option of each command, whose help says what it takes without any system.
 #[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Vertical motion (no units)")]
+#[command(next_help_heading = VERTICAL)]
 pub(crate) struct MapArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or where several are possible a range
-    /// FIRST:LAST:POINTS, both ends included. That of the system unless given
-    #[arg(long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
-    pub(crate) axial_forcing: Option<Range>,
-    /// Coefficient of restitution, in [0, 1). That of the system unless given, which is 0.5 by default
+    /// Coefficient of restitution, in [0, 1); with `verdicts` a range, too. That of FILE, --preset or --set
+    /// unless given, else 0.5
     #[arg(long, short, value_name = "EPSILON", allow_hyphen_values = true)]
     pub(crate) restitution: Option<Range>,
     #[command(flatten)]
@@ -32,25 +36,39 @@ pub(crate) struct MapValues {
 
 impl MapArgs {
     /// Writes the template if that is asked for, and says whether it was.
-    pub(crate) fn wrote_template(&self) -> Result<bool, Failure> {
-        wrote_template(&self.system)
+    pub(crate) fn wrote_template(&self, output: &OutputArgs, context: Context) -> Result<bool, Failure> {
+        wrote_template(&self.system, output, context)
     }
 
-    /// The values; without any system `forcings` take the place of its forcing.
-    pub(crate) fn values(&self, forcings: Range) -> Result<MapValues, Failure> {
+    /// The file that the system is read from, if any.
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
+        self.system.inputs()
+    }
+
+    /// The values: the forcing that is given, else that of the system that is given, else `otherwise`.
+    pub(crate) fn values(&self, given: Option<Range>, otherwise: Range) -> Result<MapValues, Failure> {
         let system: System = self.system.system()?;
-        let own = if self.system.is_given() { Range::single(system.axial_forcing()) } else { forcings };
+        let own = if self.system.is_given() { Range::single(system.axial_forcing()) } else { otherwise };
         Ok(MapValues {
-            axial_forcings: self.axial_forcing.unwrap_or(own),
+            axial_forcings: given.unwrap_or(own),
             restitutions: self.restitution.unwrap_or(Range::single(system.disk().restitution())),
         })
+    }
+
+    /// The restitution, which is a single number.
+    pub(crate) fn single_restitution(&self) -> Result<f64, Failure> {
+        single(self.values(None, Range::single(0.0))?.restitutions, "--restitution")
     }
 }
 
 /// Writes the template of a system if that is asked for, and says whether it was.
-pub(crate) fn wrote_template(args: &SystemArgs) -> Result<bool, Failure> {
+pub(crate) fn wrote_template(
+    args: &SystemArgs,
+    output: &OutputArgs,
+    context: Context,
+) -> Result<bool, Failure> {
     if args.template {
-        say!("{}", template(&args.system()?).trim_end())?;
+        output.write_template(&template(&args.system()?), context)?;
     }
     Ok(args.template)
 }

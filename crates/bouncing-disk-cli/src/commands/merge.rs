@@ -1,6 +1,6 @@
 //! `bouncing-disk merge`: the result of all chunks.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -36,7 +36,8 @@ pub(crate) struct MergeArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &MergeArgs, context: Context) -> Result<(), Failure> {
-    args.output.check(true)?;
+    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
+    args.output.check(true, &inputs, None)?;
     let parts = args.files.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
     let watcher = context.watch("merge");
     let report = match parts.first().map(|part| part.command.as_str()).unwrap_or_default() {

@@ -10,9 +10,9 @@ pub(crate) mod transient;
 
 use clap::{Args, Subcommand};
 
+use crate::arguments::OutputArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::lines::say;
 use crate::parameters::motor::{MotorArgs, template};
 
 /// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, sweeps
@@ -46,9 +46,9 @@ pub(crate) fn run(command: MotorCommand, context: Context) -> Result<(), Failure
 }
 
 /// Writes the template if that is asked for, and says whether it was.
-fn wrote_template(args: &MotorArgs) -> Result<bool, Failure> {
+fn wrote_template(args: &MotorArgs, output: &OutputArgs, context: Context) -> Result<bool, Failure> {
     if args.template {
-        say!("{}", template(&args.motor(true)?).trim_end())?;
+        output.write_template(&template(&args.motor(true)?), context)?;
     }
     Ok(args.template)
 }

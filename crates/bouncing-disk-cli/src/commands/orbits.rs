@@ -5,10 +5,10 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::arguments::{OWN, OutputArgs};
-use crate::commands::map::{MapArgs, map, single};
+use crate::commands::map::{MapArgs, VERTICAL, map, single};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::Table;
 use crate::pictures;
 use crate::range::Range;
@@ -31,16 +31,20 @@ const FORCING: f64 = 0.535;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct OrbitsArgs {
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
+    /// given; without these 0.535, past the second period doubling
+    #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
+    axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
     /// Most impacts of an orbit, in [1, 64]
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 4)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     impacts: usize,
     /// Most periods of the platform that an orbit takes, in [1, 10000]
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 4)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     platform_periods: u64,
     /// Starts along each axis, in [2, 4096]
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 96)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 96)]
     starts: u32,
     #[command(flatten)]
     output: OutputArgs,
@@ -55,11 +59,11 @@ struct Job {
 
 /// Runs the command.
 pub(crate) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template()? {
+    if args.map.wrote_template(&args.output, context)? {
         return Ok(());
     }
-    args.output.check(true)?;
-    let values = args.map.values(Range::single(FORCING))?;
+    args.output.check(true, &args.map.inputs(), None)?;
+    let values = args.map.values(args.axial_forcing, Range::single(FORCING))?;
     let job = Job {
         axial_forcing: single(values.axial_forcings, "--axial-forcing")?,
         restitution: single(values.restitutions, "--restitution")?,
@@ -72,7 +76,7 @@ pub(crate) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
         provenance: provenance("bouncing-disk orbits", &job)?,
         text: text(&found),
         table: ready(table(&found)),
-        data: vec![("orbits", value(&found.orbits)?), ("coverage", value(&found.coverage)?)],
+        data: vec![("orbits", stored(&found.orbits)?), ("coverage", stored(&found.coverage)?)],
         figure: Some(Box::new(move || pictures::orbits::draw(job.axial_forcing, &found))),
     };
     report.deliver(&args.output, context.quiet)

@@ -40,7 +40,7 @@ impl Start {
     pub(crate) fn of(self, map: &ImpactMap) -> Result<Option<ImpactState>, Error> {
         match self {
             Self::Rest => ImpactState::new(Phase::new(0.0)?, 0.0).map(Some),
-            Self::Rise => ImpactState::new(Phase::new(0.0)?, -TAU / (1.0 + map.restitution())).map(Some),
+            Self::Rise => ImpactState::new(Phase::new(0.0)?, -map.period_one_impact_speed(1)).map(Some),
             Self::PeriodOne => map
                 .period_one(1)
                 .map(|orbit| ImpactState::new(orbit.phase(), BESIDE * orbit.velocity()))

@@ -1,9 +1,11 @@
 //! `bouncing-disk toss`: a single toss, or many on end.
 
+use std::rc::Rc;
+
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Engine, InitialCondition, InitialSpin, MultiTossSettings, OrbitClass, System, TOSS_START, TossOrbit,
-    TossPerformance, Trajectory, multi_toss_observed, single_toss, toss_trajectory,
+    Engine, InitialCondition, InitialSpin, MultiTossSettings, OrbitClass, PhaseSpan, Snapshot, System,
+    TOSS_START, TossOrbit, TossPerformance, multi_toss_observed, single_toss, toss_trajectory,
 };
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -12,8 +14,9 @@ use crate::arguments::{OWN, OutputArgs};
 use crate::commands::map::wrote_template;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
-use crate::output::table::{Quantities, Table};
+use crate::output::json::Data;
+use crate::output::report::{Report, WriteTable, provenance, stored};
+use crate::output::table::{Column, Csv, Quantities};
 use crate::parameters::system::SystemArgs;
 use crate::pictures;
 
@@ -46,6 +49,18 @@ impl From<Spin> for InitialSpin {
     }
 }
 
+/// Most instants of a motion in a file.
+pub(crate) const MOST_INSTANTS: i64 = 1_000_000;
+
+/// Instants of a motion over so many periods of the platform, unless they are given: fewer would show another
+/// motion of the platform than it has.
+pub(crate) fn instants(given: Option<u32>, periods: u64) -> u32 {
+    const LEAST: u64 = 400;
+    const A_PERIOD: u64 = 40;
+    let otherwise = (A_PERIOD.saturating_mul(periods)).clamp(LEAST, MOST_INSTANTS.unsigned_abs());
+    given.unwrap_or(u32::try_from(otherwise).unwrap_or(u32::MAX))
+}
+
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -59,17 +74,18 @@ pub(crate) struct TossArgs {
     #[arg(help_heading = OWN, long)]
     many: bool,
     /// With --many: impacts that are not looked at before the motion is judged
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 4_000, requires = "many")]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4_000, requires = "many")]
     transient: usize,
     /// With --many: impacts that the motion is judged by
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 1_024, requires = "many")]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1_024, requires = "many")]
     examined: usize,
-    /// With --many: periods of the platform in the file of the motion, from the start
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 10, requires = "many")]
+    /// With --many: periods of the platform in the file of the motion, from the start, at most 2^30
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 10, requires = "many")]
     periods: u64,
-    /// Instants of the motion in a file
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
-    samples: u32,
+    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given,
+    /// and 400 at least
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
+    samples: Option<u32>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -79,7 +95,7 @@ struct Job<'a> {
     system: &'a System,
     spin: InitialSpin,
     many: bool,
-    samples: u32,
+    samples: usize,
     transient_impacts: Option<usize>,
     examined_impacts: Option<usize>,
     periods: Option<u64>,
@@ -87,22 +103,22 @@ struct Job<'a> {
 
 /// Runs the command.
 pub(crate) fn run(args: &TossArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.system)? {
+    if wrote_template(&args.system, &args.output, context)? {
         return Ok(());
     }
-    args.output.check(true)?;
+    args.output.check(true, &args.system.inputs(), None)?;
     let system = args.system.system()?;
     let report = if args.many { many(&system, args, context)? } else { single(&system, args)? };
     report.deliver(&args.output, context.quiet)
 }
 
-fn job<'a>(system: &'a System, args: &TossArgs) -> Job<'a> {
+fn job<'a>(system: &'a System, args: &TossArgs, samples: usize) -> Job<'a> {
     let many = |value: usize| args.many.then_some(value);
     Job {
         system,
         spin: args.spin.into(),
         many: args.many,
-        samples: args.samples,
+        samples,
         transient_impacts: many(args.transient),
         examined_impacts: many(args.examined),
         periods: args.many.then_some(args.periods),
@@ -112,8 +128,10 @@ fn job<'a>(system: &'a System, args: &TossArgs) -> Job<'a> {
 fn single(system: &System, args: &TossArgs) -> Result<Report, Failure> {
     let toss = single_toss(system, args.spin.into())?;
     let trajectory = toss_trajectory(system, args.spin.into())?;
+    let periods = trajectory.end().since(&trajectory.start()).periods;
+    let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
     let text = quantities(system, &toss).to_text();
-    report(system, args, &trajectory, text, vec![("performance", value(&toss)?)])
+    report(system, args, samples, text, vec![("performance", stored(&toss)?)])
 }
 
 /// The numbers of a toss, in the order in which the paper speaks of them.
@@ -141,12 +159,14 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Fa
         ..MultiTossSettings::default()
     };
     let start = start(system, args.spin)?;
-    let orbit = multi_toss_observed(system, start, settings, &context.watch("toss"))?;
+    // Before the long part, so that a number of periods that is not legal is told at once.
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
-    let periods = args.periods;
-    let motion = Trajectory::record(&mut engine, |record| record.time.periods >= periods)?;
+    let span = PhaseSpan { periods: args.periods, remainder: 0.0 };
+    let instants = instants(args.samples, args.periods) as usize;
+    let motion = engine.sample_observed(span, instants, &context.watch("motion of the toss"))?;
+    let orbit = multi_toss_observed(system, start, settings, &context.watch("toss"))?;
     let text = described(system, &orbit).to_text();
-    report(system, args, &motion, text, vec![("orbit", value(&orbit)?)])
+    report(system, args, samples(system, motion), text, vec![("orbit", stored(&orbit)?)])
 }
 
 /// At rest on the platform at its lowest point, as a single toss starts.
@@ -180,7 +200,7 @@ fn described(system: &System, orbit: &TossOrbit) -> Quantities {
         OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } => {
             list.push("motion", "chaotic, or of a long period", "1");
             list.push("impacts", *impacts, "1");
-            list.push("lyapunov_exponent", *lyapunov_exponent, "1");
+            list.push("lyapunov_exponent", *lyapunov_exponent, "per impact");
         }
         OrbitClass::AtRest => list.push("motion", "at rest on the platform for ever", "1"),
         _ => list.push("motion", "unknown", "1"),
@@ -204,61 +224,69 @@ pub(crate) struct Sample {
     pub(crate) platform_angular_speed_rad_s: f64,
 }
 
-/// Disk and platform at so many instants; the time is 0 at the start.
-pub(crate) fn samples(system: &System, motion: &Trajectory, count: u32) -> Vec<Sample> {
+/// Disk and platform in SI units; the time is 0 at the first instant.
+pub(crate) fn samples(system: &System, motion: impl IntoIterator<Item = Snapshot>) -> Vec<Sample> {
     let scales = system.scales();
-    let start = scales.time_seconds(motion.start());
-    motion
-        .uniform(count as usize)
-        .map(|snapshot| {
-            let disk = scales.state(&snapshot.disk);
-            let platform = snapshot.platform;
-            Sample {
-                time_s: scales.time_seconds(snapshot.time) - start,
-                disk_height_m: disk.height,
-                platform_height_m: platform.height * scales.length,
-                disk_angle_rad: disk.angle,
-                platform_angle_rad: platform.angle * scales.angle,
-                disk_angular_speed_rad_s: disk.angular_speed,
-                platform_angular_speed_rad_s: platform.angular_speed * scales.angular_speed,
-            }
-        })
-        .collect()
+    let mut start = None;
+    let sample = |snapshot: Snapshot| {
+        let (disk, platform) = (scales.state(&snapshot.disk), snapshot.platform);
+        let time = scales.time_seconds(snapshot.time);
+        Sample {
+            time_s: time - *start.get_or_insert(time),
+            disk_height_m: disk.height,
+            platform_height_m: platform.height * scales.length,
+            disk_angle_rad: disk.angle,
+            platform_angle_rad: platform.angle * scales.angle,
+            disk_angular_speed_rad_s: disk.angular_speed,
+            platform_angular_speed_rad_s: platform.angular_speed * scales.angular_speed,
+        }
+    };
+    motion.into_iter().map(sample).collect()
 }
 
 fn report(
     system: &System,
     args: &TossArgs,
-    motion: &Trajectory,
+    samples: Vec<Sample>,
     text: String,
-    found: Vec<(&'static str, serde_json::Value)>,
+    found: Vec<(&'static str, Data)>,
 ) -> Result<Report, Failure> {
-    let samples = samples(system, motion, args.samples);
+    let samples: Rc<[Sample]> = samples.into();
     let mut data = found;
-    data.push(("motion", value(&samples)?));
+    data.push(("motion", motion(&samples)));
     Ok(Report {
-        provenance: provenance("bouncing-disk toss", &job(system, args))?,
+        provenance: provenance("bouncing-disk toss", &job(system, args, samples.len()))?,
         text,
-        table: ready(table(&samples)),
+        table: write_table(&samples),
         data,
         figure: Some(Box::new(move || pictures::toss::draw(&samples))),
     })
 }
 
-/// The motion as a table.
-pub(crate) fn table(samples: &[Sample]) -> Table {
-    let mut table = Table::new(&[
-        ("time", "s"),
-        ("disk_height", "m"),
-        ("platform_height", "m"),
-        ("disk_angle", "rad"),
-        ("platform_angle", "rad"),
-        ("disk_angular_speed", "rad/s"),
-        ("platform_angular_speed", "rad/s"),
-    ]);
-    for sample in samples {
-        table.push(
-            [
+/// The motion as a list for a file of JSON.
+pub(crate) fn motion(samples: &Rc<[Sample]>) -> Data {
+    let samples = Rc::clone(samples);
+    Data::list(samples.len(), move |index| Ok(serde_json::to_value(samples[index])?))
+}
+
+/// The motion as comma-separated text.
+pub(crate) fn write_table(samples: &Rc<[Sample]>) -> WriteTable {
+    let samples = Rc::clone(samples);
+    Box::new(move |to| {
+        let mut csv = Csv::begin(
+            to,
+            &[
+                Column::new("time", "s"),
+                Column::new("disk_height", "m"),
+                Column::new("platform_height", "m"),
+                Column::new("disk_angle", "rad"),
+                Column::new("platform_angle", "rad"),
+                Column::new("disk_angular_speed", "rad/s"),
+                Column::new("platform_angular_speed", "rad/s"),
+            ],
+        )?;
+        samples.iter().try_for_each(|sample| {
+            let values = [
                 sample.time_s,
                 sample.disk_height_m,
                 sample.platform_height_m,
@@ -266,9 +294,21 @@ pub(crate) fn table(samples: &[Sample]) -> Table {
                 sample.platform_angle_rad,
                 sample.disk_angular_speed_rad_s,
                 sample.platform_angular_speed_rad_s,
-            ]
-            .map(Into::into),
-        );
+            ];
+            csv.row(&values.map(Into::into))
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_period_of_the_platform_has_instants_enough() {
+        for (periods, expected) in [(0, 400), (10, 400), (11, 440), (400, 16_000), (u64::MAX, 1_000_000)] {
+            assert_eq!(instants(None, periods), expected);
+            assert_eq!(instants(Some(7), periods), 7);
+        }
     }
-    table
 }

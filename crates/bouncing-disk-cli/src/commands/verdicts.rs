@@ -1,22 +1,26 @@
 //! `bouncing-disk verdicts`: what the disk does for good, over the forcing, or over forcing and restitution.
 
+mod found;
+mod kind;
+
 use std::ops::Range as Rows;
 use std::rc::Rc;
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::{ChatterPolicy, Verdict, VerdictSettings, verdicts_observed};
+use bouncing_disk::core::{ChatterPolicy, MAX_CELLS, Verdict, VerdictSettings, verdicts_observed};
 use clap::Args;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
+use self::found::Found;
+pub(crate) use self::kind::Kind;
 use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::commands::map::{MapArgs, map};
+use crate::commands::map::{MapArgs, VERTICAL, map};
 use crate::commands::start::{STARTS, Start};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, value};
-use crate::output::table::{Cell, Table};
+use crate::output::json::Data;
+use crate::output::report::{Report, provenance, stored};
 use crate::pictures;
 use crate::range::Range;
 
@@ -38,25 +42,36 @@ const FORCINGS: (f64, f64, usize) = (0.30, 0.62, 33);
 /// Orbits that are followed together.
 const TOGETHER: usize = 4_096;
 
+/// Most cells that keep their evidence.
+const MOST_DETAILED: u64 = 1 << 24;
+
+/// What a cell takes while the result is made (bytes), with its evidence and without.
+const DETAILED: u64 = 2 * size_of::<Option<Verdict>>() as u64;
+const PLAIN: u64 = 4;
+
 /// Verdicts on what the disk does for good, over forcing and restitution
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(crate) struct VerdictsArgs {
+    /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
+    /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:33
+    #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
+    axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
-    #[arg(help_heading = OWN, long, value_name = "START", default_value_t = Start::Rise, help = format!("How each orbit starts: {STARTS}"))]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", default_value_t = Start::Rise, help = format!("How each orbit starts: {STARTS}"))]
     start: Start,
     /// Impacts before the exponent is measured
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().transient)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = VerdictSettings::default().transient)]
     transient: u64,
     /// Impacts that the exponent is measured over, at least 64
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().impacts)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = VerdictSettings::default().impacts)]
     impacts: u64,
     /// The longest period that is looked for, in impacts, at most 4096
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = VerdictSettings::default().longest_period)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = VerdictSettings::default().longest_period)]
     longest_period: usize,
     /// How near an impact must come to an earlier one for a period to be tried, in (0, 0.01]
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
     tolerance: f64,
     /// Keeps the evidence of each cell of a map in the file, which makes it a hundred times larger; without a
     /// range of restitutions it is always kept
@@ -70,11 +85,12 @@ pub(crate) struct VerdictsArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template()? {
+    if args.map.wrote_template(&args.output, context)? {
         return Ok(());
     }
     let (first, last, count) = FORCINGS;
-    let values = args.map.values(Range::new(first, last, count).map_err(Failure::usage)?)?;
+    let values =
+        args.map.values(args.axial_forcing, Range::new(first, last, count).map_err(Failure::usage)?)?;
     let job = VerdictsJob {
         axial_forcings: values.axial_forcings,
         restitutions: values.restitutions,
@@ -87,11 +103,11 @@ pub(crate) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> 
         },
         details: args.details || values.restitutions.count() == 1,
     };
-    grid::run(job, &args.grid, &args.output, context)
+    grid::run(job, &args.map.inputs(), &args.grid, &args.output, context)
 }
 
 /// What verdicts depend on.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VerdictsJob {
     axial_forcings: Range,
@@ -100,76 +116,6 @@ pub(crate) struct VerdictsJob {
     settings: VerdictSettings,
     /// Whether the evidence is kept, or the kinds alone.
     details: bool,
-}
-
-/// The kind of a verdict, as files and pictures have it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    AtRest,
-    ExactCycle,
-    LongCycle,
-    PeriodOne,
-    PeriodTwo,
-    PeriodThree,
-    LongerPeriod,
-    Chaotic,
-    Undecided,
-    /// There is no such start.
-    NoStart,
-}
-
-impl Kind {
-    pub(crate) const ALL: [Self; 10] = [
-        Self::AtRest,
-        Self::ExactCycle,
-        Self::LongCycle,
-        Self::PeriodOne,
-        Self::PeriodTwo,
-        Self::PeriodThree,
-        Self::LongerPeriod,
-        Self::Chaotic,
-        Self::Undecided,
-        Self::NoStart,
-    ];
-
-    pub(crate) fn of(verdict: Option<&Verdict>) -> Self {
-        match verdict {
-            None => Self::NoStart,
-            Some(Verdict::AtRest { .. }) => Self::AtRest,
-            Some(Verdict::Chattering { cycle, .. }) if cycle.is_exact() => Self::ExactCycle,
-            Some(Verdict::Chattering { .. }) => Self::LongCycle,
-            Some(Verdict::Periodic { impacts: 1, .. }) => Self::PeriodOne,
-            Some(Verdict::Periodic { impacts: 2, .. }) => Self::PeriodTwo,
-            Some(Verdict::Periodic { impacts: 3, .. }) => Self::PeriodThree,
-            Some(Verdict::Periodic { .. }) => Self::LongerPeriod,
-            Some(Verdict::Chaotic { .. }) => Self::Chaotic,
-            Some(_) => Self::Undecided,
-        }
-    }
-
-    /// Its place in [`Self::ALL`], as a letter.
-    fn digit(self) -> char {
-        char::from(b'0' + self as u8)
-    }
-
-    fn of_digit(letter: char) -> Option<Self> {
-        Self::ALL.get(letter.to_digit(10)? as usize).copied()
-    }
-
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::AtRest => "at rest",
-            Self::ExactCycle => "cycle with rest",
-            Self::LongCycle => "cycle with rest, chosen by rounding",
-            Self::PeriodOne => "period 1",
-            Self::PeriodTwo => "period 2",
-            Self::PeriodThree => "period 3",
-            Self::LongerPeriod => "period 4 or longer",
-            Self::Chaotic => "chaotic",
-            Self::Undecided => "undecided",
-            Self::NoStart => "no such start",
-        }
-    }
 }
 
 impl GridJob for VerdictsJob {
@@ -194,7 +140,12 @@ impl GridJob for VerdictsJob {
         for (forcing, restitution) in [(low, least), (high, largest)] {
             map(forcing, restitution)?;
         }
-        Ok(())
+        let cells = (self.rows() as u64).saturating_mul(self.columns() as u64);
+        if self.details {
+            grid::check_room("verdicts with their evidence", cells, MOST_DETAILED, DETAILED)
+        } else {
+            grid::check_room("cells of a map of verdicts", cells, MAX_CELLS, PLAIN)
+        }
     }
 
     fn compute(
@@ -250,28 +201,28 @@ impl GridJob for VerdictsJob {
         if kinds.len() != expected || !complete {
             return Err(Failure::usage(format!("{} verdicts are there, of {expected}", kinds.len())));
         }
-        let mut data = vec![("kinds", value(&Kind::ALL.map(Kind::name))?)];
-        if self.details {
-            let cells = verdicts.iter().enumerate().map(|(index, verdict)| {
-                let (forcing, restitution) = self.cell(index / self.columns(), index % self.columns());
-                Ok(json!({ "axial_forcing": forcing, "restitution": restitution, "verdict": value(verdict)? }))
-            });
-            data.push(("cells", cells.collect::<Result<Vec<_>, Failure>>()?.into()));
-        } else {
-            data.push(("kinds_by_restitution", value(&digits)?));
-        }
-        let text = if self.is_map() { counted(&kinds) } else { self.listed(&verdicts) };
         let provenance =
             provenance("bouncing-disk verdicts", &self)?.with_chatter_policy(ChatterPolicy::Complete);
-        let kinds: Rc<[Kind]> = kinds.into();
-        let (forcings, restitutions) = (self.axial_forcings, self.restitutions);
-        let drawn = Rc::clone(&kinds);
+        let mut data = vec![("kinds", stored(&Kind::ALL.map(Kind::name))?)];
+        if !self.details {
+            data.push(("kinds_by_restitution", stored(&digits)?));
+        }
+        let found = Rc::new(Found { job: self, kinds, verdicts });
+        if found.job.details {
+            let listed = Rc::clone(&found);
+            data.push(("cells", Data::list(listed.kinds.len(), move |index| listed.cell(index))));
+        }
+        let drawn = Rc::clone(&found);
+        let figure = move || {
+            let Self { axial_forcings, restitutions, .. } = drawn.job;
+            pictures::regimes::draw(axial_forcings, restitutions, &drawn.kinds)
+        };
         Ok(Report {
             provenance,
-            text,
-            table: Box::new(move || self.table(&kinds, &verdicts)),
+            text: found.text(),
+            table: Box::new(move |to| found.write_csv(to)),
             data,
-            figure: Some(Box::new(move || pictures::regimes::draw(forcings, restitutions, &drawn))),
+            figure: Some(Box::new(figure)),
         })
     }
 }
@@ -296,38 +247,6 @@ impl VerdictsJob {
         if self.is_map() { self.axial_forcings.count() } else { 1 }
     }
 
-    /// The verdicts in words.
-    fn listed(&self, verdicts: &[Option<Verdict>]) -> String {
-        let mut table = Table::new(&[("axial_forcing", "1"), ("verdict", "1")]);
-        for (forcing, verdict) in self.axial_forcings.values().zip(verdicts) {
-            let words = verdict.map_or(Kind::NoStart.name().to_owned(), |verdict| verdict.to_string());
-            table.push([forcing.into(), words.into()]);
-        }
-        table.to_text()
-    }
-
-    /// Each cell a row, with the details where there are any.
-    fn table(&self, kinds: &[Kind], verdicts: &[Option<Verdict>]) -> Table {
-        let plain = [("axial_forcing", "1"), ("restitution", "1"), ("verdict", "1")];
-        let details = [
-            ("impacts", "1"),
-            ("platform_periods", "1"),
-            ("spectral_radius", "1"),
-            ("exponent", "1"),
-            ("exponent_error", "1"),
-            ("words", "1"),
-        ];
-        let columns = if self.details { [&plain[..], &details[..]].concat() } else { plain.to_vec() };
-        let mut table = Table::new(&columns);
-        for (index, kind) in kinds.iter().enumerate() {
-            let (forcing, restitution) = self.cell(index / self.columns(), index % self.columns());
-            let mut row: Vec<Cell> = vec![forcing.into(), restitution.into(), kind.name().into()];
-            row.extend(verdicts.get(index).copied().flatten().map(detailed).into_iter().flatten());
-            table.push(row);
-        }
-        table
-    }
-
     /// Forcing and restitution of a cell.
     fn cell(&self, row: usize, column: usize) -> (f64, f64) {
         if self.is_map() {
@@ -335,52 +254,5 @@ impl VerdictsJob {
         } else {
             (self.axial_forcings.value(row), self.restitutions.value(0))
         }
-    }
-}
-
-/// How many cells there are of each kind that there is.
-fn counted(kinds: &[Kind]) -> String {
-    let mut table = Table::new(&[("verdict", "1"), ("cells", "1"), ("share", "%")]);
-    for kind in Kind::ALL {
-        let count = kinds.iter().filter(|own| **own == kind).count();
-        if count > 0 {
-            table.push([
-                kind.name().into(),
-                count.into(),
-                (100.0 * count as f64 / kinds.len() as f64).into(),
-            ]);
-        }
-    }
-    table.to_text()
-}
-
-/// Impacts, periods of the platform, spectral radius, exponent and its error, and all in words.
-fn detailed(verdict: Verdict) -> [Cell; 6] {
-    let [impacts, periods, radius, exponent, error] = match verdict {
-        Verdict::Periodic { impacts, platform_periods, multipliers, .. } => {
-            let radius = multipliers.spectral_radius();
-            [impacts.into(), platform_periods.into(), radius.into(), Cell::Nothing, Cell::Nothing]
-        }
-        Verdict::Chaotic { exponent, standard_error, .. } => {
-            [Cell::Nothing, Cell::Nothing, Cell::Nothing, exponent.into(), standard_error.into()]
-        }
-        Verdict::Chattering { cycle, .. } => {
-            [cycle.impacts.into(), cycle.platform_periods.into(), Cell::Nothing, Cell::Nothing, Cell::Nothing]
-        }
-        _ => [const { Cell::Nothing }; 5],
-    };
-    [impacts, periods, radius, exponent, error, verdict.to_string().into()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn kinds_have_a_digit_each() {
-        for kind in Kind::ALL {
-            assert_eq!(Kind::of_digit(kind.digit()), Some(kind));
-        }
-        assert_eq!([':', '/', 'a'].map(Kind::of_digit), [None; 3]);
     }
 }

@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use super::GridJob;
 use crate::arguments::Chunk;
 use crate::failure::Failure;
-use crate::output::json;
-use crate::output::report::{PROGRAM, Report, VERSION, value};
+use crate::output::json::Data;
+use crate::output::report::{PROGRAM, Report, VERSION, stored, value};
 
 /// The format of such a file.
 const CHUNK: Format = Format { name: "bouncing-disk chunk", version: 2, oldest: 2 };
@@ -20,29 +20,28 @@ const CHUNK: Format = Format { name: "bouncing-disk chunk", version: 2, oldest: 
 /// The largest file of a part that is read (bytes).
 const LARGEST: u64 = 1 << 34;
 
-/// The file of a part: it says what it belongs to, and has digests of the job and of its rows.
-pub(super) fn text<J: GridJob>(
+/// The fields of the file of a part: it says what it belongs to, and has digests of the job and of its rows.
+pub(super) fn fields<J: GridJob>(
     job: &J,
     chunk: Chunk,
     range: Range<usize>,
     rows: &[J::Row],
-) -> Result<String, Failure> {
+) -> Result<Vec<(&'static str, Data)>, Failure> {
     let job_value = value(job)?;
     let provenance = Provenance::new(CHUNK)
         .written_by(PROGRAM, VERSION)
         .with("command", J::COMMAND)?
         .with("job", &job_value)?;
     let rows = value(rows)?;
-    let fields = [
-        ("provenance", value(&provenance)?),
-        ("job_digest", json!(digest(&job_value))),
-        ("chunk", json!({ "index": chunk.index, "count": chunk.count })),
-        ("first_row", json!(range.start)),
-        ("end_row", json!(range.end)),
-        ("rows_digest", json!(rows_digest(chunk, &range, &rows))),
-        ("rows", rows),
-    ];
-    Ok(json::object(fields.iter().map(|(name, value)| (*name, value))))
+    Ok(vec![
+        ("provenance", stored(&provenance)?),
+        ("job_digest", json!(digest(&job_value)).into()),
+        ("chunk", json!({ "index": chunk.index, "count": chunk.count }).into()),
+        ("first_row", json!(range.start).into()),
+        ("end_row", json!(range.end).into()),
+        ("rows_digest", json!(rows_digest(chunk, &range, &rows)).into()),
+        ("rows", rows.into()),
+    ])
 }
 
 /// The digest of rows with their place, so that those of two parts cannot be changed for each other.

@@ -1,12 +1,14 @@
 //! The result of a command, in every form that it may be asked for.
 
+use std::io::{self, Write};
+
 use bouncing_disk::{Format, Provenance};
 use bouncing_disk_plot::Figure;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::files::{Kind, Target};
-use super::json;
+use super::json::{self, Data};
 use super::lines::{complain, say};
 use super::table::Table;
 use crate::arguments::OutputArgs;
@@ -23,32 +25,46 @@ pub(crate) struct Report {
     pub(crate) provenance: Provenance,
     /// What is printed.
     pub(crate) text: String,
-    /// What goes into a comma-separated file, made when it is asked for: that of a large map takes much
-    /// memory.
-    pub(crate) table: Box<dyn Fn() -> Table>,
+    /// Writes what goes into a comma-separated file.
+    pub(crate) table: WriteTable,
     /// The fields of the JSON file after the provenance, in their order.
-    pub(crate) data: Vec<(&'static str, Value)>,
+    pub(crate) data: Vec<(&'static str, Data)>,
     /// The picture, drawn when it is asked for; `None` of what has none.
     pub(crate) figure: Option<Box<dyn Fn() -> Figure>>,
 }
 
+/// Writes a table as comma-separated text.
+pub(crate) type WriteTable = Box<dyn Fn(&mut dyn Write) -> io::Result<()>>;
+
 impl Report {
-    /// The bytes of a file.
-    fn bytes(&self, kind: Kind) -> Result<Vec<u8>, Failure> {
+    /// Writes a file.
+    fn write(&self, target: &Target, replace: bool) -> Result<(), Failure> {
         let figure = || self.figure.as_ref().map(|draw| draw()).ok_or_else(no_picture);
-        Ok(match kind {
+        match target.kind {
             Kind::Csv => {
                 let provenance = value(&self.provenance)?;
-                format!("# provenance: {provenance}\n{}", (self.table)().to_csv()).into_bytes()
+                target.write(replace, |to| {
+                    writeln!(to, "# provenance: {provenance}")?;
+                    (self.table)(to)
+                })
             }
             Kind::Json => {
-                let provenance = value(&self.provenance)?;
-                let data = self.data.iter().map(|(name, value)| (*name, value));
-                json::object([("provenance", &provenance)].into_iter().chain(data)).into_bytes()
+                let provenance = stored(&self.provenance)?;
+                let data = self.data.iter().map(|(name, data)| (*name, data));
+                target.write(replace, |to| {
+                    json::write(to, [("provenance", &provenance)].into_iter().chain(data))
+                })
             }
-            Kind::Png => figure()?.to_png()?,
-            Kind::Svg => figure()?.to_svg()?.into_bytes(),
-        })
+            Kind::Png => {
+                let bytes = figure()?.to_png()?;
+                target.write(replace, |to| to.write_all(&bytes))
+            }
+            Kind::Svg => {
+                let text = figure()?.to_svg()?;
+                target.write(replace, |to| to.write_all(text.as_bytes()))
+            }
+            Kind::Toml => Err(no_result(target)),
+        }
     }
 
     /// Prints the result, or writes it to the files that are asked for.
@@ -57,7 +73,7 @@ impl Report {
             return Ok(say!("{}", self.text.trim_end())?);
         }
         for target in &output.out {
-            target.write(&self.bytes(target.kind)?, output.force)?;
+            self.write(target, output.force)?;
             wrote(target, quiet);
         }
         Ok(())
@@ -65,8 +81,8 @@ impl Report {
 }
 
 /// A table that is there already.
-pub(crate) fn ready(table: Table) -> Box<dyn Fn() -> Table> {
-    Box::new(move || table.clone())
+pub(crate) fn ready(table: Table) -> WriteTable {
+    Box::new(move |to| table.write_csv(to))
 }
 
 /// Says that a file is there.
@@ -81,9 +97,21 @@ pub(crate) fn no_picture() -> Failure {
     Failure::usage("this command has no picture; .csv and .json are possible")
 }
 
+/// Why no result goes into a file of parameters.
+pub(crate) fn no_result(target: &Target) -> Failure {
+    Failure::usage(format!(
+        "{target}: a result is .csv, .json, .png or .svg; .toml is the file of --template"
+    ))
+}
+
 /// A value as JSON. What cannot be stored is a defect, and told as a failure.
 pub(crate) fn value(of: &(impl Serialize + ?Sized)) -> Result<Value, Failure> {
     serde_json::to_value(of).map_err(|error| Failure::failed(format!("a result cannot be stored: {error}")))
+}
+
+/// A value as a field of a file of JSON.
+pub(crate) fn stored(of: &(impl Serialize + ?Sized)) -> Result<Data, Failure> {
+    Ok(value(of)?.into())
 }
 
 /// The provenance of a command's result: each field of `job` is a parameter.

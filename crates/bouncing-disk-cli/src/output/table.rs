@@ -1,6 +1,7 @@
 //! Tables: aligned for people, comma-separated for programs.
 
 use std::fmt::Write as _;
+use std::io::{self, Write};
 
 use bouncing_disk::IntervalEstimate;
 use serde_json::{Value, json};
@@ -123,6 +124,28 @@ impl Column {
     }
 }
 
+/// Comma-separated text that is written row by row: a large table never is in memory as a whole.
+pub(crate) struct Csv<'w> {
+    to: &'w mut dyn Write,
+    columns: usize,
+}
+
+impl<'w> Csv<'w> {
+    /// Begins with the line of names.
+    pub(crate) fn begin(to: &'w mut dyn Write, columns: &[Column]) -> io::Result<Self> {
+        let names: Vec<String> = columns.iter().map(Column::field).collect();
+        writeln!(to, "{}", names.join(","))?;
+        Ok(Self { to, columns: columns.len() })
+    }
+
+    /// Writes a row; cells that are missing are empty.
+    pub(crate) fn row(&mut self, cells: &[Cell]) -> io::Result<()> {
+        let mut fields: Vec<String> = cells.iter().map(Cell::field).collect();
+        fields.resize(self.columns, String::new());
+        writeln!(self.to, "{}", fields.join(","))
+    }
+}
+
 /// A table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Table {
@@ -151,17 +174,19 @@ impl Table {
     }
 
     /// Comma-separated, with a line of names.
-    pub(crate) fn to_csv(&self) -> String {
+    pub(crate) fn write_csv(&self, to: &mut dyn Write) -> io::Result<()> {
         if let Some(text) = &self.csv {
-            return text.clone();
+            return to.write_all(text.as_bytes());
         }
-        let names: Vec<String> = self.columns.iter().map(Column::field).collect();
-        let mut text = names.join(",") + "\n";
-        for row in &self.rows {
-            let fields: Vec<String> = row.iter().map(Cell::field).collect();
-            text += &(fields.join(",") + "\n");
-        }
-        text
+        let mut csv = Csv::begin(to, &self.columns)?;
+        self.rows.iter().try_for_each(|row| csv.row(row))
+    }
+
+    #[cfg(test)]
+    pub(crate) fn to_csv(&self) -> String {
+        let mut bytes = Vec::new();
+        self.write_csv(&mut bytes).unwrap();
+        String::from_utf8(bytes).unwrap()
     }
 
     /// Aligned columns: numbers at the right, words at the left.
@@ -295,6 +320,14 @@ load_torque_n_m,state,speed_rad_s
         assert_eq!(table().to_csv(), expected);
         assert_eq!(Column::new("spring_constant", "N/m").field(), "spring_constant_n_per_m");
         assert_eq!(Column::new("acceleration", "rad/s^2").field(), "acceleration_rad_s2");
+    }
+
+    #[test]
+    fn a_row_that_lacks_cells_is_filled_up() {
+        let mut bytes = Vec::new();
+        let columns = [Column::new("a", "1"), Column::new("exponent", "per impact")];
+        Csv::begin(&mut bytes, &columns).and_then(|mut csv| csv.row(&[1_u64.into()])).unwrap();
+        assert_eq!(String::from_utf8(bytes).unwrap(), "a,exponent_per_impact\n1,\n");
     }
 
     #[test]

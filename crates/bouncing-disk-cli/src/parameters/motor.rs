@@ -1,8 +1,8 @@
 //! Where the commands of motors have their data sheet from.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use bouncing_disk::{Motor, MotorField};
+use bouncing_disk::{Motor, MotorField, MotorFileError};
 use clap::{Args, ValueEnum};
 
 use super::Format;
@@ -43,12 +43,18 @@ pub(crate) struct MotorArgs {
     /// Gives a field of the data sheet another value: friction=0.2; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Writes the data sheet as a commented TOML file to the terminal, and computes nothing
+    /// Writes the data sheet as a commented TOML file, to the terminal or with --out FILE.toml into a file,
+    /// and computes nothing
     #[arg(long)]
     pub(crate) template: bool,
 }
 
 impl MotorArgs {
+    /// The file that is read, if any.
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
+        self.file.as_deref().into_iter().collect()
+    }
+
     /// The motor; what is legal in its data sheet and yet unlikely to be meant is told, unless `quiet`.
     ///
     /// # Errors
@@ -61,30 +67,32 @@ impl MotorArgs {
         Ok(motor)
     }
 
+    /// What is set takes the place of what the file says before anything is checked, so that it can put a
+    /// wrong file right.
     fn changed(&self) -> Result<Motor, Failure> {
-        let motor = self.given()?;
-        if self.set.is_empty() {
-            return Ok(motor);
-        }
-        let mut sheet = motor.parameters();
-        for Setting { key, value } in &self.set {
-            let field: MotorField =
-                key.parse().map_err(|unknown| Failure::usage(format!("--set: {unknown}")))?;
-            field.set(&mut sheet, *value);
-        }
-        sheet.build().map_err(|error| Failure::from(error).in_context("--set"))
-    }
-
-    fn given(&self) -> Result<Motor, Failure> {
+        let field = |setting: &Setting| match setting.key.parse::<MotorField>() {
+            Ok(field) => Ok((field, setting.value)),
+            Err(unknown) => Err(Failure::usage(format!("--set: {unknown}"))),
+        };
+        let changes = self.set.iter().map(field).collect::<Result<Vec<_>, _>>()?;
         let Some(path) = &self.file else {
-            return Ok(self.preset.unwrap_or(MotorPreset::Paper70Khz).motor());
+            let mut sheet = self.preset.unwrap_or(MotorPreset::Paper70Khz).motor().parameters();
+            changes.iter().for_each(|(field, value)| field.set(&mut sheet, *value));
+            let built = sheet.build().map_err(Failure::from);
+            return built.map_err(|failure| failure.in_context("--set"));
         };
         let (text, format) = super::read(path)?;
         let read = match format {
-            Format::Json => Motor::from_json(&text),
-            Format::Toml => Motor::from_toml(&text),
+            Format::Json => Motor::from_json_with(&text, &changes),
+            Format::Toml => Motor::from_toml_with(&text, &changes),
         };
-        read.map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
+        read.map_err(|error| {
+            // What is illegal and not of a line of the file is of a setting, or of what the file lacks.
+            let set = matches!(error, MotorFileError::Illegal { line: None, .. }) && !changes.is_empty();
+            let place =
+                if set { format!("{} with --set", path.display()) } else { path.display().to_string() };
+            Failure::usage(format!("{place}: {error}"))
+        })
     }
 }
 

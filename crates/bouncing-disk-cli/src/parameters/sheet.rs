@@ -78,12 +78,12 @@ fn name(path: &str) -> &str {
 }
 
 impl Sheet {
-    /// The parameters of a file.
+    /// The parameters of a file, of which some may be missing.
     ///
     /// # Errors
     /// Names line and key.
     pub(super) fn of_entries(entries: Vec<Entry>) -> Result<Self, Failure> {
-        // All of it is given by the file, which is checked below.
+        // All of it is given by the file or set, which [`Self::check_given`] sees.
         let mut sheet = Self::from(&System::pizza_toss());
         sheet.disk.load_acceleration = 0.0;
         for Entry { key: table, line, value } in entries {
@@ -98,12 +98,19 @@ impl Sheet {
                 sheet.read(&table, &entry)?;
             }
         }
-        for (field, origin) in FIELDS.iter().zip(sheet.origins) {
-            if !field.optional && origin.is_none() {
-                return Err(Failure::usage(format!("{} is not given", field.path)));
-            }
-        }
         Ok(sheet)
+    }
+
+    /// Checks that all that is needed of a file is there, after what is set has been.
+    ///
+    /// # Errors
+    /// Names the first parameter that is not.
+    pub(super) fn check_given(&self) -> Result<(), Failure> {
+        let mut needed = FIELDS.iter().zip(self.origins).filter(|(field, _)| !field.optional);
+        match needed.find(|(_, origin)| origin.is_none()) {
+            Some((field, _)) => Err(Failure::usage(format!("{} is not given", field.path))),
+            None => Ok(()),
+        }
     }
 
     fn read(&mut self, table: &str, entry: &Entry) -> Result<(), Failure> {
@@ -193,7 +200,9 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<System, Failure> {
-        Sheet::of_entries(entries(text, Format::Toml).map_err(Failure::usage)?)?.build()
+        let sheet = Sheet::of_entries(entries(text, Format::Toml).map_err(Failure::usage)?)?;
+        sheet.check_given()?;
+        sheet.build()
     }
 
     fn told(result: Result<System, Failure>) -> String {

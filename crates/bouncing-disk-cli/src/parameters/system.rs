@@ -1,6 +1,6 @@
 //! Where the commands of tosses and orbits have their disk and platform from.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use bouncing_disk::System;
 use clap::{Args, ValueEnum};
@@ -41,12 +41,18 @@ pub(crate) struct SystemArgs {
     /// Gives a parameter another value, in the unit of the file: disk.friction=0.2; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     pub(crate) set: Vec<Setting>,
-    /// Writes the parameters as a commented TOML file to the terminal, and computes nothing
+    /// Writes the parameters as a commented TOML file, to the terminal or with --out FILE.toml into a file,
+    /// and computes nothing
     #[arg(long)]
     pub(crate) template: bool,
 }
 
 impl SystemArgs {
+    /// The file that is read, if any.
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
+        self.file.as_deref().into_iter().collect()
+    }
+
     /// Whether a system is asked for; otherwise it is the default, the pizza toss.
     pub(crate) fn is_given(&self) -> bool {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
@@ -66,6 +72,7 @@ impl SystemArgs {
         let read = || {
             let mut sheet = Sheet::of_entries(entries(&text, format).map_err(Failure::usage)?)?;
             sheet.set(&self.set)?;
+            sheet.check_given()?;
             sheet.build()
         };
         read().map_err(|failure| failure.in_context(&path.display().to_string()))

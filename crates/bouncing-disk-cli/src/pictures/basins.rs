@@ -5,7 +5,7 @@ use std::rc::Rc;
 use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
 use bouncing_disk_plot::{Axis, Colour, Figure, Marker, Panel, Raster, Rect, Scatter, Ticks};
 
-use super::{PHASE, SPEED};
+use super::{PHASE, SPEED, math};
 
 /// What is drawn.
 pub(crate) struct Picture {
@@ -49,7 +49,11 @@ impl Picture {
         let map = Panel::new(Rect::new(44.0, 26.0, 290.0, 240.0))
             .x(Axis::linear(left, right).label(PHASE))
             .y(Axis::linear(bottom, top).label(SPEED))
-            .title(format!(r"$\Gamma = {}$, $\epsilon = {}$", self.axial_forcing, self.restitution))
+            .title(format!(
+                r"$\Gamma = {}$, $\epsilon = {}$",
+                math(self.axial_forcing),
+                math(self.restitution)
+            ))
             .layer(raster)
             .layer(crosses(spots(|label| label == FIRST_ORBIT).collect(), Colour::WHITE))
             .layer(crosses(spots(|label| label != FIRST_ORBIT).collect(), Colour::BLACK))

@@ -3,6 +3,8 @@
 use bouncing_disk::core::CascadeDoubling;
 use bouncing_disk_plot::{Axis, Colour, Figure, Line, Panel, Rect, SINGLE_COLUMN, Scatter, Ticks};
 
+use super::math;
+
 /// Distances from each doubling to the next one, on a logarithmic axis.
 pub(crate) fn draw(restitution: f64, found: &[CascadeDoubling]) -> Figure {
     const HEIGHT: f64 = 190.0;
@@ -16,7 +18,7 @@ pub(crate) fn draw(restitution: f64, found: &[CascadeDoubling]) -> Figure {
     let panel = Panel::new(Rect::new(50.0, 24.0, 184.0, 132.0))
         .x(Axis::linear(0.5, last - 0.5).label("$n$").ticks(Ticks::every(1.0).minor(1)))
         .y(Axis::log(0.3 * least, 0.3).label(r"$\Gamma_{n+1} - \Gamma_n$"))
-        .title(format!(r"$\epsilon = {restitution}$"))
+        .title(format!(r"$\epsilon = {}$", math(restitution)))
         .layer(Line::new(distances.clone()).colour(Colour::GREY).width(0.6))
         .layer(Scatter::new(distances).size(3.2).colour(Colour::BLUE));
     Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel)

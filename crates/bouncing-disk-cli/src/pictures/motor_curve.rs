@@ -1,16 +1,17 @@
 //! The torque-speed curve with power and efficiency.
 
+use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::{Operation, SweepQuantity};
 use bouncing_disk_plot::{
     Anchor, Band, Colour, Corner, Figure, Grid, Legend, Line, Margins, Panel, Rule, SINGLE_COLUMN, Scatter,
     Stroke, Text,
 };
 
-use super::{axis, spanned};
+use super::{axis, spanned, with_room};
 use crate::pictures::sweep::prefixed;
 
-/// Of a normal distribution, so many standard errors hold 95 %.
-const BARS: f64 = 1.96;
+/// The share of the lower panel that the legend leaves to the curves.
+const UNDER_LEGEND: f64 = 0.68;
 
 /// Two panels over the load: speed, and powers with the efficiency.
 pub(crate) fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
@@ -27,32 +28,40 @@ pub(crate) fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
                 Some((
                     torque * operation.load_torque(),
                     scale * estimate.value,
-                    scale * BARS * estimate.standard_error,
+                    scale * NORMAL_975 * estimate.standard_error,
                 ))
             })
             .collect()
     };
     let speeds = points(SweepQuantity::Speed, 1.0);
-    let x = || axis(loads().map(|load| torque * load));
-    let limit = || Rule::vertical(torque * largest_torque).stroke(Stroke::new(Colour::DARK_GREY, 0.8));
+    let (first, last) = with_room(loads().map(|load| torque * load));
+    let x = || spanned(first, last);
+    // Beyond the loads that were asked for there is nothing to see.
+    let limit = Some(torque * largest_torque).filter(|limit| (first..=last).contains(limit));
+    let rule = || limit.map(|limit| Rule::vertical(limit).stroke(Stroke::new(Colour::DARK_GREY, 0.8)));
     let (slowest, fastest) =
         speeds.iter().fold((0.0_f64, 0.0_f64), |(low, high), point| (low.min(point.1), high.max(point.1)));
-    let middle = 0.5 * (slowest + fastest);
+    let middle = if speeds.is_empty() { 0.5 } else { 0.5 * (slowest + fastest) };
+    let nothing = || {
+        let words = Text::at_axes(0.5, 0.6, "no load has a steady speed").anchor(Anchor::Middle);
+        speeds.is_empty().then(|| words.size(8.0).halo(Colour::WHITE))
+    };
     let upper = Panel::new(grid.cell(0, 0))
         .x(x().without_numbers())
         .y(axis(speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2, 0.0]))
             .label(r"mean speed $\dot{\alpha}$ (rad/s)"))
         .letter_in("a", Corner::BottomLeft)
         .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
-        .layer(limit())
+        .layers(rule())
         .layers(curve(&speeds, Colour::BLUE, None))
-        .layer(
-            Text::at_data(torque * largest_torque, middle, r"largest torque $\mu m g a_e$")
+        .layers(limit.map(|limit| {
+            Text::at_data(limit, middle, r"largest torque $\mu m g a_e$")
                 .anchor(Anchor::Middle)
                 .rotated(90.0)
                 .size(7.5)
-                .halo(Colour::WHITE),
-        );
+                .halo(Colour::WHITE)
+        }))
+        .layers(nothing());
     let powers = || found.iter().filter_map(|own| SweepQuantity::InputPower.of(own)).map(|power| power.value);
     let (power, power_unit) = prefixed(powers(), "W");
     let (input, output) =
@@ -63,22 +72,32 @@ pub(crate) fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
         points.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
     };
     let (low, high) = ends(&mut input.iter().chain(&output).map(|point| point.1));
-    let (low, high) = (1.1 * low, 1.55 * high.max(1e-3));
-    let best = 1.7 * ends(&mut efficiency.iter().map(|point| point.1)).1.max(1e-3);
+    let low = 1.1 * low;
+    let high = low + (or_one(high) - low) / UNDER_LEGEND;
+    let below = -low / high;
+    let best = 1.1 * or_one(ends(&mut efficiency.iter().map(|point| point.1)).1)
+        / (UNDER_LEGEND - (1.0 - UNDER_LEGEND) * below).max(0.2);
     let mut lower = Panel::new(grid.cell(1, 0))
         .x(x().label(format!("load torque $T$ ({torque_unit})")))
         .y(spanned(low, high).label(format!("power ({power_unit})")))
         .right(spanned(low / high * best, best).label("efficiency (%)"))
         .letter_in("b", Corner::BottomLeft)
-        .layer(limit())
+        .layers(rule())
         .layers(curve(&input, Colour::GREY, Some("put in")))
         .layers(curve(&output, Colour::BLUE, Some("mechanical")));
     let share = efficiency.iter().map(|point| (point.0, point.1)).collect::<Vec<_>>();
     lower = lower
         .layer_right(Line::new(share.clone()).width(0.8).colour(Colour::VERMILION))
-        .layer_right(Scatter::new(share).size(2.6).colour(Colour::VERMILION).name("efficiency"))
-        .legend(Legend::at(Corner::TopLeft).without_frame().inset(4.0));
+        .layer_right(Scatter::new(share).size(2.6).colour(Colour::VERMILION).name("efficiency"));
+    if !speeds.is_empty() {
+        lower = lower.legend(Legend::at(Corner::TopLeft).without_frame().inset(4.0));
+    }
     Figure::new(SINGLE_COLUMN + 30.0, HEIGHT).panels([upper, lower])
+}
+
+/// The largest value of an axis; where nothing is above zero, one.
+fn or_one(largest: f64) -> f64 {
+    if largest > 0.0 { largest } else { 1.0 }
 }
 
 /// A curve with its band.

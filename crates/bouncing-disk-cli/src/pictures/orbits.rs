@@ -5,7 +5,7 @@ use bouncing_disk_plot::{
     Axis, Colour, Corner, Figure, Legend, Marker, Panel, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };
 
-use super::{PHASE, SPEED, largest};
+use super::{PHASE, SPEED, largest, math};
 
 /// Attracting orbits filled, unstable ones open, with a colour for each number of impacts.
 pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
@@ -16,7 +16,7 @@ pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
     let mut panel = Panel::new(Rect::new(44.0, 24.0, 190.0, 172.0))
         .x(Axis::linear(0.0, 1.0).label(PHASE).ticks(Ticks::every(0.2).minor(4)))
         .y(Axis::linear(0.0, 1.5 * largest(speeds, 0.5)).label(SPEED))
-        .title(format!(r"$\Gamma = {axial_forcing}$"))
+        .title(format!(r"$\Gamma = {}$", math(axial_forcing)))
         .markers_on_top();
     for impacts in 1..=most {
         let of = |attracts: bool| {

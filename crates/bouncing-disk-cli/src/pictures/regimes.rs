@@ -2,6 +2,7 @@
 
 use bouncing_disk_plot::{Axis, Colour, DOUBLE_COLUMN, Figure, Panel, Raster, Rect, Ticks};
 
+use super::math;
 use crate::commands::verdicts::Kind;
 use crate::range::Range;
 
@@ -42,7 +43,7 @@ pub(crate) fn draw(forcings: Range, restitutions: Range, kinds: &[Kind]) -> Figu
     let vertical = match restitutions.only() {
         Some(only) => {
             let middle = 0.5 * (y.0 + y.1);
-            Axis::linear(y.0, y.1).ticks(Ticks::at([(middle, format!("{only}"))]).minor(1))
+            Axis::linear(y.0, y.1).ticks(Ticks::at([(middle, format!("${}$", math(only)))]).minor(1))
         }
         None => Axis::linear(y.0, y.1),
     };

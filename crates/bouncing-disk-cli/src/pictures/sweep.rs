@@ -1,14 +1,12 @@
 //! A sweep of a motor: a curve with its errors over one field, a map over two.
 
+use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::{MotorSweepResult, SweepAxis, SweepQuantity};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Figure, Line, Panel, Raster, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };
 
 use super::{axis, spanned};
-
-/// Of a normal distribution, so many standard errors hold 95 %.
-const BARS: f64 = 1.96;
 
 /// Colours of a map, between the least and the largest value.
 const LEVELS: usize = 24;
@@ -75,7 +73,7 @@ fn curve(result: &MotorSweepResult, quantity: SweepQuantity, along: &SweepAxis) 
         .map(|(value, cell)| {
             let estimate = quantity.of(cell);
             let of = |number: Option<f64>| number.map_or(f64::NAN, |number| scale * number);
-            let bar = of(estimate.map(|estimate| BARS * estimate.standard_error));
+            let bar = of(estimate.map(|estimate| NORMAL_975 * estimate.standard_error));
             (across * value, of(estimate.map(|estimate| estimate.value)), bar)
         })
         .collect();

@@ -2,7 +2,7 @@
 
 use bouncing_disk_plot::{Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel};
 
-use super::{axis, spanned};
+use super::{axis, spanned, with_room};
 use crate::commands::toss::Sample;
 
 /// What a curve shows of an instant.
@@ -24,13 +24,15 @@ pub(crate) fn draw(samples: &[Sample]) -> Figure {
             .layer(curve(of[1]).colour(Colour::GREY).width(0.9).dash(Dash::Dashed).name("platform"))
             .layer(curve(of[0]).colour(Colour::BLUE).width(1.1).name("disk"))
     };
-    // The angle goes one way.
-    let forwards = samples.last().is_none_or(|sample| sample.disk_angle_rad >= 0.0);
-    let corner = if forwards { Corner::TopLeft } else { Corner::BottomLeft };
+    let angles: [Of; 2] = [|sample| sample.disk_angle_rad, |sample| sample.platform_angle_rad];
+    // The legend has a place of its own above the curves.
+    let (low, high) = with_room(samples.iter().flat_map(|sample| angles.map(|of| of(sample))));
+    let with_legend = spanned(low, high + 0.3 * (high - low)).label("angle (rad)");
     Figure::new(DOUBLE_COLUMN, HEIGHT).panels([
         panel(0, "a", "height (m)", [|sample| sample.disk_height_m, |sample| sample.platform_height_m]),
-        panel(1, "b", "angle (rad)", [|sample| sample.disk_angle_rad, |sample| sample.platform_angle_rad])
-            .legend(Legend::at(corner).without_frame().inset(4.0)),
+        panel(1, "b", "angle (rad)", angles)
+            .y(with_legend)
+            .legend(Legend::at(Corner::TopLeft).without_frame().inset(4.0)),
         panel(
             2,
             "c",

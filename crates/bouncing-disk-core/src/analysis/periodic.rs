@@ -218,7 +218,28 @@ impl ImpactMap {
             return None;
         }
         let phase = Phase::of_angle(acos(cosine));
-        ImpactState::new(phase, -TAU * k / (1.0 + r)).ok()
+        ImpactState::new(phase, -self.period_one_impact_speed(platform_periods)).ok()
+    }
+
+    /// The impact speed of the orbits with one impact every `platform_periods` periods, 2 pi k/(1 + r) (units
+    /// of g/omega), at whatever forcing they exist.
+    ///
+    /// A flight of k periods ends at the phase, and so at the height and the speed of the platform, at which
+    /// it began. On it gravity changes the velocity by 2 pi k: the launch speed u and the impact speed w,
+    /// both relative to the platform, are u + w = 2 pi k, and the impact makes u = r w.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{ImpactMap, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let orbit = map.period_one(1).expect("born at Gamma = 1/3");
+    /// assert_eq!(map.period_one_impact_speed(1).to_bits(), (-orbit.velocity()).to_bits());
+    /// // The next impact has the same speed.
+    /// assert!((map.step(orbit)?.velocity + map.period_one_impact_speed(1)).abs() < 1e-14);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn period_one_impact_speed(&self, platform_periods: u64) -> f64 {
+        TAU * platform_periods as f64 / (1.0 + self.restitution())
     }
 
     /// The forcing Gamma_1 at which the period-1 orbit with one impact per period of the platform doubles its

@@ -19,6 +19,26 @@ pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
     Some(1.0 - largest)
 }
 
+/// How many groups the `phases` form of which each is more than `apart` from the next one round the circle:
+/// the number of different phases where they are known as well as that. One for phases with no such gap
+/// between them, 0 for none.
+///
+/// Phases are in periods; 0 and 1 are the same.
+///
+/// ```
+/// use bouncing_disk_core::numerics::circular::distinct;
+///
+/// // The last one is the first one again, across the end of the period.
+/// assert_eq!(distinct([0.0, 0.25, 0.25 + 1e-9, 1.0 - 1e-9], 1e-6), 2);
+/// ```
+pub fn distinct(phases: impl IntoIterator<Item = f64>, apart: f64) -> usize {
+    let mut phases: Vec<f64> = phases.into_iter().map(|phase| phase - phase.floor()).collect();
+    phases.sort_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (phases.first(), phases.last()) else { return 0 };
+    let gaps = phases.windows(2).filter(|pair| pair[1] - pair[0] > apart).count();
+    (gaps + usize::from(first + 1.0 - last > apart)).max(1)
+}
+
 /// The shorter way from one phase to the other, in periods: at most one half.
 #[must_use]
 pub fn distance(one: f64, other: f64) -> f64 {
@@ -104,6 +124,27 @@ mod tests {
         ] {
             assert!((arc(phases) - expected).abs() < 1e-15, "{phases:?}: {}", arc(phases));
         }
+    }
+
+    #[test]
+    fn phases_are_counted_whatever_boundary_they_are_next_to() {
+        let ulp = f64::EPSILON;
+        for (phases, expected) in [
+            (&[][..], 0),
+            (&[0.3], 1),
+            (&[0.125, 0.125 - ulp, 0.125 + ulp], 1),
+            (&[0.05 * (1.0 - ulp), 0.05, 0.7, 0.7], 2),
+            // One place at the seam of the phase.
+            (&[0.0, 1.0 - ulp, ulp], 1),
+            (&[0.0, 0.5, 1.0 - ulp], 2),
+            (&[-0.25, 0.75, 1.75], 1),
+            // A chain of neighbours round the whole circle has no gap.
+            (&[0.0, 0.25, 0.5, 0.75], 4),
+        ] {
+            assert_eq!(distinct(phases.iter().copied(), 1e-6), expected, "{phases:?}");
+        }
+        assert_eq!(distinct([0.0, 0.25, 0.5, 0.75], 0.3), 1);
+        assert_eq!(distinct([0.3, f64::NAN], 1e-6), 1);
     }
 
     #[test]

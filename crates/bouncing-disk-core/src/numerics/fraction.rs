@@ -1,10 +1,8 @@
 //! How many of so many: a share with the interval that a sample leaves for the true one.
 
 use crate::error::{Error, within};
+use crate::numerics::statistics::NORMAL_975;
 use crate::read_checked;
-
-/// The 97.5 % quantile of the normal distribution: half the width, in standard errors, of a 95 % interval.
-pub const NORMAL_975: f64 = 1.959_963_984_540_054;
 
 /// How many of a sample have a property; by default none of nothing.
 ///

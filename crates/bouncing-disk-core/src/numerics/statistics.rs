@@ -1,5 +1,9 @@
 //! What is said of a sample of numbers in one number or two.
 
+/// The 97.5 % quantile of the normal distribution: so many standard errors on either side of a mean make its
+/// 95 % interval.
+pub const NORMAL_975: f64 = 1.959_963_984_540_054;
+
 /// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
 const ORDINARY: f64 = 1.0e120;
 

@@ -5,6 +5,8 @@
 //! flight); the engine adds the rotary half (`rotary_change.rs`) and the changes between sticking and sliding while
 //! the disk is on the platform (`contact_motion.rs`).
 
+pub(crate) mod sample;
+
 use bouncing_disk_core::{
     Attachment, ChatterCut, ChatterPolicy, Constant, Impact, ImpactMap, Launch, Orbit, OrbitEvent,
     RestitutionLaw,

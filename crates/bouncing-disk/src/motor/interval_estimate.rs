@@ -1,11 +1,10 @@
-//! A number that was estimated from scattered data, with its interval, and the quantile that intervals are made with.
+//! A number that was estimated from scattered data, with its interval, and what small samples make intervals
+//! with.
 
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check, finite};
-
-/// The 97.5 % quantile of the normal distribution.
-pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// The 97.5 % quantiles of Student's distribution with 1 to 10 degrees of freedom.
 const STUDENT_QUANTILES: [f64; 10] = [
@@ -79,7 +78,7 @@ pub(crate) fn student_quantile(degrees: f64) -> f64 {
     if let Some(quantile) = usize::try_from(whole - 1).ok().and_then(|index| STUDENT_QUANTILES.get(index)) {
         return *quantile;
     }
-    let (z, inverse) = (NORMAL_QUANTILE, 1.0 / whole as f64);
+    let (z, inverse) = (NORMAL_975, 1.0 / whole as f64);
     let square = z * z;
     let terms = [
         z,
@@ -96,7 +95,7 @@ pub(crate) fn student_quantile(degrees: f64) -> f64 {
 /// (docs/numerics/motors.md, "Fits with intervals").
 pub(crate) fn small_sample_widening(size: usize) -> f64 {
     let size = size as f64;
-    (size / (size - 1.0)).sqrt() * student_quantile(size - 1.0) / NORMAL_QUANTILE
+    (size / (size - 1.0)).sqrt() * student_quantile(size - 1.0) / NORMAL_975
 }
 
 #[cfg(test)]
@@ -127,7 +126,7 @@ mod tests {
             let share = share_within(student_quantile(f64::from(degrees)), f64::from(degrees));
             assert!((share - 0.95).abs() < 1e-6, "{degrees}: {share}");
         }
-        assert!((student_quantile(1e15) - NORMAL_QUANTILE).abs() < 1e-12);
+        assert!((student_quantile(1e15) - NORMAL_975).abs() < 1e-12);
         // Parts of a degree, none, and what is no number are the next legal degrees below.
         for (degrees, same) in [(7.9, 7.0), (0.3, 1.0), (-3.0, 1.0), (f64::NAN, 1.0)] {
             assert!((student_quantile(degrees) - student_quantile(same)).abs() <= 0.0, "{degrees}");

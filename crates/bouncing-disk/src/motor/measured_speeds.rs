@@ -5,7 +5,7 @@ pub(crate) mod csv_file;
 #[cfg(feature = "csv")]
 pub(crate) mod error;
 
-use bouncing_disk_core::read_checked;
+use bouncing_disk_core::{Observer, Unobserved, read_checked};
 
 use crate::error::{Error, check, within_limit};
 use crate::motor::braking_fit::{BrakingFit, BrakingRotor};
@@ -104,8 +104,21 @@ impl MeasuredSpeeds {
     /// # Errors
     /// Those of [`TransientFit::new`]; [`Error::OutOfRange`] names a time that is not that of the first run.
     pub fn fit(&self, settings: &FitSettings) -> Result<TransientFit, Error> {
+        self.fit_observed(settings, &Unobserved)
+    }
+
+    /// [`Self::fit`] with an observer; the items are the resampled curves, once for each form.
+    ///
+    /// # Errors
+    /// Those of [`Self::fit`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
+    pub fn fit_observed(
+        &self,
+        settings: &FitSettings,
+        observer: &dyn Observer,
+    ) -> Result<TransientFit, Error> {
         if let [run] = self.runs.as_slice() {
-            return TransientFit::of_measured(&run.times, &run.speeds, settings);
+            return TransientFit::of_measured_observed(&run.times, &run.speeds, settings, observer);
         }
         let times = &self.runs[0].times;
         for run in &self.runs {
@@ -116,7 +129,7 @@ impl MeasuredSpeeds {
             }
         }
         let runs: Vec<&[f64]> = self.runs.iter().map(|run| run.speeds.as_slice()).collect();
-        TransientFit::of_runs(times, &runs, settings)
+        TransientFit::of_runs_observed(times, &runs, settings, observer)
     }
 
     /// The friction with its interval from each run, all of which are braking curves of this rotor.

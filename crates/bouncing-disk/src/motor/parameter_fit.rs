@@ -17,6 +17,7 @@ pub(crate) mod settings;
 mod weights;
 mod windows;
 
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::{Observer, Unobserved, Watch, read_checked};
 use nalgebra::DVector;
 
@@ -33,7 +34,7 @@ use self::windows::Windows;
 use crate::error::{Error, check, not_negative, within_limit};
 use crate::motor::data_sheet::Motor;
 use crate::motor::fit_refusal::FitRefusal;
-use crate::motor::interval_estimate::{IntervalEstimate, NORMAL_QUANTILE, small_sample_widening};
+use crate::motor::interval_estimate::{IntervalEstimate, small_sample_widening};
 
 /// Most preloads: enough for any experiment, and no input makes a computation endless by their number.
 const MOST_TRANSIENTS: usize = 1_000;
@@ -222,7 +223,7 @@ impl ParameterFit {
             let (low, high) = (percentile(&resampled[index], 0.025), percentile(&resampled[index], 0.975));
             let place = places[index];
             let mut estimate = None;
-            if directions.tells(index, (high - low) / (2.0 * NORMAL_QUANTILE)) {
+            if directions.tells(index, (high - low) / (2.0 * NORMAL_975)) {
                 let value = range.value_at(place);
                 if place.abs() >= 1.0 - AT_END {
                     return refused(FitRefusal::AtRangeEnd {

@@ -16,6 +16,7 @@ use bouncing_disk_core::{Observer, Unobserved, Watch};
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::stroke::Stroke;
+use crate::parameters::system::System;
 use crate::toss::design::hand::Evaluation;
 use crate::toss::design::robustness::{TossHalfUnits, TossRobustness, robustness};
 use crate::toss::design::search::search;
@@ -81,7 +82,7 @@ impl TossConstraints {
     /// all phase lags, any height, and the largest airborne speed.
     #[must_use]
     pub fn pizza_toss() -> Self {
-        let system = crate::System::pizza_toss();
+        let system = System::pizza_toss();
         let (hand, dough) = (Stroke::pizza_toss(), system.disk().parameters());
         Self {
             dough,
@@ -182,6 +183,16 @@ pub struct TossDesign {
 }
 
 impl TossDesign {
+    /// The dough on the hand that was found, with the friction in the middle of its range: the system of
+    /// [`Self::toss`].
+    ///
+    /// # Errors
+    /// Those of [`System::new`], for a design that was changed or read.
+    pub fn system(&self) -> Result<System, Error> {
+        let TossConstraints { dough, friction, .. } = self.constraints;
+        hand::system(self.hand, dough, hand::middle(friction))
+    }
+
     /// How much of the objective is left where hand and dough are not quite those of the design: over
     /// everything that rounds to the same digits, and over the range of friction.
     ///

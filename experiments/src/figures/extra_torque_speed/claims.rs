@@ -1,5 +1,7 @@
 //! What the figure shows, against what other computations of the same motor expect.
 
+use bouncing_disk::core::numerics::statistics::NORMAL_975;
+
 use super::data::ExtraTorqueSpeedData;
 use crate::claim::{self, Claim};
 
@@ -8,9 +10,6 @@ const PLACE: &str = "this work";
 
 /// Two numbers agree if they differ by at most so many standard errors of their difference.
 const ERRORS: f64 = 3.0;
-
-/// Half the length of a 95 % interval in standard errors.
-const HALF_INTERVAL: f64 = 1.96;
 
 /// How far the steady speed of an exponential may lie from that of the motor, as a share of it.
 const EXPONENTIAL: f64 = 0.02;
@@ -160,7 +159,7 @@ fn statements(data: &ExtraTorqueSpeedData) -> Vec<Claim> {
             ID,
             PLACE,
             "the paper's estimate I α̇_ss/t_c lies above the stall load, beyond the intervals of both",
-            estimate.low > stall.torque_n_m.value + HALF_INTERVAL * stall.torque_n_m.standard_error,
+            estimate.low > stall.torque_n_m.value + NORMAL_975 * stall.torque_n_m.standard_error,
             format!(
                 "estimate {:.2} µN m in [{:.2}, {:.2}], {:+.0} % of the stall load {:.2} ± {:.2} µN m; the interval holds the \
                  scatter of the transients, not that the speed does not rise exponentially",

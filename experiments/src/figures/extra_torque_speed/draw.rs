@@ -1,5 +1,6 @@
 //! The drawing of the figure.
 
+use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule,
     SINGLE_COLUMN, Scatter, Stroke, Text, Ticks,
@@ -12,9 +13,6 @@ const MICRO: f64 = 1e6;
 
 /// The right end of the axis, as a share of the largest torque.
 const LAST: f64 = 1.12;
-
-/// Of a normal distribution, so many standard errors hold 95 %.
-const BARS: f64 = 1.96;
 
 pub(super) fn draw(data: &ExtraTorqueSpeedData) -> Figure {
     const HEIGHT: f64 = 330.0;
@@ -54,7 +52,7 @@ fn speeds(data: &ExtraTorqueSpeedData, grid: &Grid) -> Panel {
         Axis::linear(low, high).ticks(Ticks::every(5.0).minor(5)).label(r"mean speed $\dot{\alpha}$ (rad/s)");
     let curve = || points.iter().map(|point| (MICRO * point.load_torque, point.speed.value));
     let band = points.iter().map(|point| {
-        let (load, half) = (MICRO * point.load_torque, BARS * point.speed.standard_error);
+        let (load, half) = (MICRO * point.load_torque, NORMAL_975 * point.speed.standard_error);
         (load, point.speed.value - half, point.speed.value + half)
     });
     let stall = &data.stall;
@@ -73,7 +71,7 @@ fn speeds(data: &ExtraTorqueSpeedData, grid: &Grid) -> Panel {
                 .colour(Colour::BLUE)
                 .size(6.0)
                 .width(1.2)
-                .errors_x([BARS * MICRO * stall.torque_n_m.standard_error])
+                .errors_x([NORMAL_975 * MICRO * stall.torque_n_m.standard_error])
                 .name("stall load"),
         )
         .layer(
@@ -103,7 +101,7 @@ fn powers(data: &ExtraTorqueSpeedData, grid: &Grid) -> Panel {
     let curve = || points.iter().map(|point| MICRO * point.load_torque).zip(powers());
     let band = points.iter().map(|point| {
         let (load, power) = (MICRO * point.load_torque, MICRO * point.mechanical_power.value);
-        let half = BARS * MICRO * point.mechanical_power.standard_error;
+        let half = NORMAL_975 * MICRO * point.mechanical_power.standard_error;
         (load, power - half, power + half)
     });
     let first = points.first().map_or(0.0, |point| point.speed.value);

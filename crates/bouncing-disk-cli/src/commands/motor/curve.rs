@@ -9,7 +9,7 @@ use super::wrote_template;
 use crate::arguments::{OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::{Cell, Table};
 use crate::parameters::motor::MotorArgs;
 use crate::pictures;
@@ -51,10 +51,10 @@ struct Job<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor)? {
+    if wrote_template(&args.motor, &args.output, context)? {
         return Ok(());
     }
-    args.output.check(true)?;
+    args.output.check(true, &args.motor.inputs(), None)?;
     let motor = args.motor.motor(context.quiet)?;
     let load_torques = match args.loads {
         Some(loads) => loads,
@@ -68,7 +68,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
         provenance: provenance("bouncing-disk motor curve", &Job { motor: &motor, load_torques, settings })?,
         text: shown(&found).to_text(),
         table: ready(table),
-        data: vec![("operations", value(&found)?)],
+        data: vec![("operations", stored(&found)?)],
         figure: Some(Box::new(move || pictures::motor_curve::draw(motor.largest_torque(), &found))),
     };
     report.deliver(&args.output, context.quiet)

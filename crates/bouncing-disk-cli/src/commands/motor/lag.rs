@@ -1,17 +1,12 @@
 //! `bouncing-disk motor phase-lag`: the phase lag at which the motor turns fastest.
 
-use bouncing_disk::{Motor, OperatingSettings};
 use clap::Args;
-use serde::Serialize;
 
-use super::settings::SettingsArgs;
-use super::wrote_template;
-use crate::arguments::OutputArgs;
+use super::settings::OperationArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::Quantities;
-use crate::parameters::motor::MotorArgs;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
@@ -26,28 +21,13 @@ Example:
 #[command(after_help = AFTER)]
 pub(crate) struct LagArgs {
     #[command(flatten)]
-    motor: MotorArgs,
-    #[command(flatten)]
-    settings: SettingsArgs,
-    #[command(flatten)]
-    output: OutputArgs,
-}
-
-#[derive(Serialize)]
-struct Job<'a> {
-    motor: &'a Motor,
-    settings: OperatingSettings,
+    operation: OperationArgs,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &LagArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor)? {
-        return Ok(());
-    }
-    args.output.check(false)?;
-    let motor = args.motor.motor(context.quiet)?;
-    let settings = args.settings.settings();
-    let best = motor.best_phase_lag_observed(&settings, &context.watch("motor phase-lag"))?;
+    let Some(job) = args.operation.job(context)? else { return Ok(()) };
+    let best = job.motor.best_phase_lag_observed(&job.settings, &context.watch("motor phase-lag"))?;
     let mut list = Quantities::default();
     list.push("best_phase_lag", best.phase_lag.value, "rad");
     list.push("best_phase_lag_error", best.phase_lag.standard_error, "rad");
@@ -56,11 +36,11 @@ pub(super) fn run(args: &LagArgs, context: Context) -> Result<(), Failure> {
     list.push("within_1_percent_from", best.good_from_to[0], "rad");
     list.push("within_1_percent_to", best.good_from_to[1], "rad");
     let report = Report {
-        provenance: provenance("bouncing-disk motor phase-lag", &Job { motor: &motor, settings })?,
+        provenance: provenance("bouncing-disk motor phase-lag", &job)?,
         text: list.to_text(),
         table: ready(list.to_table()),
-        data: vec![("best_phase_lag", value(&best)?)],
+        data: vec![("best_phase_lag", stored(&best)?)],
         figure: None,
     };
-    report.deliver(&args.output, context.quiet)
+    report.deliver(&args.operation.output, context.quiet)
 }

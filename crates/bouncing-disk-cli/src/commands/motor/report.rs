@@ -38,19 +38,20 @@ struct Job<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor)? {
+    if wrote_template(&args.motor, &args.output, context)? {
         return Ok(());
     }
-    args.output.check(false)?;
+    args.output.check(false, &args.motor.inputs(), None)?;
     // The warnings are part of the report.
     let motor = args.motor.motor(true)?;
     let report = motor.report_observed(&context.watch("motor report"))?;
     let mut list = Quantities::default();
     list.push("axial_forcing", report.axial_forcing, "1");
     list.push("angular_forcing", report.angular_forcing, "1");
-    list.push("peak_acceleration", report.peak_acceleration, "g");
+    // In units of the preload acceleration, which the paper calls g: P has no unit.
+    list.push("peak_acceleration_over_preload", report.peak_acceleration, "1");
     list.push("regime", report.regime.to_string(), "1");
-    list.push("periods_per_flight", report.periods_per_flight, "1");
+    list.push("periods_per_flight", report.periods_per_flight, "periods");
     list.push("largest_torque", report.largest_torque, "N m");
     list.push("static_deflection", report.static_deflection, "m");
     list.push("preload_change_bound", report.preload_change_bound, "1");
@@ -61,7 +62,7 @@ pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
         provenance: provenance("bouncing-disk motor report", &Job { motor: &motor })?,
         text: report.to_string(),
         table: ready(list.to_table()),
-        data: vec![("quantities", list.to_json())],
+        data: vec![("quantities", list.to_json().into())],
         figure: None,
     };
     report.deliver(&args.output, context.quiet)

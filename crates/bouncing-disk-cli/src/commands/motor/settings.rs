@@ -1,26 +1,33 @@
-//! How a steady operation is computed.
+//! How a steady operation is computed, and of which motor.
 
-use bouncing_disk::OperatingSettings;
+use bouncing_disk::{Motor, OperatingSettings};
 use clap::Args;
+use serde::Serialize;
+
+use super::wrote_template;
+use crate::arguments::OutputArgs;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::parameters::motor::MotorArgs;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Accuracy")]
 pub(super) struct SettingsArgs {
     /// Standard error of the mean speed that is asked for, relative to the speed without load
-    #[arg(long, allow_negative_numbers = true, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
+    #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
     relative_error: f64,
     /// Vertical motions that are averaged over
-    #[arg(long, value_name = "N", default_value_t = OperatingSettings::default().members)]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().members)]
     members: usize,
     /// Most impacts that all members together may take
-    #[arg(long, value_name = "N", default_value_t = OperatingSettings::default().most_impacts)]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().most_impacts)]
     most_impacts: u64,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(long, allow_negative_numbers = true, value_name = "SIZE", default_value_t = OperatingSettings::default().relaunch_perturbation)]
+    #[arg(long, allow_hyphen_values = true, value_name = "SIZE", default_value_t = OperatingSettings::default().relaunch_perturbation)]
     perturbation: f64,
     /// Seed of the perturbations
-    #[arg(long, value_name = "SEED", default_value_t = OperatingSettings::default().seed)]
+    #[arg(long, allow_negative_numbers = true, value_name = "SEED", default_value_t = OperatingSettings::default().seed)]
     seed: u64,
 }
 
@@ -33,5 +40,35 @@ impl SettingsArgs {
             relaunch_perturbation: self.perturbation,
             seed: self.seed,
         }
+    }
+}
+
+/// What a command takes that looks for one operation of a motor.
+#[derive(Debug, Clone, Args)]
+pub(super) struct OperationArgs {
+    #[command(flatten)]
+    motor: MotorArgs,
+    #[command(flatten)]
+    settings: SettingsArgs,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
+}
+
+/// What such an operation depends on.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(super) struct OperationJob {
+    pub(super) motor: Motor,
+    pub(super) settings: OperatingSettings,
+}
+
+impl OperationArgs {
+    /// The job, if the result can be written; `None` where the template was asked for, and has been written.
+    pub(super) fn job(&self, context: Context) -> Result<Option<OperationJob>, Failure> {
+        if wrote_template(&self.motor, &self.output, context)? {
+            return Ok(None);
+        }
+        self.output.check(false, &self.motor.inputs(), None)?;
+        let motor = self.motor.motor(context.quiet)?;
+        Ok(Some(OperationJob { motor, settings: self.settings.settings() }))
     }
 }

@@ -1,17 +1,12 @@
 //! `bouncing-disk motor stall`: the load that stops the motor.
 
-use bouncing_disk::{Motor, OperatingSettings};
 use clap::Args;
-use serde::Serialize;
 
-use super::settings::SettingsArgs;
-use super::wrote_template;
-use crate::arguments::OutputArgs;
+use super::settings::OperationArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::Quantities;
-use crate::parameters::motor::MotorArgs;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
@@ -26,28 +21,13 @@ Example:
 #[command(after_help = AFTER)]
 pub(crate) struct StallArgs {
     #[command(flatten)]
-    motor: MotorArgs,
-    #[command(flatten)]
-    settings: SettingsArgs,
-    #[command(flatten)]
-    output: OutputArgs,
-}
-
-#[derive(Serialize)]
-struct Job<'a> {
-    motor: &'a Motor,
-    settings: OperatingSettings,
+    operation: OperationArgs,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &StallArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor)? {
-        return Ok(());
-    }
-    args.output.check(false)?;
-    let motor = args.motor.motor(context.quiet)?;
-    let settings = args.settings.settings();
-    let stall = motor.stall_load_observed(&settings, &context.watch("motor stall"))?;
+    let Some(job) = args.operation.job(context)? else { return Ok(()) };
+    let stall = job.motor.stall_load_observed(&job.settings, &context.watch("motor stall"))?;
     let mut list = Quantities::default();
     list.push("stall_torque", stall.torque.value, "N m");
     list.push("stall_torque_error", stall.torque.standard_error, "N m");
@@ -57,11 +37,11 @@ pub(super) fn run(args: &StallArgs, context: Context) -> Result<(), Failure> {
     list.push("no_load_speed", stall.no_load_speed.value, "rad/s");
     list.push("no_load_speed_error", stall.no_load_speed.standard_error, "rad/s");
     let report = Report {
-        provenance: provenance("bouncing-disk motor stall", &Job { motor: &motor, settings })?,
+        provenance: provenance("bouncing-disk motor stall", &job)?,
         text: list.to_text(),
         table: ready(list.to_table()),
-        data: vec![("stall_load", value(&stall)?)],
+        data: vec![("stall_load", stored(&stall)?)],
         figure: None,
     };
-    report.deliver(&args.output, context.quiet)
+    report.deliver(&args.operation.output, context.quiet)
 }

@@ -20,7 +20,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
 use crate::output::lines::complain;
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::{Cell, Table};
 use crate::parameters::motor::MotorArgs;
 use crate::pictures;
@@ -103,7 +103,7 @@ impl From<Picture> for SweepQuantity {
 
 /// Runs the command.
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor)? {
+    if wrote_template(&args.motor, &args.output, context)? {
         return Ok(());
     }
     let job = SweepJob {
@@ -118,7 +118,7 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<(), Failure> {
         sweep.replaced().iter().for_each(|field| complain!("the {field} of the data sheet is left out"));
     }
     let job = SweepJob { groups: sweep.groups().len(), ..job };
-    grid::run(job, &args.grid, &args.output, context)
+    grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
 /// What a sweep depends on.
@@ -211,7 +211,7 @@ impl GridJob for SweepJob {
             provenance: provenance("bouncing-disk motor sweep", &self)?,
             text: shown.to_text(),
             table: ready(Table::of_csv(result.to_csv())),
-            data: vec![("axes", value(result.axes())?), ("cells", value(result.cells())?)],
+            data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
             figure: Some(Box::new(move || pictures::sweep::draw(&result, quantity))),
         })
     }

@@ -15,7 +15,7 @@ use crate::commands::fit::{estimates, refusal};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, ready, value};
+use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::motor::MotorArgs;
 use crate::pictures;
@@ -37,19 +37,19 @@ pub(crate) struct TransientArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// Runs
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 10)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 10)]
     members: usize,
     /// Duration of a run (s)
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
     duration: f64,
     /// Equal intervals over which the speed is averaged
-    #[arg(help_heading = OWN, long, value_name = "N", default_value_t = 200)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 200)]
     intervals: usize,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
     perturbation: f64,
     /// Seed of the perturbations and of the starting phases
-    #[arg(help_heading = OWN, long, value_name = "SEED", default_value_t = TransientSettings::default().seed)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SEED", default_value_t = TransientSettings::default().seed)]
     seed: u64,
     #[command(flatten)]
     grid: GridArgs,
@@ -59,7 +59,7 @@ pub(crate) struct TransientArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor)? {
+    if wrote_template(&args.motor, &args.output, context)? {
         return Ok(());
     }
     let job = TransientJob {
@@ -73,7 +73,7 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure>
             ..TransientSettings::default()
         },
     };
-    grid::run(job, &args.grid, &args.output, context)
+    grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
 /// What a run-up depends on.
@@ -155,9 +155,9 @@ impl GridJob for TransientJob {
             text,
             table: ready(table),
             data: vec![
-                ("fit", value(&fit)?),
-                ("curves", value(&ensemble.curves)?),
-                ("member_fits", value(&ensemble.fits)?),
+                ("fit", stored(&fit)?),
+                ("curves", stored(&ensemble.curves)?),
+                ("member_fits", stored(&ensemble.fits)?),
             ],
             figure: Some(Box::new(move || pictures::transient::draw(&ensemble, fit.as_ref(), judged))),
         })

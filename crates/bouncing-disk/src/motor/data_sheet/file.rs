@@ -13,6 +13,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::fields::FIELDS;
+use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::nearest::{excerpt, nearest};
 use crate::motor::data_sheet::parameters::MotorParameters;
 
@@ -115,8 +116,12 @@ enum Value {
     Other(&'static str),
 }
 
-/// The motor of these keys and values, each with its line, in the order of the file.
-fn motor_of(entries: impl Iterator<Item = (String, usize, Value)>) -> Result<Motor, MotorFileError> {
+/// The motor of these keys and values, each with its line, in the order of the file, and of the `changes`,
+/// which take the place of what the file says before anything is checked.
+fn motor_of(
+    entries: impl Iterator<Item = (String, usize, Value)>,
+    changes: &[(MotorField, f64)],
+) -> Result<Motor, MotorFileError> {
     let mut lines = [None; FIELDS.len()];
     let mut given = [false; FIELDS.len()];
     let mut sheet = EMPTY;
@@ -136,6 +141,12 @@ fn motor_of(entries: impl Iterator<Item = (String, usize, Value)>) -> Result<Mot
             Value::Nothing => {}
             Value::Other(found) => return Err(MotorFileError::NotANumber { key: field.name, line, found }),
         }
+    }
+    for (field, value) in changes {
+        field.set(&mut sheet, *value);
+        // What is illegal of it is not in the file.
+        lines[*field as usize] = None;
+        given[*field as usize] = true;
     }
     let illegal = |error| {
         let line =

@@ -42,6 +42,31 @@ fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
     assert_eq!(field(MeasuredSpeeds::new(others).expect("legal").fit(&settings)), "number of times of a run");
 }
 
+/// An observer is heard of one run and of several, and changes no bit.
+#[test]
+fn a_fit_can_be_watched_and_stopped() {
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use bouncing_disk_core::Progress;
+
+    let mut noise = Noise::new(6);
+    let runs: Vec<MeasuredRun> = (1..=6).map(|member| run(member, &mut noise)).collect();
+    let settings = FitSettings::default();
+    for count in [1, 6] {
+        let measured = MeasuredSpeeds::new(runs[..count].to_vec()).expect("legal");
+        let calls = AtomicU64::new(0);
+        let counted = |_: Progress| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        };
+        assert_eq!(measured.fit_observed(&settings, &counted), measured.fit(&settings));
+        assert!(calls.into_inner() >= 2);
+        let stopped = measured.fit_observed(&settings, &|_: Progress| ControlFlow::Break(()));
+        assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, .. }))));
+    }
+}
+
 #[test]
 fn each_run_brakes_by_its_own_friction() {
     let rotor = BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };

@@ -9,7 +9,7 @@ use crate::display::numbers;
 
 /// A unit behind a number, or nothing.
 fn behind(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+    if unit == "1" { String::new() } else { format!(" {unit}") }
 }
 
 impl Display for FitRange {
@@ -42,7 +42,7 @@ impl Display for UndeterminedDirection {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let n = numbers(f);
         let step = |(parameter, change): &(FitParameter, f64)| {
-            let unit = if parameter.is_size() { "" } else { parameter.unit() };
+            let unit = if parameter.is_size() { "1" } else { parameter.unit() };
             let name = parameter.name();
             let coordinate = if parameter.is_size() { format!("ln({name})") } else { name.to_owned() };
             format!("{coordinate} by {}{}", n(*change), behind(unit))

@@ -73,10 +73,11 @@ impl FitParameter {
         if self.is_size() { exp(coordinate) } else { coordinate }
     }
 
-    /// Its unit; nothing for a number without one.
-    pub(super) const fn unit(self) -> &'static str {
+    /// Its unit as it is written: `rad`; `1` for a number without a unit.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
         match self {
-            Self::Friction | Self::Restitution => "",
+            Self::Friction | Self::Restitution => "1",
             Self::PhaseLag | Self::TwistAmplitude => "rad",
             Self::Amplitude => "m",
         }

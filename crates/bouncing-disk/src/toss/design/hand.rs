@@ -32,6 +32,18 @@ impl Hand {
     }
 }
 
+/// The dough on a hand, with this friction.
+pub(super) fn system(hand: Stroke, dough: DiskParameters, friction: f64) -> Result<System, Error> {
+    let disk = DiskParameters { friction, ..dough }.build()?;
+    System::new(Platform::from_stroke(hand)?, disk)
+}
+
+/// The middle of a range of friction.
+pub(super) const fn middle([least, most]: [f64; 2]) -> f64 {
+    // Halves first: the sum of two huge numbers is infinite.
+    0.5 * least + 0.5 * most
+}
+
 /// The toss of a hand motion with a friction; `None` if the dough never leaves.
 pub(super) fn toss(
     hand: Stroke,
@@ -39,9 +51,7 @@ pub(super) fn toss(
     friction: f64,
     initial: InitialSpin,
 ) -> Result<Option<TossPerformance>, Error> {
-    let disk = DiskParameters { friction, ..dough }.build()?;
-    let system = System::new(Platform::from_stroke(hand)?, disk)?;
-    match single_toss(&system, initial) {
+    match single_toss(&system(hand, dough, friction)?, initial) {
         Ok(toss) => Ok(Some(toss)),
         Err(Error::NeverLeaves { .. }) => Ok(None),
         Err(error) => Err(error),
@@ -70,7 +80,7 @@ pub(super) fn over_frictions(
     let [least, most] = constraints.friction;
     let count = if least < most { frictions } else { 1 };
     let at = |friction: f64| toss(hand, dough, friction, constraints.initial);
-    let Some(middle) = at(0.5 * (least + most))? else { return Ok((0.0, None)) };
+    let Some(middle) = at(self::middle([least, most]))? else { return Ok((0.0, None)) };
     let forwards = 1.0_f64.copysign(middle.airborne_speed);
     let gravity = dough.preload_acceleration;
     let of = |toss: &TossPerformance| of_toss(constraints.objective, toss, forwards, gravity);

@@ -294,3 +294,21 @@ fn what_is_stored_comes_back() {
     let unknown = text.replacen("flight_height", "flight_hight", 1);
     assert!(serde_json::from_str::<TossDesign>(&unknown).is_err());
 }
+
+/// The toss of the design is that of its system, to the last bit.
+#[test]
+fn the_system_of_a_design_tosses_as_it_says() {
+    for constraints in cases() {
+        let design = designed(&constraints);
+        let system = design.system().expect("legal");
+        assert_eq!(crate::single_toss(&system, constraints.initial), Ok(design.toss), "{constraints:?}");
+        let [least, most] = constraints.friction;
+        assert!((system.disk().friction() - (least + most) / 2.0).abs() < 1e-15);
+    }
+    // The middle of two numbers whose sum no double holds.
+    assert!((crate::toss::design::hand::middle([f64::MAX, f64::MAX]) / f64::MAX - 1.0).abs() < 1e-15);
+    // Public fields may be changed to what is no system.
+    let mut design = designed(&TossConstraints::pizza_toss());
+    design.constraints.friction = [-1.0, -1.0];
+    assert!(matches!(design.system(), Err(Error::OutOfRange { field: "friction", .. })));
+}

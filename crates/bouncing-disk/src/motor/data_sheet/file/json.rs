@@ -7,6 +7,7 @@ use serde_json::value::RawValue;
 
 use super::{Lines, MotorFileError, Value, excerpt, given, motor_of, without_mark};
 use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
 
 impl Motor {
     /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::MotorParameters), in SI
@@ -25,6 +26,15 @@ impl Motor {
     /// that are no numbers, and what [`MotorParameters::build`](crate::MotorParameters::build) refuses; with
     /// the line.
     pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
+        Self::from_json_with(text, &[])
+    }
+
+    /// [`Self::from_json`] of a data sheet with other values in place of some of its own, which are neither
+    /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
+    ///
+    /// # Errors
+    /// As [`Self::from_json`], without the line where an error is about a value that was not read.
+    pub fn from_json_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
         let text = without_mark(text);
         let mut reader = serde_json::Deserializer::from_str(text);
         let entries = reader
@@ -32,11 +42,12 @@ impl Motor {
             .and_then(|entries| reader.end().map(|()| entries))
             .map_err(|error| refusal(&error))?;
         let mut lines = Lines::new(text);
-        motor_of(entries.into_iter().map(|(key, raw)| {
+        let entries = entries.into_iter().map(|(key, raw)| {
             // A raw value is a part of the text: its place is the distance of the two.
             let place = raw.get().as_ptr() as usize - text.as_ptr() as usize;
             (key, lines.at(place), value(raw.get()))
-        }))
+        });
+        motor_of(entries, changes)
     }
 
     /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those

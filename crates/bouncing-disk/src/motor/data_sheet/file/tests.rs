@@ -88,9 +88,57 @@ fn check_common(read: fn(&str) -> Result<Motor, MotorFileError>, write: fn(&[(&s
     assert!(!error.contains('\u{1b}'), "{error:?}");
 }
 
+/// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of two.
+fn check_changes(
+    read: impl Fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>,
+    write: fn(&[(&str, &str)]) -> String,
+) {
+    let motor = Motor::paper_70_khz();
+    let sheet = motor.parameters();
+    let values: Vec<(&str, String)> =
+        given(&sheet).map(|(name, value, _)| (name, format!("{value:?}"))).collect();
+    let lines = |friction: &'static str| -> Vec<(&str, &str)> {
+        let own = |(name, value)| if name == "friction" { (name, friction) } else { (name, value) };
+        values.iter().map(|(name, value)| own((*name, value.as_str()))).collect()
+    };
+    let change = [(MotorField::Friction, sheet.friction)];
+    assert_eq!(read(&write(&lines("-1")), &change), Ok(motor));
+    let missing: Vec<_> = lines("0").into_iter().filter(|(name, _)| *name != "friction").collect();
+    assert_eq!(read(&write(&missing), &change), Ok(motor));
+    // Of the several changes of a field the last one counts.
+    let twice = [(MotorField::Friction, -7.0), change[0]];
+    assert_eq!(read(&write(&lines("0.5")), &twice), Ok(motor));
+    // Two alternatives, of which one is set again.
+    let force = format!("{:?}", motor.preload_force());
+    let mut both = lines("0.3");
+    both.push(("preload_force", &force));
+    assert!(read(&write(&both), &[]).is_err());
+    let set = [(MotorField::PreloadForce, 0.4), change[0]];
+    let expected = motor.with(|sheet| MotorField::PreloadForce.set(sheet, 0.4));
+    assert_eq!(read(&write(&both), &set).ok(), expected.ok());
+    // An illegal change has no line, and what else is illegal keeps its own.
+    let error = read(&write(&lines("0.3")), &[(MotorField::Friction, -1.0)]).expect_err("negative");
+    assert!(
+        matches!(
+            error,
+            MotorFileError::Illegal { line: None, error: Error::OutOfRange { field: "friction", .. } }
+        ),
+        "{error}"
+    );
+    let error = read(&write(&lines("-1")), &[(MotorField::Amplitude, 1e-8)]).expect_err("negative");
+    assert!(matches!(error, MotorFileError::Illegal { line: Some(_), .. }), "{error}");
+    // What is no sheet at all stays none.
+    assert!(read("}", &change).is_err());
+}
+
 #[cfg(feature = "json")]
 mod json {
     use super::*;
+
+    #[test]
+    fn changes_come_before_the_checks() {
+        check_changes(Motor::from_json_with, write);
+    }
 
     fn write(lines: &[(&str, &str)]) -> String {
         let lines: Vec<_> =
@@ -170,6 +218,11 @@ mod json {
 #[cfg(feature = "toml")]
 mod toml {
     use super::*;
+
+    #[test]
+    fn changes_come_before_the_checks() {
+        check_changes(Motor::from_toml_with, write);
+    }
 
     fn write(lines: &[(&str, &str)]) -> String {
         lines.iter().fold("# A motor.\n".to_owned(), |text, (key, value)| format!("{text}{key} = {value}\n"))

@@ -6,6 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{Lines, MotorFileError, Value, excerpt, given, motor_of, without_mark};
 use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
 
 impl Motor {
     /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::MotorParameters), in SI
@@ -15,15 +16,35 @@ impl Motor {
     /// As `Motor::from_json`. A key that is there twice is an error of the format,
     /// [`MotorFileError::Syntax`].
     pub fn from_toml(text: &str) -> Result<Self, MotorFileError> {
+        Self::from_toml_with(text, &[])
+    }
+
+    /// [`Self::from_toml`] of a data sheet with other values in place of some of its own, which are neither
+    /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
+    ///
+    /// ```
+    /// use bouncing_disk::{Motor, MotorField};
+    ///
+    /// let text = Motor::paper_70_khz().to_toml().replace("friction = 0.1", "friction = -0.1");
+    /// assert!(Motor::from_toml(&text).is_err());
+    /// let motor = Motor::from_toml_with(&text, &[(MotorField::Friction, 0.2)])?;
+    /// assert_eq!(motor.parameters().friction, 0.2);
+    /// # Ok::<(), bouncing_disk::MotorFileError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::from_toml`], without the line where an error is about a value that was not read.
+    pub fn from_toml_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
         let text = without_mark(text);
         let table = DeTable::parse(text).map_err(|error| refusal(text, &error))?;
         // In the order of the text, so that the first fault is told.
         let mut entries: Vec<_> = table.get_ref().iter().collect();
         entries.sort_unstable_by_key(|(key, _)| key.span().start);
         let mut lines = Lines::new(text);
-        motor_of(entries.into_iter().map(|(key, value)| {
+        let entries = entries.into_iter().map(|(key, value)| {
             (key.get_ref().clone().into_owned(), lines.at(key.span().start), number(value.get_ref()))
-        }))
+        });
+        motor_of(entries, changes)
     }
 
     /// The data sheet as [`Self::from_toml`] reads it, to the last bit, with the units as comments.

@@ -1,0 +1,198 @@
+//! States at equal distances in time, of which alone a long motion is kept.
+
+use std::cmp::Ordering;
+
+use bouncing_disk_core::{Observer, RestitutionLaw, Unobserved, Watch};
+
+use super::Engine;
+use crate::error::{Error, check, room_for};
+use crate::motion::phase_time::PhaseSpan;
+use crate::motion::state::Snapshot;
+
+/// Most states that [`Engine::sample`] gives: each takes some 100 bytes.
+pub const MAX_SAMPLES: usize = 1 << 24;
+
+/// Most periods of the platform that [`Engine::sample`] follows a motion for: with an impact in each
+/// they take many minutes, and no instant of them is rounded by more than a millionth of a period.
+pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
+
+/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+const FLIGHTS_OF_EVENT: u64 = 4;
+
+impl<L: RestitutionLaw> Engine<L> {
+    /// Disk and platform at `count` instants at equal distances, from now to `span` later, both included. No
+    /// event is kept, so that a long motion takes no more memory than a short one. Afterwards the engine is
+    /// behind the first event that does not come before the last instant.
+    ///
+    /// Where an event is, the state is that just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
+    /// disk that rests for ever is followed as well.
+    ///
+    /// ```
+    /// use bouncing_disk::core::{ChatterPolicy, Phase};
+    /// use bouncing_disk::{Engine, InitialCondition, PhaseSpan, System, TOSS_START};
+    ///
+    /// let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
+    /// let mut engine = Engine::new(System::pizza_toss(), start, ChatterPolicy::Complete)?;
+    /// let states = engine.sample(PhaseSpan { periods: 10, remainder: 0.0 }, 401)?;
+    /// assert_eq!((states.len(), states[400].time.periods - states[0].time.periods), (401, 10));
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for fewer than two instants, or for more than [`MAX_SAMPLED_PERIODS`]; an error
+    /// of the core for more than [`MAX_SAMPLES`] instants or than there is memory for; those of
+    /// [`Self::advance`].
+    pub fn sample(&mut self, span: PhaseSpan, count: usize) -> Result<Vec<Snapshot>, Error> {
+        self.sample_observed(span, count, &Unobserved)
+    }
+
+    /// [`Self::sample`] with an observer; the items are the periods of the platform.
+    ///
+    /// # Errors
+    /// Those of [`Self::sample`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
+    /// the observer breaks.
+    pub fn sample_observed(
+        &mut self,
+        span: PhaseSpan,
+        count: usize,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Snapshot>, Error> {
+        let span = span.normalised();
+        check(count >= 2, "instants of a motion", count as f64, "at least 2")?;
+        check(span.periods <= MAX_SAMPLED_PERIODS, "periods", span.periods as f64, "[0, 2^30]")?;
+        let mut states: Vec<Snapshot> = room_for("instants of a motion", count, MAX_SAMPLES)?;
+        let (start, total, last) = (self.now, span.radians(), count - 1);
+        let end = start.after(span);
+        let instant = |index: usize| {
+            if index >= last {
+                return end;
+            }
+            let time = start.after(PhaseSpan::from_radians(total * (index as f64 / last as f64)));
+            // Rounding puts none behind the end.
+            if time.order(&end) == Ordering::Greater { end } else { time }
+        };
+        let watch = Watch::begin(observer, 0, span.periods)?;
+        let mut work = watch.work();
+        loop {
+            let resting = self.segment(None);
+            let record = self.advance()?;
+            let (segment, until) = record.map_or((resting, None), |own| (own.segment, Some(own.time)));
+            // Up to the event, and all that are left where nothing more happens.
+            while states.len() < count {
+                let time = instant(states.len());
+                if until.is_some_and(|until| time.order(&until) != Ordering::Less) {
+                    break;
+                }
+                // The instant itself: the sum of the segment's start and what follows it is rounded.
+                let state = segment.state_after(&self.system, time.since(&segment.start));
+                states.push(Snapshot { time, ..state });
+            }
+            if states.len() == count {
+                break;
+            }
+            watch.set_done(self.now.since(&start).periods.min(span.periods));
+            work.spend(FLIGHTS_OF_EVENT)?;
+        }
+        watch.end();
+        Ok(states)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use bouncing_disk_core::{ChatterPolicy, Phase, Progress};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::motion::initial_condition::InitialCondition;
+    use crate::motion::trajectory::Trajectory;
+    use crate::parameters::system::System;
+    use crate::testing;
+    use crate::toss::single::TOSS_START;
+
+    const fn periods(periods: u64) -> PhaseSpan {
+        PhaseSpan { periods, remainder: 0.0 }
+    }
+
+    fn toss() -> Engine {
+        let start =
+            InitialCondition::Contact { phase: Phase::new(TOSS_START).expect("legal"), angular_speed: 0.0 };
+        Engine::new(System::pizza_toss(), start, ChatterPolicy::Complete).expect("legal")
+    }
+
+    #[test]
+    fn the_instants_are_equally_far_apart_and_none_is_past_the_end() {
+        for (span, count) in [(periods(10), 401), (periods(1), 2), (periods(3), 7), (periods(0), 3)] {
+            let states = toss().sample(span, count).expect("legal");
+            assert_eq!(states.len(), count);
+            let start = toss().time();
+            assert_eq!((states[0].time, states[count - 1].time), (start, start.after(span)));
+            let step = span.radians() / (count - 1) as f64;
+            for (index, state) in states.iter().enumerate() {
+                let since = state.time.since(&start).radians();
+                assert!((since - step * index as f64).abs() < 1e-12 * (1.0 + since), "{span:?} {index}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_disk_that_rests_for_ever_is_followed_to_the_end() {
+        let system = System::pizza_toss().with_platform(|platform| platform.amplitude = 0.0).expect("legal");
+        let start = InitialCondition::Contact { phase: Phase::new(1.0).expect("legal"), angular_speed: 0.0 };
+        let mut engine = Engine::new(system, start, ChatterPolicy::Complete).expect("legal");
+        let states = engine.sample(periods(100), 50).expect("legal");
+        assert!(states.iter().all(|state| state.disk.height.abs() <= 0.0));
+        assert_eq!(states[49].time.periods, 100);
+    }
+
+    #[test]
+    fn what_is_too_much_is_refused_and_what_is_long_can_be_stopped() {
+        let sample = |span, count| toss().sample(span, count);
+        let field = |result| match result {
+            Err(Error::OutOfRange { field, .. }) => field,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(field(sample(periods(1), 0)), "instants of a motion");
+        assert_eq!(field(sample(periods(1), 1)), "instants of a motion");
+        assert_eq!(field(sample(periods(MAX_SAMPLED_PERIODS + 1), 2)), "periods");
+        assert_eq!(field(sample(PhaseSpan::LONGEST, 2)), "periods");
+        let too_large = bouncing_disk_core::Error::TooLarge {
+            what: "instants of a motion",
+            count: MAX_SAMPLES as u64 + 1,
+            limit: MAX_SAMPLES as u64,
+        };
+        assert_eq!(sample(periods(1), MAX_SAMPLES + 1), Err(too_large.into()));
+        let soon = |progress: Progress| {
+            if progress.done > 1_000 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let Err(Error::Core(bouncing_disk_core::Error::Stopped { done, total })) =
+            toss().sample_observed(periods(MAX_SAMPLED_PERIODS), 2, &soon)
+        else {
+            panic!("not stopped")
+        };
+        assert!(done > 1_000 && done < 100_000 && total == MAX_SAMPLED_PERIODS, "{done} {total}");
+    }
+
+    proptest! {
+        /// What a recorded motion says of the same instants, to the last bit.
+        #[test]
+        fn states_are_those_of_the_trajectory(
+            (system, start, policy) in testing::motion(), count in 2..40_usize, span in 0..6_u64,
+        ) {
+            let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(()) };
+            let end = engine.time().after(periods(span));
+            let mut again = engine.clone();
+            let Ok(states) = engine.sample(periods(span), count) else {
+                return Ok(());
+            };
+            let recorded = Trajectory::record(&mut again, |record| record.time.order(&end) == Ordering::Greater);
+            let recorded = recorded.expect("as before");
+            for state in states.iter().filter(|state| state.time.order(&recorded.end()) == Ordering::Less) {
+                let at = recorded.at(state.time).map(|at| (at.disk, at.platform));
+                prop_assert_eq!(at, Some((state.disk, state.platform)));
+            }
+        }
+    }
+}
