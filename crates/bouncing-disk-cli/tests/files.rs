@@ -268,7 +268,8 @@ fn fitted_parameters_have_units() {
     let folder = Folder::new();
     folder.done("motor transient --members 2 --duration 1 --intervals 20 --out run.csv");
     folder.done(
-        "fit run.csv --parameter friction=0.09:0.11 --parameter phase_lag=-0.1:0.1 --resamples 200 --out fit.csv",
+        "fit run.csv --preset paper-70-khz --parameter friction=0.09:0.11 --parameter phase_lag=-0.1:0.1 --resamples 200 \
+         --out fit.csv",
     );
     let table = String::from_utf8(folder.read("fit.csv")).unwrap();
     let lines: Vec<&str> = table.lines().skip(1).collect();

@@ -5,8 +5,16 @@ use pyo3::prelude::*;
 
 use crate::arguments::row;
 use crate::fits::{self, interval};
+use crate::names::{Name, derived};
 use crate::real::Real;
 use crate::{errors, results};
+
+/// What follows from the arguments that describe the rotor, and from the curve with them.
+const OF_ROTOR: [Name; 3] = [
+    derived("contact radius times normal force", &["contact_radius", "normal_force"]),
+    derived("moment of inertia", &["mass", "gyration_radius"]),
+    derived("friction", &["times", "speeds", "normal_force", "mass", "contact_radius", "gyration_radius"]),
+];
 
 /// The coefficient of friction from the speeds of a rotor that slides on a platform at rest (Eq. 17).
 ///
@@ -64,7 +72,7 @@ pub(crate) fn fit_braking<'py>(
     };
     let fit = py
         .detach(|| -> Result<BrakingFit, Error> { BrakingFit::new(&times, &speeds, &rotor) })
-        .map_err(|error| errors::of_named(py, error, &fits::NAMES))?;
+        .map_err(|error| errors::of_named(py, error, &[&fits::NAMES[..], &OF_ROTOR[..]].concat()))?;
     let fields = (
         interval(py, &fit.friction)?,
         interval(py, &fit.deceleration)?,

@@ -343,6 +343,51 @@ impl Motor {
         py.get_type::<Self>().call((), Some(parameters))
     }
 
+    /// The motor of the paper's Table III, driven at 70 kHz.
+    ///
+    /// The paper does not print its mass: it is that of a solid steel ball of the printed 20 mm.
+    ///
+    /// Returns
+    /// -------
+    /// Motor
+    #[staticmethod]
+    fn paper_70_khz() -> Self {
+        Self(Model::paper_70_khz())
+    }
+
+    /// The same motor as the paper drives it at 184 kHz.
+    ///
+    /// Returns
+    /// -------
+    /// Motor
+    #[staticmethod]
+    fn paper_184_khz() -> Self {
+        Self(Model::paper_184_khz())
+    }
+
+    /// The motor of a data sheet in TOML, such as the command line's ``--template`` writes.
+    ///
+    /// Parameters
+    /// ----------
+    /// toml : str
+    ///     The text of the file.
+    ///
+    /// Returns
+    /// -------
+    /// Motor
+    ///
+    /// Examples
+    /// --------
+    /// >>> import bouncing_disk as bd
+    /// >>> text = "\\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
+    /// >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
+    /// True
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, toml: Json) -> PyResult<Self> {
+        let read = Model::from_toml(toml.as_str());
+        read.map(Self).map_err(|error| errors::of_motor_file(py, &error, &OF_MOTOR))
+    }
+
     /// The data sheet as the JSON that the Rust library and its command line read.
     ///
     /// Returns

@@ -73,7 +73,7 @@ pub(crate) fn performance<'py>(py: Python<'py>, toss: &TossPerformance) -> PyRes
 /// --------
 /// >>> import bouncing_disk as bd
 /// >>> toss = bd.single_toss(bd.System.pizza_toss())
-/// >>> round(toss.airborne_speed)  # rad/s, as printed in the paper's Table I
+/// >>> round(toss.airborne_speed)  # rad/s, as the paper prints for the toss of Table I
 /// 14
 #[pyfunction]
 #[pyo3(signature = (system, *, initial_spin="absolute-rest"))]

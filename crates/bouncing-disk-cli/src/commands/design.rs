@@ -25,7 +25,7 @@ use crate::range::Interval;
 const AFTER: &str = "\
 Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
 whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
-the range of friction. See docs/numerics/motors.md and `TossConstraints` of the library.
+the range of friction. See docs/numerics/design.md and `TossConstraints` of the library.
 
 Examples:
   bouncing-disk design

@@ -262,6 +262,8 @@ impl GridJob for DiagramJob {
         let ends = self.axial_forcings.cell_ends(0.01);
         let provenance =
             provenance("bouncing-disk diagram", &self)?.with_chatter_policy(ChatterPolicy::Complete);
+        let from: Vec<String> = self.starts.iter().map(Start::in_words).collect();
+        let restitution = self.restitution;
         let columns = Rc::new(columns);
         let (listed, drawn) = (Rc::clone(&columns), Rc::clone(&columns));
         Ok(Report {
@@ -269,7 +271,9 @@ impl GridJob for DiagramJob {
             text: shown.to_text(),
             table: Box::new(move |to| columns.write_csv(to)),
             data: vec![("columns", Data::List(Box::new(move |each| listed.write_json(each))))],
-            figure: Some(Box::new(move || pictures::diagram::draw(ends, &drawn.starts, &drawn.layers()))),
+            figure: Some(Box::new(move || {
+                pictures::diagram::draw(ends, restitution, &from, &drawn.layers())
+            })),
         })
     }
 }

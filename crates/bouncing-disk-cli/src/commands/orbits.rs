@@ -77,7 +77,7 @@ pub(crate) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
         text: text(&found),
         table: ready(table(&found)),
         data: vec![("orbits", stored(&found.orbits)?), ("coverage", stored(&found.coverage)?)],
-        figure: Some(Box::new(move || pictures::orbits::draw(job.axial_forcing, &found))),
+        figure: Some(Box::new(move || pictures::orbits::draw(job.axial_forcing, job.restitution, &found))),
     };
     report.deliver(&args.output, context.quiet)
 }

@@ -70,6 +70,18 @@ impl FromStr for Start {
     }
 }
 
+impl Start {
+    /// From where an orbit starts, as a legend says it.
+    pub(crate) fn in_words(&self) -> String {
+        match self {
+            Self::Rest => "from rest".to_owned(),
+            Self::Rise => "from a rise".to_owned(),
+            Self::PeriodOne => "from the period-1 orbit".to_owned(),
+            Self::At(phase, speed) => format!("from {phase}, {speed}"),
+        }
+    }
+}
+
 impl Display for Start {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {

@@ -82,6 +82,10 @@ impl Picture {
 
 /// The words without their details, for which there is no room.
 fn short(words: &str) -> String {
+    // Every start takes impacts of its own until it rests.
+    if words.starts_with("rest") {
+        return "rest".to_owned();
+    }
     let words = words.split(',').next().unwrap_or(words);
     words.split(" and ").next().unwrap_or(words).to_owned()
 }

@@ -1,15 +1,16 @@
 //! The orbit diagram: phases and speeds of the impacts over the forcing.
 
 use bouncing_disk_plot::{
-    Axis, Colour, DOUBLE_COLUMN, DensePoints, Figure, Grid, Margins, Panel, Text, Ticks,
+    Anchor, Axis, Colour, DOUBLE_COLUMN, DensePoints, Figure, Grid, Margins, Panel, Text, Ticks,
 };
 
-use super::{PHASE, SPEED, largest};
+use super::{PHASE, SPEED, largest, math};
 
 /// Forcing, impact phase (periods), normalised impact speed.
 type Point = (f64, f64, f64);
 
-/// The colours of the starts, in their order: as in the paper, the chatter lies light under the rest.
+/// The colours of the starts, in their order. The first lies on top of the others: beyond the crisis a start at rest and
+/// one beside the period-1 orbit are on the same attractor, and light points say so.
 const COLOURS: [Colour; 8] = [
     Colour::LIGHT_GREY,
     Colour::rgb(40, 40, 40),
@@ -30,17 +31,17 @@ fn colour(index: usize, starts: usize) -> Colour {
     COLOURS[index % COLOURS.len()].mixed(Colour::BLACK, 1.0 - 1.0 / (1.0 + 0.6 * rounds))
 }
 
-/// Starts whose names have room beside the letter of the panel, and the length that such names have.
-const BESIDE: (usize, usize) = (3, 8);
+/// Starts whose names have room beside the letter of the panel.
+const BESIDE: usize = 2;
 
 /// Names in a row of their own, and the height of such a row (pt).
 const IN_A_ROW: usize = 4;
 const ROW: f64 = 11.0;
 
-/// Two panels, phases and speeds; `ends` are those of the forcing.
-pub(crate) fn draw(ends: (f64, f64), names: &[String], layers: &[Vec<Point>]) -> Figure {
+/// Two panels, phases and speeds; `ends` are those of the forcing, `names` say from where the orbits start.
+pub(crate) fn draw(ends: (f64, f64), restitution: f64, names: &[String], layers: &[Vec<Point>]) -> Figure {
     const FRAME: f64 = 174.0;
-    let beside = names.len() <= BESIDE.0 && names.iter().all(|name| name.len() <= BESIDE.1);
+    let beside = names.len() <= BESIDE;
     let rows = if beside { 0 } else { names.len().div_ceil(IN_A_ROW) };
     let margins = Margins { left: 46.0, right: 10.0, top: 22.0 + ROW * rows as f64, bottom: 34.0 };
     let height = margins.top + FRAME + margins.bottom;
@@ -49,7 +50,7 @@ pub(crate) fn draw(ends: (f64, f64), names: &[String], layers: &[Vec<Point>]) ->
     // In the units of the first panel's width, and of its height.
     let place = |index: usize| {
         if beside {
-            return (0.12 + 0.3 * index as f64, 1.045);
+            return (0.12 + 0.34 * index as f64, 1.045);
         }
         let row = rows - index / IN_A_ROW;
         (0.56 * (index % IN_A_ROW) as f64, 1.045 + ROW * row as f64 / FRAME)
@@ -65,12 +66,16 @@ pub(crate) fn draw(ends: (f64, f64), names: &[String], layers: &[Vec<Point>]) ->
                 1.045,
                 format!("({letter})"),
             ));
-        for (index, (points, name)) in layers.iter().zip(names).enumerate() {
+        if column == 1 {
+            let words = Text::at_axes(1.0, 1.045, format!(r"$\epsilon = {}$", math(restitution)));
+            panel = panel.layer(words.anchor(Anchor::Right).size(8.0));
+        }
+        for (index, (points, name)) in layers.iter().zip(names).enumerate().rev() {
             let own = colour(index, names.len());
             panel = panel.layer(DensePoints::new(points.iter().map(of)).colour(own).radius(0.3));
             if column == 0 && names.len() > 1 {
                 let (x, y) = place(index);
-                let words = Text::at_axes(x, y, format!("start {name}"));
+                let words = Text::at_axes(x, y, name.as_str());
                 panel = panel.layer(words.size(8.0).colour(own.mixed(Colour::BLACK, 0.25)));
             }
         }
@@ -103,7 +108,7 @@ mod tests {
         for starts in [0, 1, 2, 3, 4, 5, 13] {
             let names: Vec<String> = (0..starts).map(|index| format!("0.{index},1.{index}")).collect();
             let layers = vec![vec![(0.4, 0.2, 1.0)]; starts];
-            let svg = draw((0.3, 0.5), &names, &layers).to_svg().unwrap();
+            let svg = draw((0.3, 0.5), 0.5, &names, &layers).to_svg().unwrap();
             let named = names.iter().filter(|name| svg.contains(name.as_str())).count();
             assert_eq!(named, if starts > 1 { starts } else { 0 }, "{starts}");
         }

@@ -8,7 +8,7 @@ use bouncing_disk_plot::{
 use super::{PHASE, SPEED, largest, math};
 
 /// Attracting orbits filled, unstable ones open, with a colour for each number of impacts.
-pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
+pub(crate) fn draw(axial_forcing: f64, restitution: f64, found: &OrbitsFound) -> Figure {
     const HEIGHT: f64 = 230.0;
     let most = found.orbits.iter().map(|orbit| orbit.period()).max().unwrap_or(0);
     let speeds =
@@ -16,7 +16,7 @@ pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
     let mut panel = Panel::new(Rect::new(44.0, 24.0, 190.0, 172.0))
         .x(Axis::linear(0.0, 1.0).label(PHASE).ticks(Ticks::every(0.2).minor(4)))
         .y(Axis::linear(0.0, 1.5 * largest(speeds, 0.5)).label(SPEED))
-        .title(format!(r"$\Gamma = {}$", math(axial_forcing)))
+        .title(format!(r"$\Gamma = {}$, $\epsilon = {}$", math(axial_forcing), math(restitution)))
         .markers_on_top();
     for impacts in 1..=most {
         let of = |attracts: bool| {
@@ -34,7 +34,7 @@ pub(crate) fn draw(axial_forcing: f64, found: &OrbitsFound) -> Figure {
         let name = format!("{impacts} impact{}", if impacts == 1 { "" } else { "s" });
         if !open.is_empty() {
             let dots = Scatter::new(open).marker(Marker::Circle).size(3.6).width(0.8).colour(colour);
-            panel = panel.layer(dots.name(name.as_str()));
+            panel = panel.layer(dots.name(format!("{name}, unstable")));
         }
         if !filled.is_empty() {
             let dots = Scatter::new(filled).marker(Marker::Dot).size(4.4).colour(colour);

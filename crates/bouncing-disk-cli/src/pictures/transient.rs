@@ -72,7 +72,7 @@ fn figure<'a, I: Iterator<Item = &'a [f64]>>(
         .x(spanned(0.0, end).label("$t$ (s)"))
         .y(spanned(low, high).label(r"$\dot{\alpha}$ (rad/s)"));
     if runs().count() > 1 {
-        panel = panel.layer(Band::new(band).colour(Colour::BLUE).opacity(0.25).name("all runs"));
+        panel = panel.layer(Band::new(band).colour(Colour::BLUE).opacity(0.25).name("range of all runs"));
     }
     let fitted = if of_mean { "fit of the mean" } else { "fit of the run" };
     panel = panel.layer(Line::new(first).colour(Colour::GREY).width(0.6).name(name));

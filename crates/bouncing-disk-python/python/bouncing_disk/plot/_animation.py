@@ -114,6 +114,6 @@ def toss_animation(
         return platform, platform_dot, platform_now, disk, disk_dot, disk_now
 
     animation: FuncAnimation = import_module("matplotlib.animation").FuncAnimation(
-        fig, show, frames=frames, interval=1000.0 / _FRAMES_PER_SECOND, blit=True
+        fig, show, frames=frames, interval=1000.0 * slow_motion * duration / frames, blit=True
     )
     return animation

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
-from bouncing_disk.plot._checks import number, whole_number
+from bouncing_disk.plot._checks import number, out_of_range, whole_number
 from bouncing_disk.plot._style import BLACK, COLOURS, ORANGE, drawn_on, pyplot, style
 from bouncing_disk.plot._words import labelled, legend_above, note, unit_of
 
@@ -39,8 +39,8 @@ def orbit_diagram(
     restitution: float = 0.5,
     axial_forcing: tuple[float, float] = (0.3, 0.62),
     columns: int = 600,
-    transient: int = 2000,
-    recorded: int = 100,
+    transient: int = 3000,
+    recorded: int = 256,
     quantity: Literal["phase", "speed"] = "phase",
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
@@ -59,7 +59,7 @@ def orbit_diagram(
         Lowest and highest axial forcing parameter Gamma.
     columns : int, default 600
         Forcings, one at least.
-    transient, recorded : int, default 2000, 100
+    transient, recorded : int, default 3000, 256
         Impacts that are left out, and drawn, at each of them.
     quantity : {"phase", "speed"}, default "phase"
         What is drawn over the forcing: the phase of the impacts in periods, or their normalised speed.
@@ -81,6 +81,8 @@ def orbit_diagram(
         raise ValueError(f'quantity must be "phase" or "speed", not {quantity!r}')
     lowest, highest = axial_forcing
     ends = np.array([number("axial_forcing", lowest), number("axial_forcing", highest)])
+    if not lowest <= highest:
+        raise out_of_range("axial_forcing", float(highest), f"[{lowest}, infinity), the lowest one first")
     if diagram is None:
         columns = whole_number("columns", columns, 1)
         diagram = _two_starts(restitution, (lowest, highest), columns, transient, recorded)
