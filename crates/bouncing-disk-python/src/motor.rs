@@ -379,7 +379,7 @@ impl Motor {
     /// Examples
     /// --------
     /// >>> import bouncing_disk as bd
-    /// >>> text = "\\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
+    /// >>> text = "\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
     /// >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
     /// True
     #[staticmethod]
