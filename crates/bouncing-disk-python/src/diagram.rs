@@ -42,9 +42,9 @@ pub(crate) fn room_for<T>(count: usize) -> Result<Vec<T>, Error> {
 ///     Phase of the first impact (rad).
 /// normalised_speed : float or (n,) array_like
 ///     Normalised speed of the first impact, not negative.
-/// transient : int, default 200
+/// transient : int, default 3000
 ///     Impacts of each orbit that are not recorded.
-/// recorded : int, default 50
+/// recorded : int, default 256
 ///     Impacts of each orbit that are; of a disk that rests for ever fewer.
 /// chatter : ChatterCut, optional
 ///     How a chatter ends; ``None`` sums it.
@@ -65,9 +65,9 @@ pub(crate) fn room_for<T>(count: usize) -> Result<Vec<T>, Error> {
 /// array([  0,  20,  40,  60,  80, 100])
 #[pyfunction]
 #[pyo3(signature = (
-    *, axial_forcing, restitution, impact_phase, normalised_speed, transient=Count::Fits(200),
-    recorded=Count::Fits(50), chatter=None, progress=ProgressCallable(None)
-), text_signature = "(*, axial_forcing, restitution, impact_phase, normalised_speed, transient=200, recorded=50, \
+    *, axial_forcing, restitution, impact_phase, normalised_speed, transient=Count::Fits(3000),
+    recorded=Count::Fits(256), chatter=None, progress=ProgressCallable(None)
+), text_signature = "(*, axial_forcing, restitution, impact_phase, normalised_speed, transient=3000, recorded=256, \
                      chatter=None, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn orbit_diagram<'py>(

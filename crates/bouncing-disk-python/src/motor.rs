@@ -1,6 +1,6 @@
 //! Data sheets of motors.
 
-use bouncing_disk::{Motor as Model, MotorParameters};
+use bouncing_disk::{Motor as Model, MotorField, MotorParameters};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -158,11 +158,19 @@ impl Motor {
     /// Parameters
     /// ----------
     /// **changes : float or None
-    ///     Arguments of :class:`Motor`; None takes a value out, as one does with an alternative.
+    ///     Arguments of :class:`Motor`; None takes a value out. A number takes the place of its alternative, so that
+    ///     a motor with a ``preload_acceleration`` gets a ``preload_force`` by naming the force alone.
     ///
     /// Returns
     /// -------
     /// Motor
+    ///
+    /// Examples
+    /// --------
+    /// >>> import bouncing_disk as bd
+    /// >>> pressed = bd.Motor.paper_70_khz().replace(preload_force=0.02)
+    /// >>> "preload_acceleration" in pressed.to_dict()
+    /// False
     #[pyo3(signature = (**changes))]
     fn replace<'py>(
         &self,
@@ -171,6 +179,15 @@ impl Motor {
     ) -> PyResult<Bound<'py, PyAny>> {
         let arguments = self.arguments(py)?;
         if let Some(changes) = changes {
+            // Who names both alternatives is told so.
+            for (name, value) in changes {
+                let field = name.extract::<String>()?.parse::<MotorField>();
+                for other in field.ok().filter(|_| !value.is_none()).map_or(&[][..], MotorField::excluded) {
+                    if arguments.contains(other.name())? {
+                        arguments.del_item(other.name())?;
+                    }
+                }
+            }
             arguments.update(changes.as_mapping())?;
         }
         py.get_type::<Self>().call((), Some(&arguments))

@@ -18,11 +18,8 @@ fn axes(given: &Bound<'_, PyMapping>) -> PyResult<Vec<SweepAxis>> {
     let mut axes = Vec::new();
     for item in given.items()? {
         let (name, values): (String, Bound<'_, PyAny>) = item.extract()?;
-        let Some(parameter) = MotorField::ALL.into_iter().find(|field| field.name() == name) else {
-            let known: Vec<_> = MotorField::ALL.iter().map(|field| field.name()).collect();
-            let text = format!("the parameter {name:?} is unknown; there are {}", known.join(", "));
-            return Err(PyValueError::new_err(text));
-        };
+        let parameter: MotorField =
+            name.parse().map_err(|unknown| PyValueError::new_err(format!("axes: {unknown}")))?;
         axes.push(SweepAxis::new(parameter, row(&values, &name)?));
     }
     Ok(axes)
@@ -90,12 +87,13 @@ pub(crate) fn motor_map<'py>(
     let found = long_call::run_named(py, progress.0, &names, |observer| sweep.run_observed(observer))?;
     let all: Vec<_> = found.cells().iter().map(numbers).collect();
     let shaped = |column: Bound<'py, PyAny>| column.call_method1("reshape", (&shape,));
-    let mut fields = vec![motor.clone().into_any(), values.into_any()];
+    let mut fields = Vec::new();
     for column in 0..COLUMNS {
         let numbers = all.iter().map(|one| one.values[column]).collect::<Vec<f64>>();
         fields.push(shaped(results::array(py, numbers).into_any())?);
     }
     fields.push(shaped(results::array(py, all.iter().map(|one| one.impacts).collect()).into_any())?);
     fields.push(shaped(results::array(py, all.iter().map(|one| one.status).collect()).into_any())?);
+    fields.extend([motor.clone().into_any(), values.into_any()]);
     results::make(py, "MotorMap", PyTuple::new(py, fields)?)
 }

@@ -80,15 +80,9 @@ pub(crate) const OF_PARTS: [Name; 21] = {
 pub(crate) const OF_MOTOR: [Name; MOTOR_NAMES] = [
     derived("peak_acceleration", &MOTOR_LIFT),
     derived("twist_speed", &MOTOR_TWIST),
-    derived(
-        "preload_acceleration = preload_force/mass",
-        &["preload_force", MASS[0], MASS[1], MASS[2], MASS[3]],
-    ),
-    derived(
-        "preload_force = mass*preload_acceleration",
-        &["preload_acceleration", MASS[0], MASS[1], MASS[2], MASS[3]],
-    ),
-    derived("moment of inertia", &["gyration_radius", MASS[0], MASS[1], MASS[2], MASS[3]]),
+    derived("preload_acceleration = preload_force/mass", &with_mass::<5>(&["preload_force"])),
+    derived("preload_force = mass*preload_acceleration", &with_mass::<5>(&["preload_acceleration"])),
+    derived("moment of inertia", &with_mass::<5>(&["gyration_radius"])),
     derived("load_acceleration", &MOTOR_LOAD),
     derived("load", &MOTOR_LOAD),
     derived("unit of time (s)", &["drive_frequency"]),
@@ -104,17 +98,9 @@ pub(crate) const MOTOR_NAMES: usize = 15;
 
 /// What gives the mass of a rotor.
 const MASS: [&str; 4] = ["mass", "density", "rotor_radius", "rotor_thickness"];
-const MOTOR_LIFT: [&str; 8] = [
-    "amplitude",
-    "drive_frequency",
-    "preload_force",
-    "preload_acceleration",
-    MASS[0],
-    MASS[1],
-    MASS[2],
-    MASS[3],
-];
-const MOTOR_TWIST: [&str; 11] = [
+const MOTOR_LIFT: [&str; 8] =
+    with_mass(&["amplitude", "drive_frequency", "preload_force", "preload_acceleration"]);
+const MOTOR_TWIST: [&str; 11] = with_mass(&[
     "peak_angular_speed",
     "twist_amplitude",
     "drive_frequency",
@@ -122,19 +108,18 @@ const MOTOR_TWIST: [&str; 11] = [
     "gyration_radius",
     "preload_force",
     "preload_acceleration",
-    MASS[0],
-    MASS[1],
-    MASS[2],
-    MASS[3],
-];
-const MOTOR_LOAD: [&str; 9] = [
-    "load_torque",
-    "contact_radius",
-    "gyration_radius",
-    "preload_force",
-    "preload_acceleration",
-    MASS[0],
-    MASS[1],
-    MASS[2],
-    MASS[3],
-];
+]);
+const MOTOR_LOAD: [&str; 9] =
+    with_mass(&["load_torque", "contact_radius", "gyration_radius", "preload_force", "preload_acceleration"]);
+
+/// Some arguments, and after them those that give the mass.
+const fn with_mass<const ALL: usize>(others: &[&'static str]) -> [&'static str; ALL] {
+    assert!(ALL == others.len() + MASS.len(), "one place for each");
+    let mut all = [""; ALL];
+    let mut place = 0;
+    while place < ALL {
+        all[place] = if place < others.len() { others[place] } else { MASS[place - others.len()] };
+        place += 1;
+    }
+    all
+}

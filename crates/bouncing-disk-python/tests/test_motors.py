@@ -31,6 +31,13 @@ def test_a_data_sheet_is_its_system() -> None:
     assert loaded.system == system.with_load_torque(torque=1e-7, mass=1e-3)
     same = MOTOR.replace(peak_angular_speed=None, twist_amplitude=system.twist_amplitude)
     assert same.peak_angular_speed == pytest.approx(30.0)
+    # A value takes the place of its alternative, as on the command line.
+    assert MOTOR.replace(twist_amplitude=system.twist_amplitude) == same
+    pressed = MOTOR.replace(preload_force=0.02)
+    assert pressed.preload_acceleration == 0.02 / 1e-3
+    assert pressed.replace(mass=2e-3).preload_acceleration == 0.01 / 1e-3
+    with pytest.raises(bd.InvalidError, match="preload_force"):
+        MOTOR.replace(preload_force=0.02, preload_acceleration=20.0)
 
 
 def test_a_report_tells_what_is_known_before_anything_turns() -> None:

@@ -209,7 +209,7 @@ def test_data_sheets_that_are_wrong_say_where() -> None:
         bd.Motor.from_json(MOTOR.to_json().replace('"restitution": 0.5', '"restitution": 1.5'))
     assert refused.value.field == "restitution"
     with pytest.raises(bd.InvalidError) as invalid:
-        MOTOR.replace(density=1e3)
+        MOTOR.replace(density=1e3, mass=1e-3)
     assert invalid.value.kind == "both-given"
 
 

@@ -97,7 +97,7 @@ def test_an_orbit_diagram_of_nothing_and_of_one_column() -> None:
             axial_forcing=forcings, restitution=0.5, impact_phase=1.0, normalised_speed=1.0
         )
         _, ax = plot.orbit_diagram(diagram)
-        assert len(drawn(ax.lines[0])[0]) == 50 * len(forcings)
+        assert len(drawn(ax.lines[0])[0]) == 256 * len(forcings)
     with pytest.raises(ValueError, match="quantity"):
         plot.orbit_diagram(diagram, quantity="colour")  # type: ignore[arg-type]
 
@@ -301,6 +301,15 @@ def test_a_motor_depends_on_a_parameter_as_its_ensembles_say() -> None:
     runs = bd.ensemble(changed, members=3, duration=4.0 * changed.rise_time, intervals=200, seed=1)
     assert speeds[1] == runs.steady_speed.mean
     plot.motor_dependence(SHEET, "friction", 0.0, members=2)
+    # A data sheet has parameters that its system knows nothing of.
+    mass = SHEET.mass
+    assert mass is not None
+    _, ax = plot.motor_dependence(SHEET, "preload_force", [4.0 * mass, 8.0 * mass], members=3, rise_times=4.0)
+    by_force = drawn(ax.lines[0])[1]
+    _, ax = plot.motor_dependence(SHEET, "preload_acceleration", [4.0, 8.0], members=3, rise_times=4.0)
+    assert by_force.tolist() == pytest.approx(drawn(ax.lines[0])[1].tolist())
+    with pytest.raises(ValueError, match="preload_acceleration"):
+        plot.motor_dependence(motor, "preload_force", [1.0])
     with pytest.raises(ValueError, match="must be one of amplitude"):
         plot.motor_dependence(motor, "colour", [1.0])
     with pytest.raises(TypeError, match="not float"):

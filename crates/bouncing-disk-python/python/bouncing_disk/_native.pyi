@@ -665,8 +665,8 @@ def orbit_diagram(
     restitution: npt.ArrayLike,
     impact_phase: npt.ArrayLike,
     normalised_speed: npt.ArrayLike,
-    transient: _Int = 200,
-    recorded: _Int = 50,
+    transient: _Int = 3000,
+    recorded: _Int = 256,
     chatter: ChatterCut | None = None,
     progress: _Progress = None,
 ) -> OrbitDiagram: ...

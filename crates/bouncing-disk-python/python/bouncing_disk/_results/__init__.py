@@ -14,6 +14,7 @@ from bouncing_disk._results._dynamics import (
 from bouncing_disk._results._invariant import CrisisLives, LyapunovSpectra, Manifold
 from bouncing_disk._results._motors import (
     BestPhaseLag,
+    MotorMap,
     MotorReport,
     OperatingPoint,
     StallLoad,
@@ -22,7 +23,6 @@ from bouncing_disk._results._motors import (
 from bouncing_disk._results._sensitivities import (
     ElementaryEffects,
     LocalSensitivities,
-    MotorMap,
     SobolIndices,
 )
 from bouncing_disk._results._tosses import (

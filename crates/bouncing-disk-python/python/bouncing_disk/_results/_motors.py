@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from bouncing_disk._native import Motor
 from bouncing_disk._results._base import ByteArray, FloatArray, IntArray, Result
 
 
@@ -66,8 +67,8 @@ class OperatingPoint(Result):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TorqueSpeedCurve(Result):
-    """How a motor runs under many loads; all arrays have the shape (n,).
+class OperatingPoints(Result):
+    """How motors run under their loads; all arrays have the same shape.
 
     Attributes
     ----------
@@ -108,9 +109,65 @@ class TorqueSpeedCurve(Result):
     impacts: IntArray
     status: ByteArray
 
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TorqueSpeedCurve(OperatingPoints):
+    """How a motor runs under n loads; all arrays have the shape (n,).
+
+    Attributes
+    ----------
+    load_torque, speed, speed_error, mechanical_power, mechanical_power_error : float64 array
+        As of :class:`OperatingPoint`.
+    input_power, input_power_error, restitution_loss, restitution_loss_error : float64 array
+        As of :class:`OperatingPoint`.
+    friction_loss, friction_loss_error, efficiency, efficiency_error, perturbation_power : float64 array
+        As of :class:`OperatingPoint`.
+    energy_residual, averaged_time, start_up, acceleration : float64 array
+        As of :class:`OperatingPoint`.
+    impacts : int64 array
+        Impacts of all members.
+    status : uint8 array
+        A place in :attr:`STATUSES`.
+    """
+
     def names(self) -> list[str]:
         """The status of each point in words, those of :attr:`STATUSES`."""
         return [self.STATUSES[status] for status in self.status]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotorMap(OperatingPoints):
+    """A motor in steady operation over one or two of its parameters.
+
+    All arrays have one axis for each of `axes`, in their order.
+
+    Attributes
+    ----------
+    motor : Motor
+        The motor that is varied.
+    axes : dict of str to (n,) float64 array
+        The parameters and their values (SI).
+    load_torque, speed, speed_error, mechanical_power, mechanical_power_error : float64 array
+        As of :class:`OperatingPoint`.
+    input_power, input_power_error, restitution_loss, restitution_loss_error : float64 array
+        As of :class:`OperatingPoint`.
+    friction_loss, friction_loss_error, efficiency, efficiency_error, perturbation_power : float64 array
+        As of :class:`OperatingPoint`.
+    energy_residual, averaged_time, start_up, acceleration : float64 array
+        As of :class:`OperatingPoint`.
+    impacts : int64 array
+        Impacts of all members.
+    status : uint8 array
+        A place in :attr:`STATUSES`.
+    """
+
+    motor: Motor
+    axes: dict[str, FloatArray]
+
+    def names(self) -> list[list[str]]:
+        """The status of each cell in words, those of :attr:`STATUSES`, row by row."""
+        rows = self.status.reshape(len(self.status), -1)
+        return [[self.STATUSES[status] for status in row] for row in rows]
 
 
 @dataclass(frozen=True)

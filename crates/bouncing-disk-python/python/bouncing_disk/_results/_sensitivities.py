@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
-from bouncing_disk._native import Motor
-from bouncing_disk._results._base import ByteArray, FloatArray, IntArray, Result
+from bouncing_disk._results._base import FloatArray, IntArray, Result
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -87,60 +85,3 @@ class ElementaryEffects(Result):
     deviation: FloatArray
     deviation_error: FloatArray
     quantity: str
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class MotorMap(Result):
-    """A motor in steady operation over one or two of its parameters.
-
-    All arrays have one axis for each of `axes`, in their order.
-
-    Attributes
-    ----------
-    motor : Motor
-        The motor that is varied.
-    axes : dict of str to (n,) float64 array
-        The parameters and their values (SI).
-    load_torque, speed, speed_error, mechanical_power, mechanical_power_error : float64 array
-        As of :class:`OperatingPoint`.
-    input_power, input_power_error, restitution_loss, restitution_loss_error : float64 array
-        As of :class:`OperatingPoint`.
-    friction_loss, friction_loss_error, efficiency, efficiency_error, perturbation_power : float64 array
-        As of :class:`OperatingPoint`.
-    energy_residual, averaged_time, start_up, acceleration : float64 array
-        As of :class:`OperatingPoint`.
-    impacts : int64 array
-        Impacts of all members.
-    status : uint8 array
-        A place in :attr:`STATUSES`.
-    """
-
-    STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway")
-
-    motor: Motor
-    axes: dict[str, FloatArray]
-    load_torque: FloatArray
-    speed: FloatArray
-    speed_error: FloatArray
-    mechanical_power: FloatArray
-    mechanical_power_error: FloatArray
-    input_power: FloatArray
-    input_power_error: FloatArray
-    restitution_loss: FloatArray
-    restitution_loss_error: FloatArray
-    friction_loss: FloatArray
-    friction_loss_error: FloatArray
-    efficiency: FloatArray
-    efficiency_error: FloatArray
-    perturbation_power: FloatArray
-    energy_residual: FloatArray
-    averaged_time: FloatArray
-    start_up: FloatArray
-    acceleration: FloatArray
-    impacts: IntArray
-    status: ByteArray
-
-    def names(self) -> list[list[str]]:
-        """The status of each cell in words, those of :attr:`STATUSES`, row by row."""
-        rows = self.status.reshape(len(self.status), -1)
-        return [[self.STATUSES[status] for status in row] for row in rows]

@@ -23,6 +23,17 @@ __all__ = ["motor_dependence", "toss_performance"]
 _SHORTEST = 3.0
 
 #: The parameters of a system that a motor may depend on, with what stands at their axis.
+_SHEET = {
+    "drive_frequency": ("drive frequency", "Hz"),
+    "peak_angular_speed": (r"angular speed of the stator $\omega\Phi$", "rad/s"),
+    "mass": ("mass $m$", "kg"),
+    "density": ("density", "kg/m$^3$"),
+    "rotor_radius": ("radius of the rotor", "m"),
+    "rotor_thickness": ("thickness of the rotor", "m"),
+    "preload_force": ("preload $mg$", "N"),
+    "load_torque": (r"load torque $T_\mathrm{L}$", "N m"),
+}
+#: Those of a system; a motor's data sheet has some of them, too.
 _AXES = {
     "amplitude": ("axial amplitude $A$", "m"),
     "twist_amplitude": (r"twist amplitude $\Phi$", "rad"),
@@ -158,7 +169,8 @@ def motor_dependence(
     motor : Motor or System
         What does not vary is its own.
     parameter : str
-        The parameter of the system that varies, such as ``"preload_acceleration"`` or ``"friction"``.
+        What varies: an argument of :class:`~bouncing_disk.Motor`, whose alternative it takes the place of, or of
+        :class:`~bouncing_disk.System`, where there is no motor or its data sheet has no such value.
     values : (n,) array_like
         Its values (SI).
     members : int, default 16
@@ -175,18 +187,18 @@ def motor_dependence(
     (Figure, Axes)
         The axes of the speed.
     """
-    system = motor.system if isinstance(motor, bd.Motor) else motor
-    if not isinstance(system, bd.System):
+    if not isinstance(motor, (bd.Motor, bd.System)):
         raise TypeError(f"motor must be a Motor or a System, not {type(motor).__name__}")
-    if parameter not in _AXES:
-        raise ValueError(f"parameter must be one of {', '.join(_AXES)}, not {parameter!r}")
+    words = _AXES if isinstance(motor, bd.System) else _AXES | _SHEET
+    if parameter not in words:
+        raise ValueError(f"parameter must be one of {', '.join(words)}, not {parameter!r}")
     members = whole_number("members", members, 2)
     given = finite_array("values", values)
     fits = np.array(
-        [_fit(system.replace(**{parameter: float(value)}), members, rise_times, seed) for value in given]
+        [_fit(_with(motor, parameter, float(value)), members, rise_times, seed) for value in given]
     )
     fits = fits.reshape(len(given), 4)
-    words, plain = _AXES[parameter]
+    name, plain = words[parameter]
     across, unit = unit_of(given, plain)
     speeds, speed = unit_of(fits[:, 0], "rad/s")
     stalls, acceleration = unit_of(fits[:, 2], "rad/s$^2$")
@@ -196,7 +208,7 @@ def motor_dependence(
             across * given, speeds * fits[:, 0], 2.0 * speeds * fits[:, 1], color=BLACK, marker="x",
             markersize=4.0, capsize=1.5, linewidth=0.8, label="steady speed",
         )  # fmt: skip
-        axes.set_xlabel(labelled(words, unit))
+        axes.set_xlabel(labelled(name, unit))
         axes.set_ylabel(labelled("steady speed", speed))
         axes.margins(x=0.03, y=0.08)
         _span(axes, across * given)
@@ -228,6 +240,15 @@ def _span(ax: Axes, values: npt.NDArray[np.float64]) -> None:
     else:
         room = 0.03 * (high - low)
         ax.set_xlim(low - room, high + room)
+
+
+def _with(motor: bd.Motor | bd.System, parameter: str, value: float) -> bd.System:
+    """The system with another value of a parameter: a motor's is that of its data sheet, if there is one."""
+    if isinstance(motor, bd.System):
+        return motor.replace(**{parameter: value})
+    if parameter in ("angular_frequency", "load_acceleration"):
+        return motor.system.replace(**{parameter: value})
+    return motor.replace(**{parameter: value}).system
 
 
 def _fit(system: bd.System, members: int, rise_times: float, seed: int) -> tuple[float, float, float, float]:
