@@ -1,0 +1,92 @@
+/** What the parts of the page have in common: the state that a link reproduces, and what a view is. */
+
+import type { ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
+
+export type ViewName = "toss" | "diagram" | "basins" | "motor";
+
+/** What is drawn over the forcing. */
+export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
+
+/**
+ * All that the pictures depend on. It is frozen: a change makes another one. In the hash of the address numbers stand
+ * as JavaScript prints them, which gives the same bits back.
+ */
+export interface State {
+  readonly view: ViewName;
+  /** Shared by all views. */
+  readonly system: Readonly<SystemParameters>;
+  /** Mass of the disk (kg), which only the motor's torques and powers depend on. */
+  readonly mass: number;
+  /** How the motion of the first view and the orbits of the others begin. */
+  readonly start: Readonly<ImpactStart & { angular_speed: number }>;
+  /** The window of the orbit diagram: the forcing, and the quantity with the range of its axis (null: all of it). */
+  readonly diagram: Readonly<{ axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean }>;
+  /** The window of the basins: phases in periods and normalised speeds. */
+  readonly basins: Readonly<{ phase_periods: Range; normalised_speed: Range }>;
+  /** Loads of the curve as shares of the largest mean torque of friction, and the run-up's length in rise times. */
+  readonly motor: Readonly<{ loads: Range; points: number; rise_times: number }>;
+}
+
+/** Some of the state, or of its parts. */
+export type Change = { [Key in keyof State]?: State[Key] extends object ? Partial<State[Key]> : State[Key] };
+
+/** A request that a later one with the same slot has replaced, or whose view is hidden. */
+export class Cancelled extends Error {}
+
+/** A request that the library refuses. */
+export class Refused extends Error {
+  constructor(readonly refusal: Refusal) {
+    super(refusal.message);
+  }
+}
+
+/** Where answers come from. Nothing here blocks the page. */
+export interface Client {
+  /** One answer from the quick worker: `check`, `motion`, `orbit` and sheets. A later one of the same slot cancels it. */
+  ask(slot: string, request: Request): Promise<Response>;
+  /**
+   * Answers from the heavy worker, one after the other, as they come. A later series of the same slot, or `cancel`,
+   * ends it within 100 ms: what is under way is given up with the worker.
+   */
+  series(slot: string, requests: readonly Request[], each: (response: Response, index: number) => void): Promise<void>;
+  cancel(slot: string): void;
+}
+
+/** A file that a view offers. SVG and PNG are drawn anew, at the size of a journal's column. */
+export interface Offer {
+  /** "orbit diagram" makes `orbit-diagram.csv`. */
+  name: string;
+  kind: "csv" | "json" | "svg" | "png";
+  make(): Promise<Blob>;
+}
+
+export interface Context {
+  readonly client: Client;
+  /** The state at this time. */
+  state(): State;
+  /** Another state: the page, the address and all views follow. `settled: false` while a drag or a wheel goes on, when
+   * the address is replaced and no entry of the history made. */
+  change(change: Change, options?: { settled?: boolean }): void;
+  /** Said by screen readers, politely: "Period 4 at 0.5400". */
+  announce(text: string): void;
+  /** One line under the view, with errors of computations. */
+  status(text: string, kind?: "busy" | "done" | "error"): void;
+  /** Colours of the present theme by their CSS custom properties: `colour("--stable")`. */
+  colour(name: string): string;
+}
+
+export interface View {
+  readonly name: ViewName;
+  /** What the tab says, and what a screen reader says of the view. */
+  readonly title: string;
+  readonly description: string;
+  /** Makes the elements, once. */
+  mount(host: HTMLElement, context: Context): void;
+  /** Draws what this state asks for, as soon as it is known. */
+  show(state: State): void;
+  /** Stops animations and cancels what is under way. */
+  hide(): void;
+  /** The size of the host or the theme has changed. */
+  redraw(): void;
+  offers(): Offer[];
+}
