@@ -44,6 +44,15 @@ read_checked!(enum AfterRest as UncheckedAfterRest {
 });
 
 impl AfterRest {
+    /// The number of the attractor that the rest leads to, in [`Attractors::all`]; `None` where it lasts.
+    #[must_use]
+    pub const fn leads_to(&self) -> Option<usize> {
+        match self {
+            Self::LeadsTo(attractor) => Some(*attractor),
+            Self::StaysForEver | Self::RestsAgain(_) => None,
+        }
+    }
+
     /// What it is made of has been checked when it was read; the number is checked by [`Attractors`].
     const fn check(&self) -> Result<(), Error> {
         match *self {
@@ -144,6 +153,31 @@ impl AttractorKind {
     #[must_use]
     pub const fn lasts(&self) -> bool {
         !matches!(self, Self::Rest(AfterRest::LeadsTo(_)))
+    }
+}
+
+/// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a precision given applies to
+/// the exponent.
+impl core::fmt::Display for AttractorKind {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let digits = formatter.precision().unwrap_or(4);
+        match self {
+            Self::Rest(AfterRest::StaysForEver) => formatter.write_str("comes to rest for ever"),
+            Self::Rest(AfterRest::RestsAgain(cycle)) => {
+                write!(formatter, "comes to rest again and again: platform periods {}", cycle.platform_periods)
+            }
+            Self::Rest(AfterRest::LeadsTo(other)) => {
+                write!(formatter, "comes to rest, then attractor {other}")
+            }
+            Self::Periodic(known) => {
+                let (impacts, periods) = (known.orbit().period(), known.orbit().platform_periods);
+                write!(formatter, "periodic orbit: impacts {impacts}, platform periods {periods}")
+            }
+            Self::Chaotic { exponent, .. } => {
+                write!(formatter, "chaotic: exponent {exponent:.digits$} per impact")
+            }
+            Self::Unclassified { reason, .. } => write!(formatter, "not classified: {reason:.digits$}"),
+        }
     }
 }
 

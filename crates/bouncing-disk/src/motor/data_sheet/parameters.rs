@@ -86,6 +86,43 @@ fn one_of(
 }
 
 impl MotorParameters {
+    /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload acceleration of the
+    /// system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The frequency omega/(2 pi) is
+    /// rounded, so that the angular frequency of the motor may differ in the last bit.
+    ///
+    /// ```
+    /// use bouncing_disk::{MotorParameters, System};
+    ///
+    /// let motor = MotorParameters::of_system(&System::motor(), 1e-3).build()?;
+    /// assert!((motor.parameters().drive_frequency - 70e3).abs() < 1e-10);
+    /// assert_eq!(motor.system().disk(), System::motor().disk());
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_system(system: &System, mass: f64) -> Self {
+        let (platform, disk) = (system.platform(), system.disk());
+        let gyration_radius = disk.gyration_radius();
+        Self {
+            drive_frequency: platform.angular_frequency() / TAU,
+            amplitude: platform.amplitude(),
+            peak_angular_speed: None,
+            twist_amplitude: Some(platform.twist_amplitude()),
+            phase_lag: platform.phase_lag(),
+            mass: Some(mass),
+            density: None,
+            rotor_radius: None,
+            rotor_thickness: None,
+            contact_radius: disk.contact_radius(),
+            gyration_radius: Some(gyration_radius),
+            preload_force: None,
+            preload_acceleration: Some(disk.preload_acceleration()),
+            spring_constant: None,
+            friction: disk.friction(),
+            restitution: disk.restitution(),
+            load_torque: disk.load_acceleration() * (mass * gyration_radius * gyration_radius),
+        }
+    }
+
     /// Checks the ranges and the alternatives.
     ///
     /// # Errors

@@ -1,0 +1,31 @@
+//! The model in a browser's page: requests in JSON, answers as JSON and flat arrays.
+//!
+//! The page (`page/`) runs this crate as WebAssembly in workers. It has no physics and no numerics of its own: each
+//! request is one call of the library, whose results it passes on in SI units. The same request is answered natively
+//! by the same code with the same bits (`examples/respond.rs`), which the tests of the page compare.
+//!
+//! ```
+//! use bouncing_disk_web::Explorer;
+//!
+//! let request = r#"{"call": "orbit", "axial_forcing": 0.45, "restitution": 0.5,
+//!                   "start": {"impact_phase": 1.2, "normalised_speed": 1.3}}"#;
+//! let reply = Explorer::new().respond(request);
+//! assert!(!reply.refused() && reply.json().contains("\"kind\":\"periodic\""));
+//! ```
+
+#[cfg(target_arch = "wasm32")]
+mod binding;
+mod branches;
+mod diagram;
+mod explorer;
+mod motion;
+mod motor;
+mod orbit;
+mod refusal;
+mod reply;
+mod request;
+mod shared_basins;
+mod summary;
+
+pub use explorer::Explorer;
+pub use reply::Reply;

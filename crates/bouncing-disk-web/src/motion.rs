@@ -1,0 +1,158 @@
+//! The motion of the engine: samples for an animation, and the events.
+
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::Phase;
+use bouncing_disk::{
+    CollisionState, DiskState, Engine, Event, EventKind, EventRecord, InitialCondition, MAX_SAMPLES, Mode,
+    PhaseSpan, PlatformState, Scales, SlipDirection, System, Trajectory,
+};
+use serde::Serialize;
+
+use crate::refusal::Refusal;
+use crate::reply::Reply;
+use crate::request::{ImpactStart, MotionStart};
+
+/// Most events of an answer: a disk that chatters on a platform with little restitution has many.
+const MOST_EVENTS: usize = 500_000;
+
+/// Most periods of an answer.
+const MOST_PERIODS: u64 = 100_000;
+
+#[derive(Debug, Serialize)]
+struct MotionJson {
+    samples: usize,
+    events: usize,
+    event_kinds: Vec<String>,
+    energy: EnergyJson,
+}
+
+#[derive(Debug, Serialize)]
+struct EnergyJson {
+    platform_work: f64,
+    restitution_loss: f64,
+    friction_loss: f64,
+    stored: f64,
+}
+
+pub(crate) fn answer(
+    system: &System,
+    start: MotionStart,
+    periods: u64,
+    samples_per_period: u64,
+) -> Result<Reply, Refusal> {
+    let samples = periods.saturating_mul(samples_per_period).saturating_add(1);
+    if periods == 0 || periods > MOST_PERIODS {
+        return Err(Refusal::out_of_range("periods", periods as f64, "[1, 100000]"));
+    }
+    if samples_per_period == 0 || samples > MAX_SAMPLES as u64 {
+        return Err(Refusal::out_of_range("samples", samples as f64, "at most 2^24 together"));
+    }
+    let mut engine = Engine::new(*system, condition(system, start)?, ChatterPolicy::Complete)?;
+    let (scales, begun) = (system.scales(), engine.time());
+    let span = PhaseSpan { periods, remainder: 0.0 };
+    let end = begun.after(span);
+    let snapshots = engine.clone().sample(span, samples as usize)?;
+    let mut events = 0;
+    let motion = Trajectory::record(&mut engine, |record| {
+        events += 1;
+        record.time.order(&end).is_ge() || events == MOST_EVENTS
+    })?;
+    // The event that ends the recording is mostly after the last sample.
+    let records: Vec<_> = motion.records().iter().filter(|record| record.time.order(&end).is_le()).collect();
+
+    let mut numbers = Vec::with_capacity(9 * snapshots.len() + 6 * records.len());
+    let mut bytes = Vec::with_capacity(snapshots.len() + records.len());
+    for snapshot in &snapshots {
+        let disk = scales.state(&snapshot.disk);
+        let platform = scales.state(&carried(&snapshot.platform));
+        numbers.extend([
+            scales.span_seconds(snapshot.time.since(&begun)),
+            disk.height,
+            disk.angle,
+            disk.axial_velocity,
+            disk.angular_speed,
+            platform.height,
+            platform.angle,
+            platform.axial_velocity,
+            platform.angular_speed,
+        ]);
+        bytes.push(mode(snapshot.disk.mode));
+    }
+    for record in &records {
+        numbers.push(scales.span_seconds(record.time.since(&begun)));
+        numbers.extend(event(&scales, record));
+        bytes.push(kind(&record.event));
+    }
+    let ledger = scales.energy(&records.iter().map(|record| record.ledger).sum());
+    let json = MotionJson {
+        samples: snapshots.len(),
+        events: records.len(),
+        event_kinds: EventKind::ALL.iter().map(ToString::to_string).collect(),
+        energy: EnergyJson {
+            platform_work: ledger.normal_work + ledger.friction_work,
+            restitution_loss: ledger.restitution_loss,
+            friction_loss: ledger.friction_loss,
+            stored: ledger.axial_kinetic_change + ledger.potential_change + ledger.rotary_kinetic_change,
+        },
+    };
+    Reply::new(&json, numbers, bytes)
+}
+
+/// The start in the units of the engine.
+fn condition(system: &System, start: MotionStart) -> Result<InitialCondition, Refusal> {
+    let (scales, dimensionless) = (system.scales(), system.dimensionless());
+    let speed = |angular_speed: f64| angular_speed / scales.angular_speed;
+    Ok(match start {
+        MotionStart::Impact { impact_phase, normalised_speed, angular_speed } => {
+            let impact = ImpactStart { impact_phase, normalised_speed }.state()?;
+            let platform_speed = dimensionless.platform_angular_speed(impact.phase());
+            let state = CollisionState {
+                phase: impact.phase(),
+                axial_impact_velocity: impact.velocity(),
+                tangential_impact_velocity: speed(angular_speed) - platform_speed,
+            };
+            state.rebound(dimensionless)?
+        }
+        MotionStart::Contact { phase, angular_speed } => {
+            InitialCondition::Contact { phase: Phase::new(phase)?, angular_speed: speed(angular_speed) }
+        }
+        MotionStart::Flight { phase, angular_speed, gap, relative_velocity } => InitialCondition::Flight {
+            phase: Phase::new(phase)?,
+            gap: gap / scales.length,
+            relative_velocity: relative_velocity / scales.velocity,
+            angular_speed: speed(angular_speed),
+        },
+    })
+}
+
+/// A disk that moves as the platform does, whose state has a meaning in SI units.
+const fn carried(platform: &PlatformState) -> DiskState {
+    let PlatformState { height, axial_velocity, angle, angular_speed } = *platform;
+    DiskState { mode: Mode::Sticking, height, axial_velocity, angle, angular_speed }
+}
+
+/// The columns of an event but its time.
+fn event(scales: &Scales, record: &EventRecord) -> [f64; 5] {
+    let after = scales.state(&record.after);
+    let (speed, tangential) = match record.event {
+        Event::Impact { axial_impact_velocity, tangential_impact_velocity, .. } => (
+            -axial_impact_velocity / std::f64::consts::PI,
+            tangential_impact_velocity * scales.angular_speed,
+        ),
+        _ => (f64::NAN, f64::NAN),
+    };
+    [record.time.phase.angle(), speed, tangential, after.angular_speed, after.height]
+}
+
+const fn mode(mode: Mode) -> u8 {
+    match mode {
+        Mode::Flight => 0,
+        Mode::Sticking => 1,
+        Mode::Sliding(SlipDirection::Forward) => 2,
+        Mode::Sliding(SlipDirection::Backward) => 3,
+    }
+}
+
+fn kind(event: &Event) -> u8 {
+    EventKind::ALL.iter().position(|kind| *kind == event.kind()).map_or(u8::MAX, |place| place as u8)
+}

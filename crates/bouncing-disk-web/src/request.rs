@@ -1,0 +1,146 @@
+//! Requests, in the order and with the names of `page/src/protocol.ts`.
+
+use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
+use bouncing_disk::{DiskParameters, MotorParameters, PlatformParameters, System};
+use serde::{Deserialize, Serialize};
+
+use crate::refusal::Refusal;
+
+/// Platform and disk in SI units, in one flat table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SystemParameters {
+    amplitude: f64,
+    twist_amplitude: f64,
+    angular_frequency: f64,
+    phase_lag: f64,
+    contact_radius: f64,
+    gyration_radius: f64,
+    friction: f64,
+    restitution: f64,
+    preload_acceleration: f64,
+    load_acceleration: f64,
+}
+
+impl SystemParameters {
+    /// The system, checked.
+    pub(crate) fn build(self) -> Result<System, Refusal> {
+        let platform = PlatformParameters {
+            amplitude: self.amplitude,
+            twist_amplitude: self.twist_amplitude,
+            angular_frequency: self.angular_frequency,
+            phase_lag: self.phase_lag,
+        };
+        let disk = DiskParameters {
+            contact_radius: self.contact_radius,
+            gyration_radius: self.gyration_radius,
+            friction: self.friction,
+            restitution: self.restitution,
+            preload_acceleration: self.preload_acceleration,
+            load_acceleration: self.load_acceleration,
+        };
+        Ok(System::new(platform.build()?, disk.build()?)?)
+    }
+}
+
+impl From<&System> for SystemParameters {
+    fn from(system: &System) -> Self {
+        let (platform, disk) = (system.platform(), system.disk());
+        Self {
+            amplitude: platform.amplitude(),
+            twist_amplitude: platform.twist_amplitude(),
+            angular_frequency: platform.angular_frequency(),
+            phase_lag: platform.phase_lag(),
+            contact_radius: disk.contact_radius(),
+            gyration_radius: disk.gyration_radius(),
+            friction: disk.friction(),
+            restitution: disk.restitution(),
+            preload_acceleration: disk.preload_acceleration(),
+            load_acceleration: disk.load_acceleration(),
+        }
+    }
+}
+
+/// An impact: its phase (rad) and its normalised speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ImpactStart {
+    pub(crate) impact_phase: f64,
+    pub(crate) normalised_speed: f64,
+}
+
+impl ImpactStart {
+    /// The state, checked.
+    pub(crate) fn state(self) -> Result<ImpactState, Refusal> {
+        Ok(ImpactState::from_normalised(self.impact_phase, self.normalised_speed)?)
+    }
+}
+
+impl From<&ImpactState> for ImpactStart {
+    fn from(state: &ImpactState) -> Self {
+        Self { impact_phase: state.phase().angle(), normalised_speed: state.normalised_speed() }
+    }
+}
+
+/// How a motion begins; SI.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum MotionStart {
+    Impact { impact_phase: f64, normalised_speed: f64, angular_speed: f64 },
+    Contact { phase: f64, angular_speed: f64 },
+    Flight { phase: f64, angular_speed: f64, gap: f64, relative_velocity: f64 },
+}
+
+/// A request of the page.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(tag = "call", rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum Request {
+    Check { system: SystemParameters },
+    Motion { system: SystemParameters, start: MotionStart, periods: u64, samples_per_period: u64 },
+    Diagram(DiagramRequest),
+    Orbit { axial_forcing: f64, restitution: f64, start: ImpactStart },
+    Branches { restitution: f64, axial_forcing: [f64; 2] },
+    Attractors { axial_forcing: f64, restitution: f64 },
+    Basins(BasinsRequest),
+    MotorReport { sheet: MotorParameters },
+    MotorTransient { sheet: MotorParameters, members: usize, rise_times: f64, points: usize, seed: u64 },
+    MotorLoads { sheet: MotorParameters, load_torques: Vec<f64>, relative_error: f64, seed: u64 },
+    MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
+    SheetWrite { sheet: MotorParameters },
+    SheetRead { text: String },
+    SheetOfSystem { system: SystemParameters, mass: f64 },
+}
+
+/// Columns of an orbit diagram.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DiagramRequest {
+    pub(crate) system: SystemParameters,
+    pub(crate) axial_forcing: [f64; 2],
+    pub(crate) count: usize,
+    pub(crate) columns: [usize; 2],
+    pub(crate) start: ImpactStart,
+    pub(crate) transient: usize,
+    pub(crate) recorded: usize,
+    /// Whether the rotation is computed, too: it costs some times the vertical motion.
+    #[serde(default)]
+    pub(crate) rotation: bool,
+}
+
+/// Rows of basins.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BasinsRequest {
+    pub(crate) axial_forcing: f64,
+    pub(crate) restitution: f64,
+    pub(crate) phase_periods: [f64; 2],
+    pub(crate) phases: usize,
+    pub(crate) normalised_speed: [f64; 2],
+    pub(crate) speeds: usize,
+    pub(crate) rows: [usize; 2],
+}
+
+/// The map of a forcing.
+pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Refusal> {
+    Ok(ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?)
+}
