@@ -1,6 +1,8 @@
 //! The vector instructions of the processor, chosen at run time.
 
-use pulp::{Simd, WithSimd};
+#[cfg(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128")))]
+use pulp::Simd;
+use pulp::WithSimd;
 
 /// The vector instructions that lanes are computed with. The results are the same bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -8,6 +10,8 @@ use pulp::{Simd, WithSimd};
 pub enum InstructionSet {
     /// What every processor of the compilation target has (SSE2 on x86-64).
     Baseline,
+    /// The fixed-width vectors of WebAssembly, where it is compiled for them: two lanes at once.
+    Simd128,
     /// AVX2: four lanes at once.
     Avx2,
     /// AVX-512: eight lanes at once.
@@ -18,7 +22,15 @@ impl InstructionSet {
     /// All that this processor has, the best one last.
     #[must_use]
     pub fn available() -> Vec<Self> {
+        #[cfg_attr(
+            not(any(target_arch = "x86_64", all(target_arch = "wasm32", target_feature = "simd128"))),
+            expect(unused_mut, reason = "there is one set")
+        )]
         let mut sets = vec![Self::Baseline];
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        if pulp::wasm::Simd128::try_new().is_some() {
+            sets.push(Self::Simd128);
+        }
         #[cfg(target_arch = "x86_64")]
         {
             if pulp::x86::V3::try_new().is_some() {
@@ -42,6 +54,8 @@ impl InstructionSet {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Dispatch {
     Baseline,
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    Simd128(pulp::wasm::Simd128),
     #[cfg(target_arch = "x86_64")]
     Avx2(pulp::x86::V3),
     #[cfg(target_arch = "x86_64")]
@@ -51,6 +65,12 @@ pub(crate) enum Dispatch {
 impl Dispatch {
     /// For `set`, or the next lower one that this processor has.
     pub(crate) fn new(set: InstructionSet) -> Self {
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        if set != InstructionSet::Baseline
+            && let Some(level) = pulp::wasm::Simd128::try_new()
+        {
+            return Self::Simd128(level);
+        }
         #[cfg(target_arch = "x86_64")]
         {
             if set == InstructionSet::Avx512
@@ -58,7 +78,7 @@ impl Dispatch {
             {
                 return Self::Avx512(level);
             }
-            if set != InstructionSet::Baseline
+            if matches!(set, InstructionSet::Avx2 | InstructionSet::Avx512)
                 && let Some(level) = pulp::x86::V3::try_new()
             {
                 return Self::Avx2(level);
@@ -72,6 +92,8 @@ impl Dispatch {
     pub(crate) fn run(self, operation: impl WithSimd<Output = ()>) {
         match self {
             Self::Baseline => operation.with_simd(pulp::Scalar::new()),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Self::Simd128(level) => Simd::vectorize(level, operation),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2(level) => Simd::vectorize(level, operation),
             #[cfg(target_arch = "x86_64")]
