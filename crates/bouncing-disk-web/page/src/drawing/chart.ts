@@ -1,4 +1,4 @@
-/** What a chart of curves shows; drawn on the screen by `chart-screen.ts` and for files by `chart-paint.ts`. */
+/** What a chart of curves shows; drawn on the screen by `chart_screen.ts` and for files by `chart-paint.ts`. */
 
 import type { Range } from "../protocol";
 

@@ -1,12 +1,12 @@
 /** Files that people take away: tables, parameters and pictures at the width of a journal's column. */
 
 import type { Offer } from "../contract";
-import { CanvasPen } from "./canvas-pen";
+import { CanvasPen } from "./canvas_pen";
 import type { Colours } from "./colours";
 import { printedColours } from "./colours";
 import { PRINT_FONT } from "./pen";
 import type { Pen } from "./pen";
-import { SvgPen } from "./svg-pen";
+import { SvgPen } from "./svg_pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
 export const ONE_COLUMN = 243.8;

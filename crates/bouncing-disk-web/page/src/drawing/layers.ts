@@ -1,5 +1,5 @@
 import type { Colours } from "./colours";
-import { CanvasPen } from "./canvas-pen";
+import { CanvasPen } from "./canvas_pen";
 
 /** Two canvases on top of each other at the screen's own pixels: data below, and the cursor, which moves often, above. */
 export class Layers {

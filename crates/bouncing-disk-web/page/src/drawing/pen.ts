@@ -1,7 +1,7 @@
 /** What draws lines, areas and words: on a canvas, or into SVG. Lengths are in CSS pixels or, printed, in points. */
 
-import { parseRichText } from "./rich-text";
-import type { Run } from "./rich-text";
+import { parseRichText } from "./rich_text";
+import type { Run } from "./rich_text";
 
 export interface PathStyle {
   stroke?: string;

@@ -1,6 +1,6 @@
 import { baselineShift, fontOf, measureRuns, SCREEN_FONT, SUBSCRIPT_DROP } from "./pen";
 import type { PathStyle, Pen, TextStyle } from "./pen";
-import { parseRichText } from "./rich-text";
+import { parseRichText } from "./rich_text";
 
 /** Draws on a canvas whose transform is set to CSS pixels already. */
 export class CanvasPen implements Pen {

@@ -3,15 +3,15 @@
 import uPlot from "uplot";
 
 import type { Plot } from "./axes";
-import { CanvasPen } from "./canvas-pen";
+import { CanvasPen } from "./canvas_pen";
 import type { Chart, Curve } from "./chart";
-import { paintExtras } from "./chart-paint";
+import { paintExtras } from "./chart_paint";
 import type { Colours } from "./colours";
 import { parseColour } from "./colours";
 import { element, setText } from "./elements";
 import { minus, plain } from "./numbers";
 import { SCREEN_FONT } from "./pen";
-import { plainText } from "./rich-text";
+import { plainText } from "./rich_text";
 import { linearScale } from "./scale";
 
 const SIZE = 12;

@@ -1,6 +1,6 @@
 import { baselineShift, measureRuns, PRINT_FONT, SUBSCRIPT_DROP, SUBSCRIPT_SIZE } from "./pen";
 import type { PathStyle, Pen, TextStyle } from "./pen";
-import { parseRichText } from "./rich-text";
+import { parseRichText } from "./rich_text";
 
 /** Writes SVG with words as text, so that they can be edited and searched. */
 export class SvgPen implements Pen {
