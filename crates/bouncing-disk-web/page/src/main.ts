@@ -44,7 +44,7 @@ function begin(): void {
       else address.write(state, settled);
       tabs.show(state.view);
       parameters.show(state, fresh || fromAddress);
-      notes.show(state);
+      notes.show(state, tour.running);
       stage.show(state);
       fresh = false;
     },
@@ -90,10 +90,7 @@ function begin(): void {
   const notes = new Notes(byId("note"), choose);
   const presets = presetDialog((preset) => choose(preset, preset.panels[0]));
   const help = helpDialog();
-  const tour = new TourPanel((state) => {
-    notes.close();
-    open(state);
-  });
+  const tour = new TourPanel(open);
   byId("main").prepend(tour.element);
 
   const themeButton = byId<HTMLButtonElement>("theme-button");
@@ -126,8 +123,8 @@ function begin(): void {
   });
   const exportButton = byId<HTMLButtonElement>("export-button");
   const place = exportButton.nextSibling;
-  const menu = new Menu(exportButton, () =>
-    (stage.view?.offers() ?? []).map((offer) => ({
+  const menu = new Menu(exportButton, () => [
+    ...(stage.view?.offers() ?? []).map((offer) => ({
       label: offer.name,
       note: offer.kind.toUpperCase(),
       act: () => {
@@ -137,7 +134,8 @@ function begin(): void {
         );
       },
     })),
-  );
+    { label: "link to this state", note: "COPY", act: actions.copy },
+  ]);
   byId("tools").insertBefore(menu.element, place);
 
   document.addEventListener("keydown", (event) => {

@@ -1,7 +1,7 @@
 /** The card that says what a preset shows, as long as the page shows it, and offers its panels. */
 
 import type { State } from "./contract";
-import { element } from "./elements";
+import { element, rich } from "./elements";
 import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { toHash } from "./state";
 
@@ -23,7 +23,12 @@ export class Notes {
     this.preset = preset;
   }
 
-  show(state: State): void {
+  /** Nothing while the tour explains the same states in its own way. */
+  show(state: State, quiet: boolean): void {
+    if (quiet) {
+      this.close();
+      return;
+    }
     const hash = toHash(state);
     const own = this.preset?.panels.find((panel) => toHash(stateOf(panel)) === hash);
     const found = this.preset && own ? { preset: this.preset, panel: own } : BY_HASH.get(hash);
@@ -40,7 +45,7 @@ export class Notes {
     const panels = preset.panels.length > 1 || active === null ? preset.panels : [];
     const chips = panels.map((panel) =>
       element("button", { type: "button", class: "chip", "aria-pressed": panel === active ? "true" : "false",
-        onclick: () => this.open(preset, panel) }, panel.label),
+        onclick: () => this.open(preset, panel) }, ...rich(panel.label)),
     ); // prettier-ignore
     const close = element("button", { type: "button", class: "quiet close", "aria-label": "Close this note",
       onclick: () => this.close() }, "×"); // prettier-ignore
@@ -52,7 +57,7 @@ export class Notes {
       element("h2", {}, element("span", { class: "place" }, preset.place), ` ${preset.title}`,
         active === null ? element("span", { class: "changed" }, "changed since") : null),
       close,
-      element("p", {}, preset.text),
+      element("p", {}, ...rich(preset.text)),
       ...(chips.length > 0 ? [element("div", { class: "chips", role: "group", "aria-label": "Panels" }, ...chips)] : []),
     ); // prettier-ignore
     if (focused >= 0) chips[focused]?.focus({ preventScroll: true });

@@ -1,7 +1,7 @@
 /** The panel of the tour: it lies beside the picture and leaves everything in reach. */
 
 import type { State } from "./contract";
-import { element } from "./elements";
+import { element, rich } from "./elements";
 import { changed, DEFAULT_STATE } from "./state";
 import { STEPS } from "./tour";
 
@@ -55,7 +55,7 @@ export class TourPanel {
     this.step = step;
     this.place.textContent = `Step ${step + 1} of ${STEPS.length}`;
     this.title.textContent = shown.title;
-    this.text.textContent = shown.text;
+    this.text.replaceChildren(...rich(shown.text));
     this.back.disabled = step === 0;
     this.next.textContent = step === STEPS.length - 1 ? "Finish" : "Next";
     this.open(changed(DEFAULT_STATE, shown.change));
