@@ -24,7 +24,7 @@ export function next(forcing: number, restitution: number, { phase, speed }: Bou
   }
   const gap = (h: number) => (up + P * Math.cos(tau)) * h - (h * h) / 2 - P * (Math.sin(tau + h) - Math.sin(tau));
   const longest = 2 * (up + P) + 4;
-  const step = Math.min(0.02, Math.max(1e-4, up / 20));
+  const step = Math.min(0.1, Math.max(1e-3, up / 4));
   let h = step;
   while (gap(h) > 0 && h < longest) h += step;
   let [low, high] = [h - step, h];

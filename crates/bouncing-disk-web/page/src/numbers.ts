@@ -20,8 +20,8 @@ const SUPERSCRIPT: Readonly<Record<string, string>> = {
   "-": "⁻", "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹",
 }; // prettier-ignore
 
-/** For a field: as short as it can be read back, at most six digits. */
-export const abridged = (value: number): string => String(Number(value.toPrecision(6)));
+/** For a field: as short as it can be read back, at most five digits. */
+export const abridged = (value: number): string => String(Number(value.toPrecision(5)));
 
 /** A typed number: `0.5`, `1e-8`, with a true minus sign, and `0.26π` or `pi/2` where multiples of pi are meant. */
 export function typed(text: string, multiplesOfPi: boolean): number | null {

@@ -31,7 +31,7 @@ export const DEFAULT_STATE: State = frozen({
   view: "toss",
   system: DEFAULT_SYSTEM,
   mass: 0.4,
-  start: { impact_phase: 0.4, normalised_speed: 3.3, angular_speed: 0 },
+  start: { impact_phase: 0.4, normalised_speed: 1.4, angular_speed: 0 },
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { loads: [0, 1], points: 9, rise_times: 6 },
@@ -62,13 +62,9 @@ export function changed(state: State, change: Change): State {
 
 /** One change that does what both do, one after the other. */
 export function merged(first: Change, second: Change): Change {
-  const both: Change = { ...first, ...second };
-  if (first.system && second.system) both.system = { ...first.system, ...second.system };
-  if (first.start && second.start) both.start = { ...first.start, ...second.start };
-  if (first.diagram && second.diagram) both.diagram = { ...first.diagram, ...second.diagram };
-  if (first.basins && second.basins) both.basins = { ...first.basins, ...second.basins };
-  if (first.motor && second.motor) both.motor = { ...first.motor, ...second.motor };
-  return both;
+  const names = ["system", "start", "diagram", "basins", "motor"] as const;
+  const both = names.filter((name) => first[name] !== undefined && second[name] !== undefined);
+  return { ...first, ...second, ...Object.fromEntries(both.map((name) => [name, { ...first[name], ...second[name] }])) };
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */
