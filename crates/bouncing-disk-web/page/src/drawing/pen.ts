@@ -65,3 +65,17 @@ export function measureRuns(text: string, size: number, family: string): number 
   }
   return width;
 }
+
+/** The same pen with its sheet moved down: for pictures below each other. */
+export function shifted(pen: Pen, down: number): Pen {
+  const moved = (points: ArrayLike<number>) => Float64Array.from(points, (value, index) => (index % 2 === 1 ? value + down : value));
+  return {
+    path: (points, style) => pen.path(moved(points), style),
+    circle: (x, y, radius, style) => pen.circle(x, y + down, radius, style),
+    rect: (x, y, width, height, style) => pen.rect(x, y + down, width, height, style),
+    text: (text, x, y, style) => pen.text(text, x, y + down, style),
+    measure: (text, size) => pen.measure(text, size),
+    image: (source, x, y, width, height, smooth) => pen.image(source, x, y + down, width, height, smooth),
+    clipped: (x, y, width, height, draw) => pen.clipped(x, y + down, width, height, draw),
+  };
+}

@@ -60,7 +60,7 @@ class BasinsView implements View {
     );
     const hint = "× one impact of a periodic attractor, + the shared start. A click runs the orbit of that start in the first view.";
     host.append(
-      element("div", { class: "bar" }, element("span", { class: "note" }, hint), this.picture.tools),
+      element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
       element(
         "div",
         { class: "beside" },

@@ -40,7 +40,7 @@ class DiagramView implements View {
   private readonly quantity = element("select", { "aria-label": "Quantity over the forcing" });
   private readonly branchesBox = element("input", { type: "checkbox" });
   private readonly alternative = element("p", { class: "alternative" });
-  private readonly note = element("p", { class: "note", hidden: true });
+  private readonly note = element("p", { class: "remark", hidden: true });
   private shown: OrbitPicture | null = null;
   private previous: OrbitPicture | null = null;
   private columns: Columns[] = [];
