@@ -176,7 +176,7 @@ class TossView implements View {
     if (!same) {
       this.player.now = 0;
       this.stage = null;
-      if (!this.thrown) this.context.status(`Motion of ${recording.periods} periods from an impact.`);
+      if (!this.thrown) this.context.status(`The motion begins with the shared impact.`);
     }
     // The first motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
     if (first && !prefersLessMotion()) this.player.play();
@@ -219,7 +219,7 @@ class TossView implements View {
   private stopAtEnd(recording: Recording): void {
     this.player.pause();
     this.controls.show(recording.periods);
-    this.context.status(`The end of ${plain(recording.periods, 4)} periods. Back to the start to see them again.`);
+    this.context.status(`The end of ${recording.periods} periods. Back to the start to see them again.`);
     this.describe();
   }
 
@@ -255,7 +255,7 @@ class TossView implements View {
   }
 
   private showLedger({ energy, periods }: Recording): void {
-    setText(this.ledgerTitle, `Energy balance of ${plain(periods, 4)} periods`);
+    setText(this.ledgerTitle, `Energy balance of ${periods} periods`);
     this.ledger.set("Work of the platform", quantity(energy.platform_work, "J/kg"));
     this.ledger.set("Lost in restitution", quantity(energy.restitution_loss, "J/kg"));
     this.ledger.set("Lost in friction", quantity(energy.friction_loss, "J/kg"));
