@@ -81,10 +81,9 @@ export const PRESETS: readonly Preset[] = [
     text: "The phase lag θ opens the path from a line to an ellipse, and the amplitude ratio tan φ_L = a_e Φ/A tilts it. The text names only some of these values: the lags of (b) and the angles of (d) to (f) are chosen as in the project's own figure.",
     panels: [
       toss("(a) θ = −π/2", tossOf({ angle: 0.25 * PI, lag: -PI / 2 })),
-      toss("(b) θ = −π/4", tossOf({ angle: 0.25 * PI, lag: -PI / 4 })),
+      toss("(b), (e) θ = −π/4", tossOf({ angle: 0.25 * PI, lag: -PI / 4 })),
       toss("(c) θ = 0", tossOf({ angle: 0.25 * PI, lag: 0 })),
       toss("(d) φ_L = 0.05π", tossOf({ angle: 0.05 * PI, lag: -PI / 4 })),
-      toss("(e) φ_L = 0.25π", tossOf({ angle: 0.25 * PI, lag: -PI / 4 })),
       toss("(f) φ_L = 0.45π", tossOf({ angle: 0.45 * PI, lag: -PI / 4 })),
     ],
   },
