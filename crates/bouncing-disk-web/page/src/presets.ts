@@ -78,7 +78,7 @@ export const PRESETS: readonly Preset[] = [
     id: "fig02",
     place: "Fig. 2",
     title: "Paths of the hand, or of a stator",
-    text: "The phase lag θ opens the path from a line to an ellipse, and the amplitude ratio tan φ_L = a_e Φ/A tilts it. The text names only some of these values: the lags of (b) and the angles of (d) to (f) are chosen as in the project's own figure.",
+    text: "The phase lag θ opens the path from a line to an ellipse, and the amplitude ratio tan φ_L = a_e Φ/A tilts it. The text names only some of these values: the lag of (b) and the angles of (d) and (f) are chosen as in the project's own figure, and at (f) the hand moves too gently to throw.",
     panels: [
       toss("(a) θ = −π/2", tossOf({ angle: 0.25 * PI, lag: -PI / 2 })),
       toss("(b), (e) θ = −π/4", tossOf({ angle: 0.25 * PI, lag: -PI / 4 })),
