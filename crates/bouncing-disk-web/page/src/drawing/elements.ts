@@ -1,22 +1,10 @@
-/** Elements of the page, made without a framework. */
+/** Elements that pictures need around them, and when to draw. */
 
-type Attributes = Record<string, string | number | boolean>;
-type Child = Node | string;
+import { element } from "../elements";
 
-/** An element with attributes (true: present; false: absent) and children. */
-export function element<Name extends keyof HTMLElementTagNameMap>(
-  name: Name,
-  attributes: Attributes = {},
-  ...children: Child[]
-): HTMLElementTagNameMap[Name] {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (value === false) continue;
-    made.setAttribute(key, value === true ? "" : String(value));
-  }
-  made.append(...children);
-  return made;
-}
+export { element };
+
+type Attributes = Readonly<Record<string, string | boolean | number>>;
 
 /** A button that is not a form's. */
 export function button(label: string, press: () => void, attributes: Attributes = {}): HTMLButtonElement {
