@@ -2,5 +2,9 @@
 
 import type { View } from "./contract";
 import { VIEWS as PLACEHOLDERS } from "../dev/placeholders";
+import { view as basins } from "./views/basins";
+import { view as diagram } from "./views/diagram";
 
-export const VIEWS: readonly View[] = PLACEHOLDERS;
+const [toss, , , motor] = PLACEHOLDERS as [View, View, View, View];
+
+export const VIEWS: readonly View[] = [toss, diagram, basins, motor];
