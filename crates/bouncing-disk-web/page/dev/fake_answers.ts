@@ -36,7 +36,8 @@ const peak = ({ amplitude, angular_frequency, preload_acceleration }: SystemPara
   (amplitude * angular_frequency ** 2) / preload_acceleration;
 
 const bounce = (forcing: number, { impact_phase, normalised_speed }: ImpactStart): Bounce => {
-  demand(normalised_speed > 0, "normalised_speed", normalised_speed, "(0, inf)");
+  const range = "(-inf, 0] (disk minus platform, units of g/omega)";
+  demand(normalised_speed >= 0, "axial_impact_velocity", -Math.PI * normalised_speed, range);
   return { phase: impact_phase, speed: normalised_speed / (forcing || 1) };
 };
 

@@ -153,7 +153,7 @@ function begin(): void {
   });
 
   // On a narrow screen the picture comes first and the form is closed until somebody wants it.
-  const narrow = window.matchMedia("(max-width: 760px)");
+  const narrow = window.matchMedia("(max-width: 860px)");
   const fold = (): void => {
     for (const group of side.querySelectorAll("details")) group.open = !narrow.matches;
   };

@@ -49,7 +49,7 @@ export class Menu {
           },
         },
         element("span", {}, label),
-        note === undefined ? null : element("span", { class: "note" }, note),
+        note === undefined ? null : element("span", { class: "kind" }, note),
       ),
     );
     if (buttons.length === 0) buttons.push(element("button", { type: "button", role: "menuitem", disabled: true }, "Nothing yet"));

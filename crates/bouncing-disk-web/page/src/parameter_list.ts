@@ -137,7 +137,7 @@ export const GROUPS: readonly Group[] = [
         symbol: "τ_imp", label: "phase", unit: "rad", slider: () => [0, 2 * Math.PI], angle: true, hint: inPi,
       }), // prettier-ignore
       ofStart("normalised_speed", {
-        symbol: "w_A", label: "impact speed", unit: "πg/ω", slider: () => [0.001, 5],
+        symbol: "w_A", label: "impact speed", unit: "πg/ω", slider: () => [0, 5],
         hint: (value, { system }) =>
           `${shown((value * Math.PI * system.preload_acceleration) / system.angular_frequency, 3)} m/s`,
       }), // prettier-ignore

@@ -3,7 +3,7 @@
 import { element } from "./elements";
 
 /** More than these at once tell nobody anything. */
-const MOST = 6;
+const MOST = 8;
 
 export class Problems {
   private messages: string[] = [];

@@ -25,7 +25,6 @@ export class Readout {
   show(summary: Summary): void {
     const { angular_forcing, rise_time } = summary;
     const rows: [string, string, string][] = [
-      ["Γ", "axial forcing", shown(summary.axial_forcing)],
       ["Γ_T", "angular forcing", angular_forcing === null ? "none, no friction" : shown(angular_forcing, 4)],
       ["Aω²/g", "peak acceleration", `${shown(summary.peak_acceleration, 4)} g`],
       ["2π/ω", "period", seconds(summary.period)],

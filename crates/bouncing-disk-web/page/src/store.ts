@@ -25,8 +25,17 @@ interface Waiting {
   options: ChangeOptions & { fromAddress?: boolean };
 }
 
-/** Parts of the start and the mass, of which `check` knows nothing. */
-const START_NAMES = ["impact_phase", "normalised_speed", "angular_speed"];
+/** What the library calls the parts of a start where a motion begins with it; `check` knows nothing of them. */
+const START_NAMES: Readonly<Record<string, string>> = {
+  impact_phase: "impact_phase",
+  phase: "impact_phase",
+  normalised_speed: "normalised_speed",
+  axial_impact_velocity: "normalised_speed",
+  angular_speed: "angular_speed",
+  tangential_impact_velocity: "angular_speed",
+};
+/** The speed of an impact is its velocity (disk minus platform) without the sign. */
+const SPEEDS = "[0, inf)";
 
 /** An address is mended part by part so many times at most. */
 const MOST_MENDINGS = 12;
@@ -127,12 +136,12 @@ export class Store {
       }
       if (change.start) {
         const motion = { call: "motion", system, start: { kind: "impact", ...start } } as const;
-        await this.only(START_NAMES, () =>
-          this.client.ask("check start", { ...motion, periods: 1, samples_per_period: 2 }),
-        );
+        const ask = this.client.ask("check start", { ...motion, periods: 1, samples_per_period: 2 });
+        await only(ask, (refusal) => ofStart(refusal, change));
       }
       if (change.mass !== undefined) {
-        await this.only(["mass"], () => this.client.ask("check mass", { call: "sheet_of_system", system, mass }));
+        const ask = this.client.ask("check mass", { call: "sheet_of_system", system, mass });
+        await only(ask, (refusal) => (refusal.quantity?.includes("mass") ? refusal : null));
       }
       return null;
     } catch (error) {
@@ -143,16 +152,25 @@ export class Store {
       return null;
     }
   }
+}
 
-  /** A refusal of one of these quantities; others are the business of the view that meets them. */
-  private async only(names: readonly string[], ask: () => Promise<unknown>): Promise<void> {
-    try {
-      await ask();
-    } catch (error) {
-      if (error instanceof Refused && !names.includes(error.refusal.quantity ?? "")) return;
-      throw error;
-    }
+/** Waits for an answer. A refusal counts as `of` sees it; others are the business of the view that meets them. */
+async function only(answer: Promise<unknown>, of: (refusal: Refusal) => Refusal | null): Promise<void> {
+  try {
+    await answer;
+  } catch (error) {
+    if (!(error instanceof Refused)) throw error;
+    const own = of(error.refusal);
+    if (own !== null) throw new Refused(own);
   }
+}
+
+/** A refusal in the words of the form, where the start is what is refused: an impact so hard that its flight is too long too. */
+function ofStart(refusal: Refusal, change: Change): Refusal | null {
+  const name = START_NAMES[refusal.quantity ?? ""];
+  if (refusal.kind === "computation" && change.start?.normalised_speed !== undefined) return refusal;
+  if (name === undefined) return null;
+  return { ...refusal, quantity: name, range: name === "normalised_speed" ? SPEEDS : refusal.range };
 }
 
 const needsCheck = (change: Change): boolean =>

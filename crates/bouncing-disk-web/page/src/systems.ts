@@ -45,8 +45,8 @@ export function withTwist(system: SystemParameters, forcing: number): SystemPara
   return { ...system, twist_amplitude: forcing * unit };
 }
 
-/** All but at rest on the platform at its lowest point, where a single toss begins: the smallest of impacts. */
-export const REST: State["start"] = { impact_phase: 1.5 * PI, normalised_speed: 0.001, angular_speed: 0 };
+/** At rest on the platform at its lowest point, where a single toss begins: an impact without speed. */
+export const REST: State["start"] = { impact_phase: 1.5 * PI, normalised_speed: 0, angular_speed: 0 };
 
 /** A drive frequency (Hz), the largest angular speed of the stator (rad/s) and a preload acceleration (m/s²). */
 interface Drive {

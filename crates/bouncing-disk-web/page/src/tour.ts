@@ -50,7 +50,7 @@ export const STEPS: readonly Step[] = [
   },
   {
     title: "What falls asleep",
-    text: "Begin almost at rest and the other attractor shows: impacts come faster and faster, infinitely many in a finite time, until the disk lies on the platform, rides it and is thrown again. The sum of that sequence is computed, not cut off.",
+    text: "Begin at rest and the other attractor shows: impacts come faster and faster, infinitely many in a finite time, until the disk lies on the platform, rides it and is thrown again. The sum of that sequence is computed, not cut off.",
     change: { view: "toss", system: withForcing(multipleToss, 0.45), start: REST },
   },
   {

@@ -11,7 +11,7 @@ export class TourPanel {
   private readonly title = element("h2", { tabindex: -1 });
   private readonly text = element("p", { class: "text" });
   private readonly back = element("button", { type: "button", onclick: () => this.go(this.step - 1) }, "Back");
-  private readonly next = element("button", { type: "button", class: "primary", onclick: () => this.go(this.step + 1) });
+  private readonly next = element("button", { type: "button", class: "primary", onclick: () => this.go(this.step + 1) }, "Next");
   private step = 0;
   private opener: HTMLElement | null = null;
 
