@@ -93,8 +93,9 @@ class DiagramView implements View {
       element(
         "div",
         { class: "beside" },
-        element("div", { class: "main-part" }, this.picture.layers.root, this.note, legend, this.alternative),
+        element("div", { class: "main-part" }, this.picture.layers.root, this.note),
         this.verdict.root,
+        element("div", {}, legend, this.alternative),
       ),
     );
   }
@@ -179,9 +180,9 @@ class DiagramView implements View {
       rotation,
     };
     const key = JSON.stringify(wanted);
-    void this.fetchBranches();
     if (key === this.asked) {
       this.arrange(laid.rows);
+      void this.fetchBranches();
       return;
     }
     this.asked = key;
@@ -201,6 +202,7 @@ class DiagramView implements View {
       );
       this.arrange(laid.rows);
       this.describe();
+      void this.fetchBranches();
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
