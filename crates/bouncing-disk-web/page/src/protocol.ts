@@ -85,6 +85,8 @@ export type Request =
       start: ImpactStart;
       transient: number;
       recorded: number;
+      /** Whether angular speeds are computed, which takes longer; without it they are NaN. */
+      rotation?: boolean;
     }
   /** What the orbit from a start does for good: `VerdictJson`. */
   | { call: "orbit"; axial_forcing: number; restitution: number; start: ImpactStart }

@@ -1,0 +1,75 @@
+/** The hash of the address follows the state, and the state follows it when somebody goes back, forward or edits it. */
+
+import type { State } from "./contract";
+import { fromHash, toHash } from "./state";
+
+/** Browsers ignore a page that writes more often than some ten times in a second (ms). */
+const PAUSE = 250;
+
+export class Address {
+  private written = "";
+  /** The address of the last state that was not in the middle of a drag: where going back leads. */
+  private settled = "";
+  private waiting: { hash: string; settled: boolean } | null = null;
+  private timer: number | undefined;
+
+  /** `arrived` gets the state of an address that the page has not written itself. */
+  constructor(private readonly arrived: (state: State, problems: string[]) => void) {
+    window.addEventListener("hashchange", () => {
+      if (location.hash === this.written) return;
+      clearTimeout(this.timer);
+      this.timer = undefined;
+      this.waiting = null;
+      this.written = this.settled = location.hash;
+      const { state, problems } = fromHash(location.hash);
+      this.arrived(state, problems);
+    });
+    window.addEventListener("pagehide", () => this.flush());
+  }
+
+  /** The state of the address with which the page was opened. */
+  opened(): { state: State; problems: string[] } {
+    this.written = this.settled = location.hash;
+    return fromHash(location.hash);
+  }
+
+  /** Writes at once if the last time is long enough ago, else soon. */
+  write(state: State, settled: boolean): void {
+    const hash = toHash(state);
+    this.waiting = { hash, settled: settled || this.waiting?.settled === true };
+    if (this.timer === undefined) this.flush();
+  }
+
+  /** Puts a hash in order that has just been read: no new entry of the history. */
+  tidy(state: State): void {
+    this.put(toHash(state), false);
+    this.settled = this.written;
+  }
+
+  private flush(): void {
+    const waiting = this.waiting;
+    this.waiting = null;
+    if (waiting === null) return;
+    this.put(waiting.hash, waiting.settled);
+    this.timer = window.setTimeout(() => {
+      this.timer = undefined;
+      this.flush();
+    }, PAUSE);
+  }
+
+  private put(hash: string, entry: boolean): void {
+    if (hash === this.written && (!entry || hash === this.settled)) return;
+    try {
+      if (entry && this.written !== this.settled) history.replaceState(null, "", this.settled);
+      if (entry) history.pushState(null, "", hash);
+      else history.replaceState(null, "", hash);
+    } catch {
+      // Some browsers forbid this on the disk; the copied link is made from the state, not from the address.
+    }
+    this.written = hash;
+    if (entry) this.settled = hash;
+  }
+}
+
+/** The address of this page with a state. */
+export const link = (state: State): string => location.href.replace(/#.*$/s, "") + toHash(state);

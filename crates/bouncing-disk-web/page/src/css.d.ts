@@ -1,0 +1,2 @@
+/** The build collects the style sheets of all imports. */
+declare module "*.css";

@@ -1,0 +1,121 @@
+/** The frame of a picture: where it lies, its ticks, numbers and labels. */
+
+import type { Colours } from "./colours";
+import type { Pen } from "./pen";
+import type { Scale } from "./scale";
+import { ticks } from "./ticks";
+import type { Ticks } from "./ticks";
+
+export interface Axis {
+  /** With its unit: "load (µN m)". */
+  readonly label: string;
+  readonly scale: Scale;
+  /** From the values of the scale to the numbers beside the ticks. */
+  readonly factor?: number;
+}
+
+export interface Plot {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+  readonly x: Axis;
+  readonly y: Axis;
+  readonly xTicks: Ticks;
+  readonly yTicks: Ticks;
+  readonly size: number;
+}
+
+/** Finds the margins that numbers and labels need, in a picture of `width` by `height` with letters of `size`. */
+export function layOut(pen: Pen, width: number, height: number, x: Axis, y: Axis, size: number): Plot {
+  const top = Math.round(size * 0.9);
+  const bottom = Math.round(size * 3.1);
+  const plotHeight = Math.max(height - top - bottom, 20);
+  const yTicks = ticks(y.scale, Math.max(Math.floor(plotHeight / (size * 4)), 2), y.factor);
+  const numbers = Math.max(...yTicks.major.map((tick) => pen.measure(tick.label, size)), size);
+  const left = Math.ceil(numbers + size * 2.5);
+  const right = Math.ceil(size * 1.1);
+  const plotWidth = Math.max(width - left - right, 20);
+  let xTicks: Ticks = { major: [], minor: [] };
+  for (let count = Math.max(Math.floor(plotWidth / (size * 5)), 1); count >= 1; count -= 1) {
+    xTicks = ticks(x.scale, count, x.factor);
+    const widest = Math.max(...xTicks.major.map((tick) => pen.measure(tick.label, size)), 0);
+    if (xTicks.major.length * (widest + size) <= plotWidth) break;
+  }
+  return { left, top, width: plotWidth, height: plotHeight, x, y, xTicks, yTicks, size };
+}
+
+export function pixelX(plot: Plot, value: number): number {
+  return plot.left + plot.width * plot.x.scale.share(value);
+}
+
+export function pixelY(plot: Plot, value: number): number {
+  return plot.top + plot.height * (1 - plot.y.scale.share(value));
+}
+
+export function valueX(plot: Plot, pixel: number): number {
+  return plot.x.scale.value((pixel - plot.left) / plot.width);
+}
+
+export function valueY(plot: Plot, pixel: number): number {
+  return plot.y.scale.value(1 - (pixel - plot.top) / plot.height);
+}
+
+export function inside(plot: Plot, x: number, y: number): boolean {
+  return x >= plot.left && x <= plot.left + plot.width && y >= plot.top && y <= plot.top + plot.height;
+}
+
+/** Faint lines behind the data. */
+export function paintGrid(pen: Pen, plot: Plot, colour: Colours): void {
+  const points: number[] = [];
+  for (const { value } of plot.xTicks.major) {
+    const x = crisp(pixelX(plot, value));
+    points.push(x, plot.top, x, plot.top + plot.height, NaN, NaN);
+  }
+  for (const { value } of plot.yTicks.major) {
+    const y = crisp(pixelY(plot, value));
+    points.push(plot.left, y, plot.left + plot.width, y, NaN, NaN);
+  }
+  pen.path(points, { stroke: colour("--picture-grid"), width: 1 });
+}
+
+/** Frame, ticks inwards on all four sides, numbers and labels. */
+export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
+  const { left, top, width, height, size } = plot;
+  const right = left + width;
+  const bottom = top + height;
+  const long = Math.round(size * 0.45);
+  const short = Math.round(size * 0.25);
+  const points: number[] = [];
+  const tickX = (value: number, length: number) => {
+    const x = crisp(pixelX(plot, value));
+    points.push(x, bottom, x, bottom - length, NaN, NaN, x, top, x, top + length, NaN, NaN);
+  };
+  const tickY = (value: number, length: number) => {
+    const y = crisp(pixelY(plot, value));
+    points.push(left, y, left + length, y, NaN, NaN, right, y, right - length, y, NaN, NaN);
+  };
+  for (const tick of plot.xTicks.major) tickX(tick.value, long);
+  for (const value of plot.xTicks.minor) tickX(value, short);
+  for (const tick of plot.yTicks.major) tickY(tick.value, long);
+  for (const value of plot.yTicks.minor) tickY(value, short);
+  const frame = colour("--picture-frame");
+  pen.path(points, { stroke: frame, width: 1 });
+  pen.rect(crisp(left), crisp(top), Math.round(width), Math.round(height), { stroke: frame, width: 1 });
+  const ink = colour("--picture-text");
+  for (const { value, label } of plot.xTicks.major) {
+    pen.text(label, pixelX(plot, value), bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
+  }
+  for (const { value, label } of plot.yTicks.major) {
+    pen.text(label, left - size * 0.5, pixelY(plot, value), { colour: ink, size, anchor: "end", baseline: "middle" });
+  }
+  const middle = left + width / 2;
+  pen.text(plot.x.label, middle, bottom + size * 2, { colour: ink, size, anchor: "middle", baseline: "top" });
+  const edge = size * 1.05;
+  pen.text(plot.y.label, edge, top + height / 2, { colour: ink, size, anchor: "middle", upwards: true });
+}
+
+/** A line of one pixel fills one row of pixels if it runs through their middle. */
+function crisp(place: number): number {
+  return Math.round(place - 0.5) + 0.5;
+}

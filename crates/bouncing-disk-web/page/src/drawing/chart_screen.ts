@@ -1,0 +1,162 @@
+/** A chart of curves on the screen by uPlot, which gives cursor, legend with values and speed. */
+
+import uPlot from "uplot";
+
+import type { Plot } from "./axes";
+import { CanvasPen } from "./canvas_pen";
+import type { Chart, Curve } from "./chart";
+import { paintExtras } from "./chart_paint";
+import type { Colours } from "./colours";
+import { parseColour } from "./colours";
+import { element, setText } from "./elements";
+import { minus, plain } from "./numbers";
+import { SCREEN_FONT } from "./pen";
+import { plainText } from "./rich_text";
+import { linearScale } from "./scale";
+
+const SIZE = 12;
+
+export class ScreenChart {
+  readonly root = element("figure", { class: "chart" });
+  private readonly stage = element("div", { class: "chart-stage", role: "img" });
+  private readonly caption = element("figcaption", { class: "alternative" });
+  private plot: uPlot | null = null;
+  private made = "";
+  private chart: Chart | null = null;
+
+  constructor(private readonly height: () => number) {
+    this.root.append(this.stage, this.caption);
+  }
+
+  /** Shows a chart. The same kinds of curves are only filled anew, which is quick. */
+  show(chart: Chart, colour: Colours, alternative?: string): void {
+    this.chart = chart;
+    this.stage.setAttribute("aria-label", `${chart.title}. ${alternative ?? ""}`);
+    if (alternative !== undefined) setText(this.caption, alternative);
+    const width = Math.floor(this.root.clientWidth);
+    if (width < 50) return;
+    const height = this.height();
+    const key = JSON.stringify([
+      chart.title, chart.xLabel, chart.yLabel, chart.curves.map((curve) => [curve.label, curve.error !== undefined]),
+      colour("--picture-paper"), window.devicePixelRatio,
+    ]); // prettier-ignore
+    if (this.plot === null || key !== this.made) {
+      this.made = key;
+      this.plot?.destroy();
+      this.plot = new uPlot(this.options(chart, colour, width, height), columns(chart), this.stage);
+    } else {
+      if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({ width, height });
+      this.plot.setData(columns(chart), true);
+    }
+  }
+
+  destroy(): void {
+    this.plot?.destroy();
+    this.plot = null;
+    this.made = "";
+  }
+
+  private options(chart: Chart, colour: Colours, width: number, height: number): uPlot.Options {
+    const ink = colour("--picture-text");
+    const axis = (label: string, size?: number): uPlot.Axis => ({
+      label: plainText(label),
+      labelFont: `${SIZE}px ${SCREEN_FONT}`,
+      font: `${SIZE}px ${SCREEN_FONT}`,
+      labelSize: 20,
+      stroke: ink,
+      grid: { stroke: colour("--picture-grid"), width: 1 },
+      ticks: { stroke: colour("--picture-frame"), width: 1, size: 5 },
+      border: { show: true, stroke: colour("--picture-frame"), width: 1 },
+      values: (_, splits) => splits.map((value) => minus(String(Number(value.toPrecision(10))))),
+      ...(size === undefined ? {} : { size }),
+    });
+    const series: uPlot.Series[] = [{ label: plainText(chart.xLabel).replace(/ \(.*/, ""), value: (_, value) => plain(value) }];
+    const bands: uPlot.Band[] = [];
+    for (const curve of chart.curves) {
+      series.push({
+        label: curve.label,
+        stroke: colour(curve.colour),
+        width: 1.6,
+        pxAlign: 0,
+        ...(curve.dash === undefined ? {} : { dash: [...curve.dash] }),
+        points: { show: curve.points === true, size: 5, fill: colour(curve.colour) },
+        value: (_, value: number | null) => plain(value),
+      });
+      if (curve.error === undefined) continue;
+      const at = series.length;
+      const [red, green, blue] = parseColour(colour(curve.colour));
+      const edge: uPlot.Series = { stroke: "transparent", width: 0, points: { show: false } };
+      series.push({ ...edge, label: "upper" }, { ...edge, label: "lower" });
+      bands.push({ series: [at, at + 1], fill: `rgba(${red}, ${green}, ${blue}, 0.25)` });
+    }
+    return {
+      width,
+      height,
+      // Points between pixels keep curves smooth.
+      pxAlign: 0,
+      series,
+      bands,
+      scales: {
+        x: { time: false, range: () => (this.chart ?? chart).xRange },
+        y: { range: () => (this.chart ?? chart).yRange },
+      },
+      axes: [axis(chart.xLabel, 34), axis(chart.yLabel, 56)],
+      cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
+      legend: { show: true, live: true },
+      padding: [10, 12, 0, 0],
+      hooks: {
+        drawAxes: [(plot) => this.extras(plot, colour)],
+        ready: [(plot) => hideEdges(plot)],
+      },
+    };
+  }
+
+  private extras(plot: uPlot, colour: Colours): void {
+    const { chart } = this;
+    if (chart === null) return;
+    const ratio = uPlot.pxRatio;
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.scale(ratio, ratio);
+    const area: Plot = {
+      left: bbox.left / ratio,
+      top: bbox.top / ratio,
+      width: bbox.width / ratio,
+      height: bbox.height / ratio,
+      x: { label: "", scale: linearScale(chart.xRange) },
+      y: { label: "", scale: linearScale(chart.yRange) },
+      xTicks: { major: [], minor: [] },
+      yTicks: { major: [], minor: [] },
+      size: SIZE,
+    };
+    const pen = new CanvasPen(ctx);
+    pen.clipped(area.left, area.top, area.width, area.height, () => paintExtras(pen, chart, area, colour));
+    ctx.restore();
+  }
+}
+
+/** The edges of bands are series to uPlot, but nothing to a reader. */
+function hideEdges(plot: uPlot): void {
+  const rows = plot.root.querySelectorAll<HTMLElement>(".u-legend .u-series");
+  rows.forEach((row, index) => {
+    const label = plot.series[index]?.label;
+    if (label === "upper" || label === "lower") row.hidden = true;
+  });
+}
+
+function columns(chart: Chart): uPlot.AlignedData {
+  const data: (number | null)[][] = [Array.from(chart.x)];
+  for (const curve of chart.curves) {
+    data.push(gaps(curve));
+    if (curve.error !== undefined) data.push(gaps(curve, 2), gaps(curve, -2));
+  }
+  return data as uPlot.AlignedData;
+}
+
+/** uPlot knows a gap as null. */
+function gaps(curve: Curve, errors = 0): (number | null)[] {
+  return Array.from(curve.y, (value, index) => {
+    const shown = value + errors * (errors === 0 ? 0 : (curve.error?.[index] ?? NaN));
+    return Number.isFinite(shown) ? shown : null;
+  });
+}

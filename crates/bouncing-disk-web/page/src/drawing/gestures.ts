@@ -1,0 +1,241 @@
+/** Zooming and pointing: wheel, pinch, rectangle and keyboard, for every picture that has a window. */
+
+import type { Range } from "../protocol";
+import { inside, valueX, valueY } from "./axes";
+import type { Plot } from "./axes";
+import { clamp } from "./scale";
+
+export interface Window2 {
+  readonly x: Range;
+  readonly y: Range;
+}
+
+export interface Box {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface GestureHost {
+  plot(): Plot | null;
+  window(): Window2;
+  /** Asks for another window; `settled` is false while the gesture goes on. */
+  move(window: Window2, settled: boolean): void;
+  reset(): void;
+  /** The pointer or the keyboard's cross is at this value; null: it left. */
+  point(at: readonly [number, number] | null): void;
+  pick(at: readonly [number, number]): void;
+  /** The rectangle that is being drawn. */
+  rectangle(box: Box | null): void;
+}
+
+const SETTLE = 350;
+const SMALLEST_DRAG = 6;
+
+export class Gestures {
+  private readonly pointers = new Map<number, { x: number; y: number }>();
+  private begun: { x: number; y: number; window: Window2; touch: boolean } | null = null;
+  private pinch: { window: Window2; distance: number; at: readonly [number, number] } | null = null;
+  private moved = false;
+  private cross: [number, number] | null = null;
+  private settleTimer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly surface: HTMLElement,
+    private readonly host: GestureHost,
+  ) {
+    surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    surface.addEventListener("pointerdown", (event) => this.down(event));
+    surface.addEventListener("pointermove", (event) => this.follow(event));
+    surface.addEventListener("pointerup", (event) => this.up(event));
+    surface.addEventListener("pointercancel", (event) => this.abandon(event));
+    surface.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "mouse" && this.begun === null) host.point(null);
+    });
+    surface.addEventListener("keydown", (event) => this.key(event));
+    // Two fingers zoom the picture and not the page; one finger still scrolls the page.
+    const keepTwo = (event: TouchEvent) => {
+      if (event.touches.length >= 2) event.preventDefault();
+    };
+    surface.addEventListener("touchstart", keepTwo, { passive: false });
+    surface.addEventListener("touchmove", keepTwo, { passive: false });
+    surface.style.touchAction = "pan-y";
+  }
+
+  /** Zooms about the middle: for buttons. */
+  zoom(factor: number): void {
+    const { x, y } = this.host.window();
+    this.host.move(
+      { x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) },
+      true,
+    );
+  }
+
+  private place(event: MouseEvent): { x: number; y: number } {
+    const box = this.surface.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  private wheel(event: WheelEvent): void {
+    const plot = this.host.plot();
+    if (plot === null) return;
+    event.preventDefault();
+    const { x, y } = this.place(event);
+    const lines = event.deltaMode === 1 ? 16 : 1;
+    const factor = Math.exp(clamp(event.deltaY * lines, -200, 200) * 0.002);
+    const window = this.host.window();
+    // Beside an axis, only that axis; inside, both, or one of them with Shift or Alt.
+    const onlyX = y > plot.top + plot.height || event.shiftKey;
+    const onlyY = x < plot.left || event.altKey;
+    this.move({
+      x: onlyY ? window.x : scaled(window.x, valueX(plot, x), factor),
+      y: onlyX ? window.y : scaled(window.y, valueY(plot, y), factor),
+    });
+  }
+
+  /** Moves now, and says that it is settled when nothing has come for a while. */
+  private move(window: Window2): void {
+    this.host.move(window, false);
+    clearTimeout(this.settleTimer);
+    this.settleTimer = setTimeout(() => this.host.move(this.host.window(), true), SETTLE);
+  }
+
+  private down(event: PointerEvent): void {
+    const plot = this.host.plot();
+    if (plot === null || event.button > 0) return;
+    const at = this.place(event);
+    this.pointers.set(event.pointerId, at);
+    this.surface.setPointerCapture(event.pointerId);
+    if (this.pointers.size === 2) {
+      const [one, two] = [...this.pointers.values()] as [typeof at, typeof at];
+      this.begun = null;
+      this.host.rectangle(null);
+      this.pinch = {
+        window: this.host.window(),
+        distance: Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10),
+        at: [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)],
+      };
+    } else if (this.pointers.size === 1 && inside(plot, at.x, at.y)) {
+      this.begun = { ...at, window: this.host.window(), touch: event.pointerType === "touch" };
+      this.moved = false;
+    }
+  }
+
+  private follow(event: PointerEvent): void {
+    const plot = this.host.plot();
+    if (plot === null) return;
+    const at = this.place(event);
+    if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
+    if (this.pinch !== null && this.pointers.size >= 2) {
+      const [one, two] = [...this.pointers.values()] as [typeof at, typeof at];
+      const factor = this.pinch.distance / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
+      const { window, at: centre } = this.pinch;
+      this.moved = true;
+      this.move({ x: scaled(window.x, centre[0], factor), y: scaled(window.y, centre[1], factor) });
+    } else if (this.begun !== null) {
+      const { begun } = this;
+      if (!this.moved && Math.hypot(at.x - begun.x, at.y - begun.y) < SMALLEST_DRAG) return;
+      this.moved = true;
+      if (begun.touch) {
+        const shift = ((begun.x - at.x) / plot.width) * (begun.window.x[1] - begun.window.x[0]);
+        this.move({ x: [begun.window.x[0] + shift, begun.window.x[1] + shift], y: begun.window.y });
+      } else {
+        this.host.rectangle(boxOf(plot, begun, at));
+      }
+    } else {
+      this.host.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
+    }
+  }
+
+  private up(event: PointerEvent): void {
+    const plot = this.host.plot();
+    const { begun } = this;
+    const at = this.place(event);
+    this.release(event);
+    if (plot === null || begun === null) return;
+    if (!this.moved) {
+      const value: [number, number] = [valueX(plot, at.x), valueY(plot, at.y)];
+      this.host.point(value);
+      this.host.pick(value);
+    } else if (!begun.touch) {
+      const box = boxOf(plot, begun, at);
+      // A flat rectangle chooses a range of one axis.
+      const wide = box.width >= SMALLEST_DRAG;
+      const high = box.height >= SMALLEST_DRAG;
+      this.host.rectangle(null);
+      this.host.move(
+        {
+          x: wide ? [valueX(plot, box.left), valueX(plot, box.left + box.width)] : begun.window.x,
+          y: high ? [valueY(plot, box.top + box.height), valueY(plot, box.top)] : begun.window.y,
+        },
+        true,
+      );
+    }
+  }
+
+  private abandon(event: PointerEvent): void {
+    this.release(event);
+    this.host.rectangle(null);
+  }
+
+  private release(event: PointerEvent): void {
+    this.pointers.delete(event.pointerId);
+    this.begun = null;
+    if (this.pointers.size < 2) this.pinch = null;
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey) return;
+    const window = this.host.window();
+    const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (arrow !== undefined) {
+      const [right = 0, up = 0] = arrow;
+      if (event.shiftKey) this.moveCross(right, up, window);
+      else this.move({ x: shifted(window.x, right * 0.1), y: shifted(window.y, up * 0.1) });
+    } else if (event.key === "+" || event.key === "=") this.zoom(0.5);
+    else if (event.key === "-") this.zoom(2);
+    else if (event.key === "0") this.host.reset();
+    else if (event.key === "Enter" && this.cross !== null) this.host.pick(this.cross);
+    else if (event.key === "Escape") {
+      this.begun = null;
+      this.host.rectangle(null);
+      this.host.point(null);
+    } else return;
+    event.preventDefault();
+  }
+
+  /** The keyboard's own cursor, by a fiftieth of the window; it begins in the middle. */
+  private moveCross(right: number, up: number, { x, y }: Window2): void {
+    const from = this.cross ?? [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
+    this.cross = [
+      clamp(from[0] + (right * (x[1] - x[0])) / 50, x[0], x[1]),
+      clamp(from[1] + (up * (y[1] - y[0])) / 50, y[0], y[1]),
+    ];
+    this.host.point(this.cross);
+  }
+}
+
+function scaled([low, high]: Range, centre: number, factor: number): Range {
+  return [centre + (low - centre) * factor, centre + (high - centre) * factor];
+}
+
+function shifted([low, high]: Range, share: number): Range {
+  const by = (high - low) * share;
+  return [low + by, high + by];
+}
+
+function boxOf(plot: Plot, from: { x: number; y: number }, to: { x: number; y: number }): Box {
+  const x = (value: number) => clamp(value, plot.left, plot.left + plot.width);
+  const y = (value: number) => clamp(value, plot.top, plot.top + plot.height);
+  const left = Math.min(x(from.x), x(to.x));
+  const top = Math.min(y(from.y), y(to.y));
+  return { left, top, width: Math.abs(x(from.x) - x(to.x)), height: Math.abs(y(from.y) - y(to.y)) };
+}
+
+/** A window no larger than `most` and no smaller than `least`, moved into `[low, high]`. */
+export function confined([low, high]: Range, [least, most]: Range, [bottom, top]: Range): Range {
+  const width = clamp(high - low, least, Math.min(most, top - bottom));
+  const middle = clamp((low + high) / 2, bottom + width / 2, top - width / 2);
+  return [middle - width / 2, middle + width / 2];
+}

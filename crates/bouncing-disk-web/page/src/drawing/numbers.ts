@@ -1,0 +1,84 @@
+/** Numbers as people read them: with a true minus, with their error, with a prefix of the unit. */
+
+/** A hyphen in front of a number is a minus. */
+export function minus(text: string): string {
+  return text.replace("-", "\u2212");
+}
+
+export function superscript(power: number): string {
+  return [...String(power)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)])).join("");
+}
+
+/** About `digits` significant digits; powers of ten where a plain number would be long. */
+export function plain(value: number | null | undefined, digits = 4): string {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "\u2212∞";
+  if (value === 0) return "0";
+  const size = Math.floor(Math.log10(Math.abs(value)));
+  if (size >= 6 || size < -4) {
+    const [lead = "", power = "0"] = value.toExponential(digits - 1).split("e");
+    return `${minus(lead)} × 10${superscript(Number(power))}`;
+  }
+  return minus(grouped(value.toFixed(Math.max(0, digits - 1 - size))));
+}
+
+/** A number that people chose, without zeros that say nothing. */
+export function brief(value: number, digits = 6): string {
+  return minus(String(Number(value.toPrecision(digits))));
+}
+
+/** Thousands stand apart by a comma. */
+export function grouped(text: string): string {
+  const [whole = "", part] = text.split(".");
+  const spaced = whole.replace(/\B(?=(\d{3})+$)/g, ",");
+  return part === undefined ? spaced : `${spaced}.${part}`;
+}
+
+/** Value and standard error to two digits of the error: "0.4860 ± 0.0012". */
+export function withError(value: number | null, error: number | null, factor = 1): string {
+  if (value === null || Number.isNaN(value)) return "–";
+  if (error === null || !Number.isFinite(error) || error <= 0) return plain(value * factor);
+  const scaled = error * factor;
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(scaled)));
+  if (decimals > 8) {
+    const power = Math.floor(Math.log10(Math.max(Math.abs(value * factor), scaled)));
+    const by = 10 ** power;
+    const places = Math.max(0, decimals + power);
+    return `(${minus(((value * factor) / by).toFixed(places))} ± ${(scaled / by).toFixed(places)}) × 10${superscript(power)}`;
+  }
+  return `${minus(grouped((value * factor).toFixed(decimals)))} ± ${grouped(scaled.toFixed(decimals))}`;
+}
+
+export function percent(share: number, decimals = 1): string {
+  return `${(100 * share).toFixed(decimals)} %`;
+}
+
+export interface Prefix {
+  /** The value times this is the number in the prefixed unit. */
+  readonly factor: number;
+  readonly symbol: string;
+}
+
+const PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"] as const;
+
+/** The prefix with which the greatest value of an axis reads best. */
+export function prefixOf(greatest: number): Prefix {
+  if (!(greatest > 0) || !Number.isFinite(greatest)) return { factor: 1, symbol: "" };
+  const thousands = Math.min(Math.max(Math.floor(Math.log10(greatest) / 3 + 1e-9), -4), 3);
+  return { factor: 10 ** (-3 * thousands), symbol: PREFIXES[thousands + 4] ?? "" };
+}
+
+/** A quantity with its unit: "12.3 µs". */
+export function quantity(value: number | null, unit: string, digits = 3): string {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const prefix = prefixOf(Math.abs(value));
+  return `${plain(value * prefix.factor, digits)} ${prefix.symbol}${unit}`;
+}
+
+/** A quantity with its standard error and its unit. */
+export function quantityWithError(value: number | null, error: number | null, unit: string): string {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const prefix = prefixOf(Math.abs(value));
+  const text = withError(value, error, prefix.factor);
+  return `${text.includes("±") ? `(${text})` : text} ${prefix.symbol}${unit}`;
+}

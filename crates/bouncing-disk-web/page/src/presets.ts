@@ -1,0 +1,267 @@
+/** A preset for every figure and table of the paper: what it shows, the view, and the parameters of each panel. */
+
+import type { Change, State } from "./contract";
+import { MOTOR, motorOf, multipleToss, REST, TABLE_ONE, tossOf, withForcing, withTwist } from "./systems";
+import { changed, DEFAULT_STATE } from "./state";
+
+export interface Panel {
+  /** "(a)", or what the panel varies. */
+  readonly label: string;
+  readonly change: Change;
+}
+
+export interface Preset {
+  readonly id: string;
+  /** "Fig. 6" */
+  readonly place: string;
+  readonly title: string;
+  /** Two sentences on what to see. */
+  readonly text: string;
+  /** The first one is what the preset opens. */
+  readonly panels: readonly [Panel, ...Panel[]];
+}
+
+const { PI } = Math;
+
+/** A single toss: the dough lies on the hand at its lowest point. */
+const toss = (label: string, change: Change["system"]): Panel => ({
+  label,
+  change: { view: "toss", system: { ...TABLE_ONE, ...change }, start: REST },
+});
+
+/** The orbit diagram of Fig. 6, whose columns begin with this impact. */
+const diagram = (label: string, quantity: State["diagram"]["quantity"], change: Change["system"]): Panel => ({
+  label,
+  change: {
+    view: "diagram",
+    system: change,
+    start: { impact_phase: 0.4, normalised_speed: 1.4, angular_speed: 0 },
+    diagram: { axial_forcing: [0.3, 0.65], quantity, range: null, branches: true },
+  },
+});
+
+/** A panel of Fig. 7; the paper does not print its window, and speeds up to 5 give its two shares. */
+const basins = (label: string, forcing: number): Panel => ({
+  label: `${label} Γ = ${forcing}`,
+  change: {
+    view: "basins",
+    system: withForcing(multipleToss, forcing),
+    basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
+  },
+});
+
+const motor = (label: string, change: Change["system"]): Panel => ({
+  label,
+  change: { view: "motor", system: { ...MOTOR, ...change }, mass: 0.0329, start: { angular_speed: 0 } },
+});
+
+/** Fig. 9 in slow motion: a platform that all but stands still. */
+const braking = (label: string, preload: number): Panel => ({
+  label,
+  change: {
+    view: "toss",
+    system: { ...MOTOR, amplitude: 1e-6, twist_amplitude: 0, angular_frequency: 20 * PI, preload_acceleration: preload },
+    mass: 0.0329,
+    start: { impact_phase: 0, normalised_speed: 0.02, angular_speed: 30 },
+  },
+});
+
+export const PRESETS: readonly Preset[] = [
+  {
+    id: "fig01",
+    place: "Fig. 1",
+    title: "Disk, platform and the toss",
+    text: "Height and angle of the disk follow those of the platform as long as friction holds it, and part from them where it is thrown. Every point of the platform runs along a closed curve on a cylinder.",
+    panels: [toss("Table I", {})],
+  },
+  {
+    id: "fig02",
+    place: "Fig. 2",
+    title: "Paths of the hand, or of a stator",
+    text: "The phase lag θ opens the path from a line to an ellipse, and the amplitude ratio tan φ_L = a_e Φ/A tilts it. The text names only some of these values: the lag of (b) and the angles of (d) and (f) are chosen as in the project's own figure, and at (f) the hand moves too gently to throw.",
+    panels: [
+      toss("(a) θ = −π/2", tossOf({ angle: 0.25 * PI, lag: -PI / 2 })),
+      toss("(b), (e) θ = −π/4", tossOf({ angle: 0.25 * PI, lag: -PI / 4 })),
+      toss("(c) θ = 0", tossOf({ angle: 0.25 * PI, lag: 0 })),
+      toss("(d) φ_L = 0.05π", tossOf({ angle: 0.05 * PI, lag: -PI / 4 })),
+      toss("(f) φ_L = 0.45π", tossOf({ angle: 0.45 * PI, lag: -PI / 4 })),
+    ],
+  },
+  {
+    id: "fig03",
+    place: "Fig. 3",
+    title: "Modes and events",
+    text: "The flow chart is the engine behind every picture here, and its inset is this motion: a flight, impacts that come ever faster, attachment, a ride on the platform, and separation. Watch the mode change between flight, sticking and sliding.",
+    panels: [
+      {
+        label: "chattering",
+        change: { view: "toss", system: withForcing(multipleToss, 0.4), start: REST },
+      },
+    ],
+  },
+  {
+    id: "fig04",
+    place: "Fig. 4",
+    title: "Best hand motion of a single toss",
+    text: "The figure plots the airborne speed against φ_L and θ; each panel here is one point of it, and the speed after the first separation is the one to read. A linear motion (θ = 0) is best; the fastest toss reaches the printed 22 rad/s, though not exactly at the printed φ_L = 0.323π.",
+    panels: [
+      toss("φ_L = 0.323π", tossOf({ angle: 0.323 * PI })),
+      toss("φ_L = 0.55", {}),
+      toss("θ = π/4", tossOf({ angle: 0.323 * PI, lag: PI / 4 })),
+      toss("θ = π/2", tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
+      toss("μ = 0.5", { ...tossOf({ angle: 0.323 * PI }), friction: 0.5 }),
+      toss("μ = 0.7", { ...tossOf({ angle: 0.323 * PI }), friction: 0.7 }),
+    ],
+  },
+  {
+    id: "fig05",
+    place: "Fig. 5",
+    title: "Hand and dough, six tosses",
+    text: "At a small φ_L the toss is high and the dough follows a hand that hardly turns; at a large one the hand turns fast, the toss is low and the hand slips away. With θ = π/2 the hand has turned back before the dough leaves it.",
+    panels: [
+      toss("(a) θ = 0", tossOf({ angle: 0.132 * PI })),
+      toss("(a) θ = π/2", tossOf({ angle: 0.132 * PI, lag: PI / 2 })),
+      toss("(b) θ = 0", tossOf({ angle: 0.323 * PI })),
+      toss("(b) θ = π/2", tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
+      toss("(c) θ = 0", tossOf({ angle: 0.426 * PI })),
+      toss("(c) θ = π/2", tossOf({ angle: 0.426 * PI, lag: PI / 2 })),
+    ],
+  },
+  {
+    id: "fig06",
+    place: "Fig. 6",
+    title: "Orbit diagram",
+    text: "From Γ = 1/3 on the disk can bounce once in every period; that orbit doubles its period at Γ = 0.486, 0.531, 0.5402 and so on to chaos, which ends in a crisis near 0.561. Every column starts with the same impact, inside the basin of that orbit; the chattering orbits of Fig. 6 show where a start with a small speed is chosen instead.",
+    panels: [
+      diagram("(a) phase", "impact_phase", withForcing(multipleToss, 0.486)),
+      diagram("(b) speed", "normalised_speed", withForcing(multipleToss, 0.486)),
+      diagram("(c) Γ_T = 100, θ = 0", "angular_speed", {
+        ...withTwist({ ...withForcing(multipleToss, 0.486), friction: 0.006 }, 100),
+        phase_lag: 0,
+      }),
+      diagram("(d) Γ_T = 1, θ = −0.26π", "angular_speed", withTwist(withForcing(multipleToss, 0.486), 1)),
+    ],
+  },
+  {
+    id: "fig07",
+    place: "Fig. 7",
+    title: "Basins of attraction",
+    text: "The basin of the period-1 orbit grows from Γ = 0.34 to its doubling at 0.486, where it is easiest to keep, but never reaches the axis of speed zero: a disk at rest cannot be tossed into it. At 0.55 the boundary is fractal, and at 0.60, beyond the crisis, every start chatters in the end.",
+    panels: [
+      basins("(a)", 0.34),
+      basins("(b)", 0.486),
+      basins("(c)", 0.5),
+      basins("(d)", 0.55),
+      basins("(e)", 0.6),
+    ],
+  },
+  {
+    id: "fig08",
+    place: "Fig. 8",
+    title: "The ultrasonic motor",
+    text: "A steel ball of 20 mm on the tip of a twisted beam: stretching untwists the beam, so that its tip moves up and down and to and fro at once. There is no drawing of it here; the data sheet has its numbers, and the run-up is that of its default parameters.",
+    panels: [motor("Table III", {})],
+  },
+  {
+    id: "fig09",
+    place: "Fig. 9",
+    title: "Braking, the coefficient of friction",
+    text: "With the power off the rotor slides until it stops, its speed falls on a straight line, and the slope gives μ by Eq. (17). No view is made for this: the rotor of Table III turns here at 30 rad/s on a platform that all but stands still (at 10 Hz and 1 µm, so that the second it takes can be watched).",
+    panels: [braking("g = 9.8 m/s²", 9.8), braking("g = 5 m/s²", 5), braking("g = 2.4 m/s²", 2.4)],
+  },
+  {
+    id: "fig10",
+    place: "Fig. 10",
+    title: "Run-up of the motor",
+    text: "Impacts drag the rotor along until it reaches its steady speed, nearly exponentially; a larger amplitude gives fewer and harder impacts and a rougher curve. The measured runs (d) to (f) are not in the paper's text, so they are not here either.",
+    panels: [
+      motor("(a) A = 1 nm", { amplitude: 1e-9 }),
+      motor("(b) A = 10 nm", { amplitude: 1e-8 }),
+      motor("(c) A = 100 nm", { amplitude: 1e-7 }),
+    ],
+  },
+  {
+    id: "fig11",
+    place: "Fig. 11",
+    title: "Effect of the preload",
+    text: "The figure plots steady speed and stall torque over the preload; each panel here is one motor of it, at the ends of the measured range of 80 to 280 mN. The torque follows the preload and the speed does not, except where the motor is caught in a short cycle.",
+    panels: [
+      motor("280 mN, 70 kHz", { preload_acceleration: 8.51 }),
+      motor("80 mN, 70 kHz", { preload_acceleration: 2.43 }),
+      motor("280 mN, 184 kHz", motorOf({ frequency: 184e3, preload: 8.51 })),
+      motor("80 mN, 184 kHz", motorOf({ frequency: 184e3, preload: 2.43 })),
+    ],
+  },
+  {
+    id: "fig12",
+    place: "Fig. 12",
+    title: "Long and short chattering",
+    text: "A long chattering cycle averages over many impacts, and the speed approaches its limit exponentially; a short one adds the same impulses again and again, and the speed rises on straight lines and stops abruptly. The printed amplitude of the second case gives a long cycle; short ones stand next to it, which the motor view marks as traps.",
+    panels: [
+      motor("(a) long", { amplitude: 1e-7, preload_acceleration: 0.5 }),
+      motor("(d) short, as printed", { amplitude: 1e-8, preload_acceleration: 1 }),
+    ],
+  },
+  {
+    id: "fig13",
+    place: "Fig. 13",
+    title: "What the motor is sensitive to",
+    text: "Friction sets the stall torque and leaves the steady speed alone; ωΦ sets the speed and leaves the torque alone; the lag and the restitution change both. The figure sweeps each of them; a panel here is one value, to be compared with the default.",
+    panels: [
+      motor("default", {}),
+      motor("(a) μ = 0.2", { friction: 0.2 }),
+      motor("(b) ε = 0.3", { restitution: 0.3 }),
+      motor("(b) ε = 0.7", { restitution: 0.7 }),
+      motor("(c) θ = π/4", { phase_lag: PI / 4 }),
+      motor("(d) A = 100 nm", { amplitude: 1e-7 }),
+      motor("(e) ωΦ = 15 rad/s", motorOf({ speed: 15 })),
+    ],
+  },
+  {
+    id: "fig14",
+    place: "Fig. 14",
+    title: "Growth of the dough",
+    text: "The figure measures the diameter of a dough in a video; it grows by 3 % with each toss, which is why the model leaves deformation out. Nothing of it can be computed, so this shows what the video shows: multiple tosses, with the semielliptical motion of the hand that makes them easy.",
+    panels: [
+      {
+        label: "multiple tosses",
+        change: {
+          view: "toss",
+          system: withForcing(multipleToss, 0.48),
+          start: { impact_phase: 0.7, normalised_speed: 1.35, angular_speed: 0 },
+        },
+      },
+    ],
+  },
+  {
+    id: "table1",
+    place: "Table I",
+    title: "Specification of a single toss",
+    text: "The dough begins at rest on the hand at its lowest point and leaves it with 14 rad/s, as measured in the video. Table I has no restitution, on which a single toss does not depend; 0.5 is that of Sec. IV.",
+    panels: [toss("Table I", {})],
+  },
+  {
+    id: "table2",
+    place: "Table II",
+    title: "Effects of the uncertainties",
+    text: "Each panel is Table I with one input at the upper end of its uncertainty: read the speed of the dough after it has left the hand. Stroke, frequency and angle matter, the contact radius a little, friction and the radius of gyration hardly at all.",
+    panels: [
+      toss("c + 0.05 m", tossOf({ stroke: 0.3 })),
+      toss("ω + 5 rad/s", { angular_frequency: 20 }),
+      toss("a_e + 15 mm", tossOf({ contact: 0.15 })),
+      toss("a_g + 10 mm", { gyration_radius: 0.12 }),
+      toss("μ + 0.1", { friction: 0.7 }),
+      toss("φ_L + 0.14", tossOf({ angle: 0.69 })),
+    ],
+  },
+  {
+    id: "table3",
+    place: "Table III",
+    title: "Default values of the motor",
+    text: "The table prints g = 70 m/s² and no frequency; read as a drive frequency of 70 kHz under gravity, that number fits everything else in the paper. Both readings are here, and the steady speed is nearly the same.",
+    panels: [motor("70 kHz, gravity", {}), motor("g = 70 m/s²", { preload_acceleration: 70 })],
+  },
+];
+
+/** The state that a panel opens. What it does not name has its default. */
+export const stateOf = (panel: Panel): State => changed(DEFAULT_STATE, panel.change);

@@ -1,0 +1,189 @@
+/** The present state, and the way in which it changes: nothing that the library refuses ever becomes the state. */
+
+import { Cancelled, Refused } from "./contract";
+import type { Change, Client, State } from "./contract";
+import type { Refusal, Summary } from "./protocol";
+import { changed, DEFAULT_STATE, merged } from "./state";
+
+export interface ChangeOptions {
+  settled?: boolean;
+  /** Called with what is wrong, where the library refuses this change. Without it the sentence goes to `refused`. */
+  refused?: (refusal: Refusal) => void;
+  /** Called when the change has become the state. */
+  taken?: () => void;
+}
+
+export interface Listener {
+  /** Another state; `cause` says whether the address follows it or it follows the address. */
+  changed(state: State, cause: { settled: boolean; fromAddress: boolean }): void;
+  summary(summary: Summary): void;
+  refused(message: string): void;
+}
+
+interface Waiting {
+  change: Change;
+  options: ChangeOptions & { fromAddress?: boolean };
+}
+
+/** What the library calls the parts of a start where a motion begins with it; `check` knows nothing of them. */
+const START_NAMES: Readonly<Record<string, string>> = {
+  impact_phase: "impact_phase",
+  phase: "impact_phase",
+  normalised_speed: "normalised_speed",
+  axial_impact_velocity: "normalised_speed",
+  angular_speed: "angular_speed",
+  tangential_impact_velocity: "angular_speed",
+};
+/** The speed of an impact is its velocity (disk minus platform) without the sign. */
+const SPEEDS = "[0, inf)";
+
+/** An address is mended part by part so many times at most. */
+const MOST_MENDINGS = 12;
+
+export class Store {
+  private present: State = DEFAULT_STATE;
+  private queue: Waiting[] = [];
+  private pumping = false;
+  /** What follows from the system that was checked last. */
+  private summary: Summary | null = null;
+
+  constructor(
+    private readonly client: Client,
+    private readonly listener: Listener,
+  ) {}
+
+  state(): State {
+    return this.present;
+  }
+
+  /** True while a change waits for the library's word. */
+  busy(): boolean {
+    return this.pumping;
+  }
+
+  change(change: Change, options: ChangeOptions & { fromAddress?: boolean } = {}): void {
+    const waiting = { change, options };
+    if (!this.pumping && !needsCheck(change)) {
+      this.commit(changed(this.present, change), [waiting]);
+      return;
+    }
+    this.queue.push(waiting);
+    void this.pump();
+  }
+
+  /** The first state of the page, or one of its address: what is refused has its default, with a sentence for each. */
+  async open(state: State, fromAddress: boolean): Promise<void> {
+    let candidate = state;
+    for (let tries = 0; tries < MOST_MENDINGS; tries++) {
+      const refusal = await this.refusalOf(candidate, { system: {}, start: {}, mass: candidate.mass });
+      if (refusal === null) break;
+      const change = mended(refusal, tries);
+      this.listener.refused(`The address asks for what is not possible (${refusal.message}); a default is taken instead.`);
+      candidate = changed(candidate, change);
+    }
+    this.queue = [];
+    this.commit(candidate, [{ change: {}, options: { fromAddress } }]);
+  }
+
+  private async pump(): Promise<void> {
+    if (this.pumping) return;
+    this.pumping = true;
+    try {
+      while (this.queue.length > 0) {
+        const batch = this.queue.splice(0);
+        // What waited is checked as one change; only where that is refused, one by one.
+        if (batch.length > 1 && !(await this.refusalOf(...this.applied(batch)))) {
+          this.commit(this.applied(batch)[0], batch);
+          continue;
+        }
+        for (const waiting of batch) await this.single(waiting);
+      }
+    } finally {
+      this.pumping = false;
+    }
+  }
+
+  private async single(waiting: Waiting): Promise<void> {
+    const refusal = await this.refusalOf(...this.applied([waiting]));
+    if (refusal === null) this.commit(this.applied([waiting])[0], [waiting]);
+    else if (waiting.options.refused) waiting.options.refused(refusal);
+    else this.listener.refused(refusal.message);
+  }
+
+  private applied(batch: readonly Waiting[]): [State, Change] {
+    const change = batch.map((waiting) => waiting.change).reduce(merged);
+    return [changed(this.present, change), change];
+  }
+
+  private commit(state: State, batch: readonly Waiting[]): void {
+    this.present = state;
+    const settled = batch.some((waiting) => waiting.options.settled !== false);
+    const fromAddress = batch.every((waiting) => waiting.options.fromAddress === true);
+    if (this.summary !== null) this.listener.summary(this.summary);
+    this.summary = null;
+    this.listener.changed(state, { settled, fromAddress });
+    for (const waiting of batch) waiting.options.taken?.();
+  }
+
+  /** What the library says against a state, of which this change is new; `null` where it has nothing to say. */
+  private async refusalOf(state: State, change: Change): Promise<Refusal | null> {
+    const { system, mass, start } = state;
+    this.summary = null;
+    try {
+      if (change.system) {
+        const response = await this.client.ask("check", { call: "check", system });
+        this.summary = response.json as Summary;
+      }
+      if (change.start) {
+        const motion = { call: "motion", system, start: { kind: "impact", ...start } } as const;
+        const ask = this.client.ask("check start", { ...motion, periods: 1, samples_per_period: 2 });
+        await only(ask, (refusal) => ofStart(refusal, change));
+      }
+      if (change.mass !== undefined) {
+        const ask = this.client.ask("check mass", { call: "sheet_of_system", system, mass });
+        await only(ask, (refusal) => (refusal.quantity?.includes("mass") ? refusal : null));
+      }
+      return null;
+    } catch (error) {
+      if (error instanceof Refused) return error.refusal;
+      if (error instanceof Cancelled) return null;
+      // The module does not work at all: the page says so, and goes on with what it has.
+      this.listener.refused(error instanceof Error ? error.message : String(error));
+      return null;
+    }
+  }
+}
+
+/** Waits for an answer. A refusal counts as `of` sees it; others are the business of the view that meets them. */
+async function only(answer: Promise<unknown>, of: (refusal: Refusal) => Refusal | null): Promise<void> {
+  try {
+    await answer;
+  } catch (error) {
+    if (!(error instanceof Refused)) throw error;
+    const own = of(error.refusal);
+    if (own !== null) throw new Refused(own);
+  }
+}
+
+/** A refusal in the words of the form, where the start is what is refused: an impact so hard that its flight is too long too. */
+function ofStart(refusal: Refusal, change: Change): Refusal | null {
+  const name = START_NAMES[refusal.quantity ?? ""];
+  if (refusal.kind === "computation" && change.start?.normalised_speed !== undefined) return refusal;
+  if (name === undefined) return null;
+  return { ...refusal, quantity: name, range: name === "normalised_speed" ? SPEEDS : refusal.range };
+}
+
+const needsCheck = (change: Change): boolean =>
+  change.system !== undefined || change.start !== undefined || change.mass !== undefined;
+
+/** The change that takes a refused quantity back to its default; after some tries, all that can be refused. */
+function mended(refusal: Refusal, tries: number): Change {
+  const { system, mass, start } = DEFAULT_STATE;
+  const name = refusal.quantity ?? "";
+  if (tries < MOST_MENDINGS / 2) {
+    if (Object.hasOwn(system, name)) return { system: { [name]: system[name as keyof typeof system] } };
+    if (Object.hasOwn(start, name)) return { start: { [name]: start[name as keyof typeof start] } };
+    if (name === "mass") return { mass };
+  }
+  return { system, mass, start };
+}

@@ -1,0 +1,308 @@
+/** Toss and bounce: the motion itself, from the engine's own trajectory. */
+
+import "./views.css";
+
+import { Cancelled } from "../contract";
+import type { Context, Offer, State, View } from "../contract";
+import { ScreenChart } from "../drawing/chart_screen";
+import { element, Facts, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
+import { Layers } from "../drawing/layers";
+import { plain, quantity } from "../drawing/numbers";
+import type { MotionStart } from "../protocol";
+import { tellFailure } from "./failures";
+import { Controls } from "./toss/controls";
+import { tossOffers } from "./toss/offers";
+import { Player } from "./toss/player";
+import { Portrait } from "./toss/portrait";
+import { Recording } from "./toss/recording";
+import type { Moment } from "./toss/recording";
+import { describeGains, paintScale, paintScene, stageOf } from "./toss/scene";
+import type { Stage } from "./toss/scene";
+import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
+import type { Throw } from "./toss/throwing";
+import { traces } from "./toss/traces";
+
+const FIRST_PERIODS = 20;
+const MOST_PERIODS = 1280;
+const SAMPLES_PER_PERIOD = 64;
+/** More of the motion is asked for when less than this share of it is still to be shown. */
+const AHEAD = 0.35;
+const READOUTS = [
+  "Mode", "Time", "Height above the platform", "Angular speed", "Impacts so far",
+  "Kinetic, axial", "Kinetic, rotary", "Potential",
+] as const; // prettier-ignore
+const LEDGER = ["Work of the platform", "Lost in restitution", "Lost in friction", "Stored in the disk"] as const;
+
+class TossView implements View {
+  readonly name = "toss";
+  readonly title = "Toss and bounce";
+  readonly description = "Disk and platform in perspective, with time traces and the phase portrait of the impacts.";
+  private context!: Context;
+  private readonly scene = new Layers(
+    "picture-scene",
+    "Disk and platform in perspective. Space plays or pauses, left and right move in time, Home goes to the start.",
+  );
+  private readonly facts = new Facts(READOUTS, "Present state; energies per mass of the disk");
+  private readonly ledger = new Facts(LEDGER, "Energy balance per mass of the disk");
+  private readonly ledgerTitle = element("h3", {}, "Energy balance");
+  private readonly gains = element("p", { class: "remark" });
+  private readonly alternative = element("p", { class: "alternative" });
+  private readonly heights = new ScreenChart(() => (this.scene.width < 480 ? 190 : 230));
+  private readonly spins = new ScreenChart(() => (this.scene.width < 480 ? 190 : 230));
+  private portrait!: Portrait;
+  private controls!: Controls;
+  private readonly player = new Player(
+    () => this.recording?.periods ?? 0,
+    () => this.draw(),
+  );
+  private recording: Recording | null = null;
+  private stage: Stage | null = null;
+  private thrown: Throw | null = null;
+  private held: { height: number; angle: number } | null = null;
+  private asked = "";
+  private startShown = "";
+  private mounted = false;
+  private tracesDrawn = -1;
+  private anew = true;
+  private readonly draw = oncePerFrame(() => this.paint());
+
+  mount(host: HTMLElement, context: Context): void {
+    this.context = context;
+    this.portrait = new Portrait(context, (phase, speed) => this.choose(phase, speed));
+    this.controls = new Controls(this.player, () => this.period(), () => this.describe());
+    this.scene.surface.addEventListener("keydown", (event) => this.key(event));
+    attachThrowing(this.scene.surface, {
+      stage: () => this.stage,
+      pose: () => this.moment(),
+      system: () => context.state().system,
+      phase: () => this.phase(),
+      slowness: () => this.player.rate * this.period(),
+      hold: (at) => {
+        this.held = at;
+        if (at !== null) this.player.pause();
+        this.draw();
+      },
+      start: (thrown) => this.throwDisk(thrown),
+    });
+    const form = throwForm(() => context.state().system, () => this.phase(), (thrown) => this.throwDisk(thrown));
+    host.append(
+      this.controls.root,
+      element(
+        "div",
+        { class: "toss" },
+        element("div", { class: "toss-left" },
+          element("div", {}, this.scene.root, this.gains, this.alternative),
+          element("section", { "aria-label": "Time traces" }, this.heights.root, this.spins.root)),
+        element("div", { class: "toss-right" },
+          element("section", { class: "panel", "aria-label": "Readings" },
+            element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root, form),
+          element("section", { "aria-label": "Phase portrait" }, element("h3", {}, "Impacts"), this.portrait.layers.root,
+            element("p", { class: "remark" },
+              "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there."))),
+      ),
+    ); // prettier-ignore
+    this.mounted = true;
+  }
+
+  show(state: State): void {
+    const start = JSON.stringify(state.start);
+    // Another start in the state takes the place of a throw.
+    if (start !== this.startShown) this.thrown = null;
+    this.startShown = start;
+    void this.fetch(FIRST_PERIODS);
+    this.draw();
+  }
+
+  hide(): void {
+    this.player.pause();
+    this.context.client.cancel("toss-motion");
+    if (this.recording === null) this.asked = "";
+  }
+
+  redraw(): void {
+    if (!this.mounted) return;
+    this.tracesDrawn = -1;
+    this.anew = true;
+    this.draw();
+  }
+
+  offers(): Offer[] {
+    if (this.recording === null) return [];
+    return tossOffers(this.recording, this.player.now, { system: this.context.state().system, start: this.start() }, () => this.portrait.axes());
+  }
+
+  private start(): MotionStart {
+    return this.thrown ?? { kind: "impact", ...this.context.state().start };
+  }
+
+  private period(): number {
+    return (2 * Math.PI) / this.context.state().system.angular_frequency;
+  }
+
+  /** The platform's phase now (rad). */
+  private phase(): number {
+    const start = this.start();
+    const first = start.kind === "impact" ? start.impact_phase : start.phase;
+    const phase = first + this.player.now * 2 * Math.PI;
+    return phase - 2 * Math.PI * Math.floor(phase / (2 * Math.PI));
+  }
+
+  /** Asks for a motion of so many periods. Another motion begins anew; more of the same goes on. */
+  private async fetch(periods: number): Promise<void> {
+    const { system } = this.context.state();
+    const start = this.start();
+    const motion = JSON.stringify([system, start]);
+    const same = this.asked.startsWith(motion);
+    const key = `${motion} ${periods}`;
+    if (same && periods <= Number(this.asked.slice(motion.length))) return;
+    const first = this.recording === null;
+    this.asked = key;
+    try {
+      const response = await this.context.client.ask("toss-motion", {
+        call: "motion",
+        system: { ...system },
+        start,
+        periods,
+        samples_per_period: SAMPLES_PER_PERIOD,
+      });
+      if (this.asked !== key) return;
+      this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods), same, first);
+    } catch (error) {
+      if (this.asked === key && !(error instanceof Cancelled)) this.asked = "";
+      tellFailure(this.context, error);
+    }
+  }
+
+  private take(recording: Recording, same: boolean, first: boolean): void {
+    this.recording = recording;
+    this.tracesDrawn = -1;
+    this.anew = true;
+    if (!same) {
+      this.player.now = 0;
+      this.stage = null;
+      if (!this.thrown) this.context.status(`The motion begins with the shared impact.`);
+    }
+    // The first motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
+    if (first && !prefersLessMotion()) this.player.play();
+    else if (!same && !this.player.playing) this.player.now = prefersLessMotion() ? Math.min(7, recording.periods) : 0;
+    this.showLedger(recording);
+    this.describe();
+    this.draw();
+  }
+
+  private moment(): Moment | null {
+    const { recording } = this;
+    if (recording === null) return null;
+    const moment = recording.at(this.player.now * recording.period);
+    return this.held === null ? moment : { ...moment, ...this.held, mode: "held" };
+  }
+
+  private paint(): void {
+    const { recording, context, player } = this;
+    if (!this.mounted) return;
+    const resized = this.scene.fit();
+    const moment = this.moment();
+    if (recording === null || moment === null || this.scene.width < 60) return;
+    if (resized || this.stage === null) this.setStage(recording);
+    const { stage } = this;
+    if (stage === null) return;
+    const pen = this.scene.data(context.colour);
+    paintScene(pen, stage, moment, context.colour);
+    paintScale(pen, stage, this.scene.height, context.colour);
+    this.controls.show(recording.periods);
+    this.showFacts(moment, recording);
+    this.showTraces(recording);
+    this.portrait.show(recording, context.state().start, recording.impactsUntil(player.now * recording.period), this.anew);
+    this.anew = false;
+    if (player.playing && player.now > recording.periods * (1 - AHEAD)) {
+      if (recording.periods < MOST_PERIODS) void this.fetch(recording.periods * 2);
+      else if (player.now >= recording.periods) this.stopAtEnd(recording);
+    }
+  }
+
+  private stopAtEnd(recording: Recording): void {
+    this.player.pause();
+    this.controls.show(recording.periods);
+    this.context.status(`The end of ${recording.periods} periods. Back to the start to see them again.`);
+    this.describe();
+  }
+
+  private setStage(recording: Recording): void {
+    const { gyration_radius, contact_radius, twist_amplitude } = this.context.state().system;
+    // A homogeneous disk of that radius of gyration; friction acts inside of its rim.
+    const radius = Math.max(Math.SQRT2 * gyration_radius, contact_radius);
+    const heights = recording.extent("height", "platform_height");
+    this.stage = stageOf(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
+    setText(this.gains, `${describeGains(this.stage)} Drag the disk upwards or sideways to throw it.`);
+  }
+
+  private showTraces(recording: Recording): void {
+    const { now } = this.player;
+    if (now === this.tracesDrawn) return;
+    this.tracesDrawn = now;
+    const [heights, spins] = traces(recording, now);
+    this.heights.show(heights, this.context.colour);
+    this.spins.show(spins, this.context.colour);
+  }
+
+  private showFacts(moment: Moment, recording: Recording): void {
+    const { gyration_radius, preload_acceleration } = this.context.state().system;
+    const { facts, player } = this;
+    facts.set("Mode", moment.mode);
+    facts.set("Time", `${player.now.toFixed(2)} periods, ${quantity(moment.time, "s")}`);
+    facts.set("Height above the platform", quantity(Math.max(moment.height - moment.platform_height, 0), "m"));
+    facts.set("Angular speed", `${plain(moment.angular_speed, 3)} rad/s`);
+    facts.set("Impacts so far", String(recording.impactsUntil(player.now * recording.period)));
+    facts.set("Kinetic, axial", quantity(moment.axial_velocity ** 2 / 2, "J/kg"));
+    facts.set("Kinetic, rotary", quantity((gyration_radius * moment.angular_speed) ** 2 / 2, "J/kg"));
+    facts.set("Potential", quantity(preload_acceleration * moment.height, "J/kg"));
+  }
+
+  private showLedger({ energy, periods }: Recording): void {
+    setText(this.ledgerTitle, `Energy balance of ${periods} periods`);
+    this.ledger.set("Work of the platform", quantity(energy.platform_work, "J/kg"));
+    this.ledger.set("Lost in restitution", quantity(energy.restitution_loss, "J/kg"));
+    this.ledger.set("Lost in friction", quantity(energy.friction_loss, "J/kg"));
+    this.ledger.set("Stored in the disk", quantity(energy.stored, "J/kg"));
+  }
+
+  private throwDisk(thrown: Throw): void {
+    this.thrown = thrown;
+    this.context.status(describeThrow(thrown));
+    this.context.announce(describeThrow(thrown));
+    void this.fetch(FIRST_PERIODS);
+    if (!prefersLessMotion()) this.player.play();
+  }
+
+  private choose(phasePeriods: number, speed: number): void {
+    const start = { impact_phase: phasePeriods * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) };
+    this.context.change({ start });
+    this.context.status(`The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`);
+  }
+
+  private key(event: KeyboardEvent): void {
+    const step = event.shiftKey ? 1 : 1 / 16;
+    if (event.key === " ") this.controls.toggle();
+    else if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
+      this.player.pause();
+      this.player.seek(this.player.now + (event.key === "ArrowLeft" ? -step : step));
+    } else if (event.key === "Home") this.player.seek(0);
+    else return;
+    event.preventDefault();
+  }
+
+  /** Not while it moves: a screen reader would never come to an end. */
+  private describe(): void {
+    const moment = this.moment();
+    const { recording, player } = this;
+    if (moment === null || recording === null) return;
+    const impacts = recording.impactsUntil(player.now * recording.period);
+    const gap = quantity(Math.max(moment.height - moment.platform_height, 0), "m");
+    const text =
+      `After ${player.now.toFixed(2)} periods and ${impacts} impacts the disk is in ${moment.mode}, ${gap} above the ` +
+      `platform, and turns at ${plain(moment.angular_speed, 3)} rad/s; the platform at ${plain(moment.platform_angular_speed, 3)} rad/s.`;
+    setText(this.alternative, player.playing ? "" : text);
+  }
+}
+
+export const view: View = new TossView();

@@ -1,0 +1,111 @@
+/** Links reproduce states to the bit, and what is broken in them is said and left out. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { launch, opened, settled, stateOf } from "./browser.mjs";
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser.close());
+
+/** A seeded stream of numbers in [0, 1), so that a failure comes back. */
+function stream(seed) {
+  let state = seed >>> 0;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+test("states with awkward numbers come back to the bit", async () => {
+  const random = stream(7);
+  const { page, context, errors } = await opened(browser);
+  for (let round = 0; round < 25; round++) {
+    const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
+    const wanted = {
+      view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
+      amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15, phase_lag: -3 * random(),
+      contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
+      preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
+      impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
+      diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
+      diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
+      basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
+      motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7", motor_rise_times: String(1 + 5 * random()),
+    }; // prettier-ignore
+    const hash = `#${Object.entries(wanted).map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`).join("&")}`;
+    await page.evaluate((next) => {
+      location.hash = next;
+    }, hash);
+    await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
+    await page.waitForFunction((text) => document.getElementById("field-amplitude").title === text, String(wanted.amplitude));
+    assert.equal(await page.evaluate(() => location.hash), hash);
+    const typed = await page.evaluate(() =>
+      Object.fromEntries([...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title])),
+    );
+    for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
+      assert.equal(Number(typed[name]), wanted[name], name);
+    }
+    assert.equal(await page.isVisible("#problems"), false);
+  }
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("the copied link opens the same state in a fresh page", async () => {
+  const { page, context } = await opened(browser);
+  await page.click("#presets-button");
+  await page.click('[data-preset="fig06"]');
+  await settled(page);
+  await page.evaluate(() => {
+    document.execCommand = () => {
+      globalThis.copied = document.activeElement.value;
+      return true;
+    };
+    Object.defineProperty(navigator, "clipboard", { value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) } });
+  });
+  await page.click("#link-button");
+  await page.waitForFunction(() => globalThis.copied);
+  const link = await page.evaluate(() => globalThis.copied);
+  const digests = await page.evaluate(() => document.querySelector(".view:not([hidden]) canvas")?.dataset.digests);
+  const fresh = await opened(browser, { hash: link.slice(link.indexOf("#")) });
+  await settled(fresh.page);
+  assert.deepEqual(await stateOf(fresh.page), await stateOf(page));
+  assert.match(await fresh.page.textContent("#note"), /Fig\. 6/);
+  assert.equal(await fresh.page.evaluate(() => document.querySelector(".view:not([hidden]) canvas")?.dataset.digests), digests);
+  await fresh.context.close();
+  await context.close();
+});
+
+test("broken parts of a link are refused with a sentence each, and the rest is kept", async () => {
+  const hash =
+    "#view=diagram&friction=0.3&restitution=1.5&amplitude=abc&nonsense=1&mass=1&mass=2&basins_speed=5,1&diagram_quantity=%E0%A4%A&gyration_radius=0x1";
+  const { page, context, errors } = await opened(browser, { hash });
+  await settled(page);
+  const state = await stateOf(page);
+  assert.equal(state.view, "diagram");
+  assert.equal(state.friction, "0.3");
+  assert.equal(state.mass, "1");
+  assert.equal(state.restitution, "0.5");
+  assert.equal(state.basins_speed, "0,5");
+  const text = await page.textContent("#problems");
+  for (const part of ["abc", "nonsense", "twice", "5,1", "diagram_quantity", "0x1"]) assert.ok(text.includes(part), `${part}: ${text}`);
+  assert.deepEqual(errors, []);
+  await page.click("#problems .close");
+  assert.equal(await page.isVisible("#problems"), false);
+  await context.close();
+});
+
+test("a link with nothing legal in it opens the defaults", async () => {
+  for (const hash of ["#", "#%%%", "#restitution=7&amplitude=-1&angular_frequency=0&mass=-3&normalised_speed=-1", "#<script>alert(1)</script>"]) {
+    const { page, context, errors } = await opened(browser, { hash });
+    await settled(page);
+    const state = await stateOf(page);
+    assert.equal(state.restitution, "0.5", hash);
+    assert.equal(state.angular_frequency, "15", hash);
+    assert.deepEqual(errors, []);
+    await context.close();
+  }
+});
