@@ -1,180 +1,8 @@
-//! Digests of results, recorded before the work on speed: a faster solver may not change a bit of them.
-//!
-//! A digest that differs means that the arithmetic of a flight, or a decision in it, is another one. Such a change needs a
-//! reason of its own (docs/numerics/solver.md, "Same bits everywhere"); record the digests again only together with it.
+//! The recorded digests, on this machine.
 
 mod paper;
-
-use std::f64::consts::TAU;
-
-use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit, Label,
-    OrbitBatch, OrbitEvent, Phase, Vibration, elementary,
-};
-
-use bouncing_disk_core::numerics::digest::Digest;
-use paper::PAPER_POLICY;
-
-/// Half: dividing a launch speed by it, to get the impact before, loses nothing.
-const RESTITUTION: f64 = 0.5;
-const LAUNCHES: u64 = 100_000;
-const ORBIT_IMPACTS: usize = 100_000;
-const CELLS: usize = 200;
-
-/// Adds the four numbers of an impact.
-fn add_state(digest: &mut Digest, state: ImpactState) {
-    let phase = state.phase();
-    for number in [phase.angle(), phase.sin(), phase.cos(), state.velocity()] {
-        digest.number(number);
-    }
-}
-
-/// Well spread numbers in [0, 1).
-fn spread(k: u64, factor: f64) -> f64 {
-    (k as f64 * factor) % 1.0
-}
-
-fn first(k: u64) -> f64 {
-    spread(k, 0.618_033_988_749_894_9)
-}
-
-fn second(k: u64) -> f64 {
-    spread(k, 0.754_877_666_246_692_7)
-}
-
-fn third(k: u64) -> f64 {
-    spread(k, 0.569_840_290_998_053_3)
-}
-
-/// Peak acceleration, launch phase and launch speed.
-type Start = (f64, f64, f64);
-/// The launches of one kind, counted through.
-type Regime = fn(u64) -> Start;
-
-fn monotone(k: u64) -> Start {
-    let peak = 1.0 + 2.0 * third(k);
-    (peak, TAU * first(k), (1.0 + peak) * (1.0 + 3.0 * second(k)))
-}
-
-fn guarded(k: u64) -> Start {
-    let peak = 1.0 + 9.0 * third(k);
-    (peak, TAU * first(k), (1.0 + peak) * (0.2 + 0.8 * second(k)))
-}
-
-fn still(k: u64) -> Start {
-    (third(k), TAU * first(k), 0.01 + 3.0 * second(k))
-}
-
-fn chatter(k: u64) -> Start {
-    let peak = 3.0 * third(k);
-    (peak, TAU * first(k), libm::exp10(-8.0 * second(k)))
-}
-
-/// From rest, anywhere where the platform falls away.
-fn rest(k: u64) -> Start {
-    let peak = 1.0 + 1.0e-6 + 20.0 * third(k);
-    let separation = elementary::asin(1.0 / peak) + 1.0e-9;
-    let retention = TAU / 2.0 - 1.0e-9 - separation;
-    (peak, separation + (retention - separation) * first(k), 0.0)
-}
-
-/// A flight that touches the platform as it falls away, or passes it closely: traced back from the touch, with the
-/// speed off by up to 1e-3 and down to rounding.
-fn grazing(k: u64) -> Start {
-    let peak = 1.2 + 8.0 * third(k);
-    let separation = elementary::asin(1.0 / peak);
-    let touch = separation + (TAU / 4.0 - separation) * (0.05 + 0.9 * first(k));
-    let (sin, cos) = elementary::sin_cos(touch);
-    let gap =
-        |back: f64| peak * sin - back * (peak * cos + 0.5 * back) - peak * elementary::sin(touch - back);
-    let (mut inside, mut outside) = (0.01, 0.01);
-    while gap(outside) > 0.0 {
-        inside = outside;
-        outside += 0.02;
-    }
-    for _ in 0..60 {
-        let middle = 0.5 * (inside + outside);
-        if gap(middle) > 0.0 {
-            inside = middle;
-        } else {
-            outside = middle;
-        }
-    }
-    let speed = peak * cos + inside - peak * elementary::cos(touch - inside);
-    let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-    let off = libm::exp10(-3.0 - 13.0 * second(k));
-    (peak, touch - inside, speed * (1.0 + sign * off))
-}
-
-/// The motor of Table III: P = A omega^2 / g for 1e-8 m at 70 kHz.
-fn motor(k: u64) -> Start {
-    (197.392_088, TAU * first(k), 500.0 * second(k) * third(k))
-}
-
-fn strongly_forced(k: u64) -> Start {
-    let peak = libm::exp10(2.0 + 3.0 * third(k));
-    (peak, TAU * first(k), 2.0 * peak * second(k))
-}
-
-/// Flights of up to a million periods.
-fn long(k: u64) -> Start {
-    (10.0 * third(k), TAU * first(k), 3.0 * libm::exp10(6.0 * second(k)))
-}
-
-fn prepared(regime: Regime) -> Vec<(ImpactMap, ImpactState)> {
-    (0..LAUNCHES)
-        .map(|k| {
-            let (peak, angle, speed) = regime(k);
-            let map = ImpactMap::new(Vibration::new(peak).expect("legal"), RESTITUTION).expect("legal");
-            let phase = Phase::new(angle).expect("finite");
-            (map, ImpactState::new(phase, -speed / RESTITUTION).expect("legal"))
-        })
-        .collect()
-}
-
-/// Digests of the flights of these launches (durations) and of the impacts that end them. A launch without impact leaves
-/// its state as it is, as in an [`OrbitBatch`].
-fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
-    let (mut flights, mut impacts) = (Digest::new(), Digest::new());
-    for &(map, state) in launches {
-        let Ok(impact) = map.step(state) else {
-            flights.bytes(b"none");
-            add_state(&mut impacts, state);
-            continue;
-        };
-        flights.bytes(&impact.periods.to_le_bytes());
-        flights.bytes(&impact.turns.to_le_bytes());
-        flights.number(impact.remainder);
-        add_state(&mut impacts, impact.into());
-    }
-    [flights.value(), impacts.value()]
-}
-
-/// The digest of the same impacts, computed in lockstep.
-fn together(launches: &[(ImpactMap, ImpactState)], set: InstructionSet) -> u64 {
-    let mut ensemble = OrbitBatch::with_instruction_set(launches.iter().copied(), set);
-    // A launch from rest where the platform does not fall away has no impact; it stays where it is.
-    let _ = ensemble.step();
-    let mut impacts = Digest::new();
-    (0..ensemble.len()).for_each(|k| add_state(&mut impacts, ensemble.state(k).expect("exists")));
-    impacts.value()
-}
-
-/// What differs from the recorded digests, a line each.
-fn differences(name: &str, launches: &[(ImpactMap, ImpactState)], recorded: [u64; 2]) -> Vec<String> {
-    let digests = one_by_one(launches);
-    let mut lines = Vec::new();
-    if digests != recorded {
-        lines.push(format!("{name}, one by one: [{:#018x}, {:#018x}]", digests[0], digests[1]));
-    }
-    for set in InstructionSet::available() {
-        let lanes = together(launches, set);
-        if lanes != digests[1] {
-            lines.push(format!("{name} with {set:?}: {lanes:#018x}, one by one {:#018x}", digests[1]));
-        }
-    }
-    lines
-}
+#[path = "golden/results.rs"]
+mod results;
 
 fn assert_none(differences: &[String]) {
     assert!(differences.is_empty(), "not as recorded:\n{}", differences.join("\n"));
@@ -182,88 +10,20 @@ fn assert_none(differences: &[String]) {
 
 #[test]
 fn launches_of_every_regime() {
-    let regimes: [(&str, Regime, [u64; 2]); 9] = [
-        ("monotone", monotone, [0xdfe2_a0cc_9a1b_00d4, 0x5d08_2394_1611_8a1f]),
-        ("guarded", guarded, [0xd0b1_c4c4_a9fb_df9e, 0xc402_e885_84c9_2f8e]),
-        ("still", still, [0x057d_f178_251b_f12e, 0x8b9c_4c48_04ca_592b]),
-        ("chatter", chatter, [0xb203_d7b4_e066_6b50, 0xeac0_9ae9_71e2_32de]),
-        ("rest", rest, [0x3d4b_dad1_f9b5_e254, 0xfb7a_d8fe_0cc6_3f87]),
-        ("grazing", grazing, [0x1cbf_6406_8cab_4576, 0xd96f_6808_5b06_30f3]),
-        ("motor", motor, [0x7616_b03f_8785_372d, 0x38ae_4d70_b0ba_ad30]),
-        ("strongly forced", strongly_forced, [0x32ed_a600_1014_7d6d, 0xc091_60ec_f42b_f824]),
-        ("long", long, [0xc4ff_f976_8ce3_6ead, 0x0ad8_086a_619e_370f]),
-    ];
-    let different: Vec<_> = regimes
-        .into_iter()
-        .flat_map(|(name, regime, recorded)| differences(name, &prepared(regime), recorded))
-        .collect();
-    assert_none(&different);
+    assert_none(&results::launches_of_every_regime());
 }
 
-/// W1 of docs/performance.md. Every state of the orbit is a launch of its own for the lanes.
 #[test]
 fn chaotic_orbit() {
-    let vibration = Vibration::from_axial_forcing(0.55).expect("legal");
-    let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
-    let mut state = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let launches: Vec<_> = (0..ORBIT_IMPACTS)
-        .map(|_| {
-            let before = state;
-            state = map.step(before).expect("an impact follows").into();
-            (map, before)
-        })
-        .collect();
-    let recorded = [0x6668_6b19_7e4a_6dff, 0x70d4_dca4_687d_8111];
-    assert_none(&differences("chaotic orbit", &launches, recorded));
+    assert_none(&results::chaotic_orbit());
 }
 
-/// The orbits of the two policies, with the places where they stick.
 #[test]
 fn orbits_with_chatter() {
-    let mut digest = Digest::new();
-    for policy in [ChatterPolicy::Complete, PAPER_POLICY] {
-        for k in 0..40 {
-            let vibration = Vibration::from_axial_forcing(0.34 + 0.05 * k as f64).expect("legal");
-            let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
-            let start = ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal");
-            for event in map.orbit(start, policy).take(1_000) {
-                match event.expect("no failure") {
-                    OrbitEvent::Impact(impact) => add_state(&mut digest, impact.into()),
-                    OrbitEvent::Attachment(stick) => {
-                        digest.number(stick.accumulation.phase.angle());
-                        digest.number(stick.last_speed);
-                    }
-                    _ => digest.bytes(b"another event"),
-                }
-            }
-        }
-    }
-    assert!(digest.value() == 0x4ef0_e214_d440_d948, "{:#018x}", digest.value());
+    assert_none(&results::orbits_with_chatter(paper::PAPER_POLICY));
 }
 
-/// W3 of docs/performance.md on a smaller grid.
 #[test]
 fn basin_labels() {
-    let vibration = Vibration::from_axial_forcing(0.5).expect("legal");
-    let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
-    let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
-    let radius = orbit.trapping_radius(&map, 64).expect("it attracts");
-    let known = [KnownOrbit::new(orbit, radius).expect("legal")];
-    let axis = |high| Axis::new(0.0, high, CELLS).expect("legal");
-    let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
-    let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
-    let one_by_one: Vec<Label> = (0..CELLS * CELLS)
-        .map(|cell| {
-            let angle = grid.impact_angle(cell % CELLS);
-            let start =
-                ImpactState::from_normalised(angle, grid.speed().centre(cell / CELLS)).expect("legal");
-            map.basin_label(start, &known, settings).expect("no failure")
-        })
-        .collect();
-    let mut digest = Digest::new();
-    digest.bytes(&one_by_one);
-    assert!(digest.value() == 0x7cd3_49bf_9543_3cca, "{:#018x}", digest.value());
-    let together = map.basins(grid, &known, settings).expect("no failure");
-    assert!(together.labels() == one_by_one, "labels in lockstep differ from those one by one");
+    assert_none(&results::basin_labels());
 }

@@ -64,3 +64,19 @@ impl Reply {
         self.0.take_bytes()
     }
 }
+
+/// The digests of results as JSON, for the tests; an error is a text that is none.
+#[cfg(feature = "digests")]
+#[wasm_bindgen]
+#[must_use]
+pub fn digests() -> String {
+    crate::digests().unwrap_or_else(|error| error.to_string())
+}
+
+/// What differs from the golden digests of the core.
+#[cfg(feature = "digests")]
+#[wasm_bindgen]
+#[must_use]
+pub fn golden_differences() -> Vec<String> {
+    crate::golden_differences()
+}

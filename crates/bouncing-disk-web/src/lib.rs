@@ -17,6 +17,8 @@
 mod binding;
 mod branches;
 mod diagram;
+#[cfg(feature = "digests")]
+mod digests;
 mod explorer;
 mod motion;
 mod motor;
@@ -27,5 +29,7 @@ mod request;
 mod shared_basins;
 mod summary;
 
+#[cfg(feature = "digests")]
+pub use digests::{digests, golden_differences};
 pub use explorer::Explorer;
 pub use reply::Reply;

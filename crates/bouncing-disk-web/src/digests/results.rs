@@ -1,9 +1,4 @@
-//! Prints digests of results as JSON. `tests/test_same_bits.py` makes the same calls from Python and
-//! compares.
-//!
-//!     cargo run --release -p bouncing-disk-python --example digests >
-//!     crates/bouncing-disk-python/tests/digests.json
-#![allow(clippy::print_stdout, reason = "an example shows its result")]
+//! What the digests are of. `tests/test_same_bits.py` of the Python package makes the same calls.
 
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
@@ -225,8 +220,9 @@ fn operations() -> Result<Digest, Error> {
     Ok(digest)
 }
 
-fn main() -> Result<(), Error> {
-    let all = [
+/// All of them, by their names.
+pub(super) fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
+    Ok(vec![
         ("diagram", diagram(ChatterPolicy::Complete)?),
         ("diagram with the paper's cut", diagram(PAPER_CHATTER)?),
         ("basins", basins()?),
@@ -237,8 +233,5 @@ fn main() -> Result<(), Error> {
         ("manifolds", manifolds()?),
         ("crisis", crisis()?),
         ("operations", operations()?),
-    ];
-    let lines: Vec<_> = all.iter().map(|(name, digest)| format!("  \"{name}\": \"{digest}\"")).collect();
-    println!("{{\n{}\n}}", lines.join(",\n"));
-    Ok(())
+    ])
 }
