@@ -45,7 +45,8 @@ pub(crate) struct Options {
 
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     tools::complain_of_missing(options.rustc.as_deref(), options.build_std)?;
-    let out = if options.out.is_absolute() { options.out.clone() } else { in_workspace("").join(&options.out) };
+    let out =
+        if options.out.is_absolute() { options.out.clone() } else { in_workspace("").join(&options.out) };
     let module = compiled(options)?;
     let work = out.join("module");
     std::fs::create_dir_all(&work).with_context(|| format!("{} cannot be made", work.display()))?;
@@ -69,7 +70,7 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
             .arg("--out")
             .arg(&out),
     )?;
-    say!("{}", out.join("explorer.html").display());
+    say!("{}", out.join("explorer.html").display())?;
     if options.serve {
         serve::folder(&out.join("site"), options.port)?;
     }

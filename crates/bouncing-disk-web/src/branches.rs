@@ -1,7 +1,8 @@
 //! Branches of periodic orbits over the forcing, stable and unstable.
 
 use bouncing_disk::core::{
-    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError, PeriodicOrbit,
+    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError,
+    PeriodicOrbit,
 };
 use serde::Serialize;
 
@@ -67,8 +68,11 @@ pub(crate) fn answer(restitution: f64, axial_forcing: [f64; 2]) -> Result<Reply,
 }
 
 fn settings(range: (f64, f64), rising: bool) -> Result<Continuation, CoreError> {
-    Continuation::new(ContinuationParameter::Forcing, range, rising)?
-        .with_steps(FIRST_STEP, LARGEST_STEP, MOST_POINTS)
+    Continuation::new(ContinuationParameter::Forcing, range, rising)?.with_steps(
+        FIRST_STEP,
+        LARGEST_STEP,
+        MOST_POINTS,
+    )
 }
 
 struct Found {
@@ -91,7 +95,9 @@ impl Found {
         self.add(&branch);
         for _ in 0..DOUBLINGS {
             let doubling = |kind: &BifurcationKind| *kind == BifurcationKind::Doubling;
-            let Some(index) = branch.bifurcations.iter().position(|found| doubling(&found.kind)) else { break };
+            let Some(index) = branch.bifurcations.iter().position(|found| doubling(&found.kind)) else {
+                break;
+            };
             branch = branch.switched(index, &settings(range, true)?)?;
             self.add(&branch);
         }

@@ -92,9 +92,8 @@ fn rotating(
             continue;
         }
         let after = match collision.state.rebound(&system)? {
-            InitialCondition::Launch { angular_speed, .. } | InitialCondition::Contact { angular_speed, .. } => {
-                angular_speed
-            }
+            InitialCondition::Launch { angular_speed, .. }
+            | InitialCondition::Contact { angular_speed, .. } => angular_speed,
             _ => f64::NAN,
         };
         let largest = system.twist_speed();

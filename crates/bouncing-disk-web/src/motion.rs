@@ -135,10 +135,9 @@ const fn carried(platform: &PlatformState) -> DiskState {
 fn event(scales: &Scales, record: &EventRecord) -> [f64; 5] {
     let after = scales.state(&record.after);
     let (speed, tangential) = match record.event {
-        Event::Impact { axial_impact_velocity, tangential_impact_velocity, .. } => (
-            -axial_impact_velocity / std::f64::consts::PI,
-            tangential_impact_velocity * scales.angular_speed,
-        ),
+        Event::Impact { axial_impact_velocity, tangential_impact_velocity, .. } => {
+            (-axial_impact_velocity / std::f64::consts::PI, tangential_impact_velocity * scales.angular_speed)
+        }
         _ => (f64::NAN, f64::NAN),
     };
     [record.time.phase.angle(), speed, tangential, after.angular_speed, after.height]

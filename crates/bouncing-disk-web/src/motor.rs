@@ -161,7 +161,9 @@ fn row(point: &OperatingPoint, status: f64) -> [f64; 10] {
 fn lacking(shortfall: &Shortfall) -> String {
     match shortfall {
         Shortfall::Error { standard_error, wanted } => {
-            format!("the error of the speed is {standard_error:.3e} rad/s, and {wanted:.3e} rad/s was asked for")
+            format!(
+                "the error of the speed is {standard_error:.3e} rad/s, and {wanted:.3e} rad/s was asked for"
+            )
         }
         Shortfall::Drift { drift, standard_error } => {
             format!("the speed still drifts, by {drift:.3e} +- {standard_error:.3e} rad/s")

@@ -21,7 +21,10 @@ impl fmt::Debug for Reply {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { json, numbers, bytes, refused, digest } = self;
         let (numbers, bytes) = (numbers.len(), bytes.len());
-        write!(f, "Reply {{ refused: {refused}, numbers: {numbers}, bytes: {bytes}, digest: {digest}, {json} }}")
+        write!(
+            f,
+            "Reply {{ refused: {refused}, numbers: {numbers}, bytes: {bytes}, digest: {digest}, {json} }}"
+        )
     }
 }
 

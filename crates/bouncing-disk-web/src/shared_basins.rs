@@ -1,8 +1,6 @@
 //! The attractors of a map, and rows of their basins.
 
-use bouncing_disk::core::{
-    Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
-};
+use bouncing_disk::core::{Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid};
 use serde::Serialize;
 
 use crate::refusal::Refusal;

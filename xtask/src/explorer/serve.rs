@@ -18,14 +18,12 @@ pub(super) fn folder(folder: &Path, port: u16) -> Result<()> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))
         .with_context(|| format!("port {port} is taken; --port 0 takes any that is free"))?;
     let address = format!("http://{}/", listener.local_addr()?);
-    say!("{address} (Ctrl-C ends it)");
+    say!("{address} (Ctrl-C ends it)")?;
     open(&address);
-    for connection in listener.incoming() {
-        // A browser that goes away ends its own request alone.
-        if let Ok(connection) = connection {
-            let folder = folder.to_owned();
-            std::thread::spawn(move || answer(connection, &folder));
-        }
+    // A browser that goes away ends its own request alone.
+    for connection in listener.incoming().flatten() {
+        let folder = folder.to_owned();
+        std::thread::spawn(move || answer(connection, &folder));
     }
     Ok(())
 }

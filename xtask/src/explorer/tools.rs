@@ -28,7 +28,9 @@ pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Resu
         Some(version) if version < OLDEST_NODE => {
             missing.push(format!("Node {OLDEST_NODE} or later; this is {version} (https://nodejs.org)"));
         }
-        Some(_) if !runs(&mut npm()) => missing.push("npm (it comes with Node, https://nodejs.org)".to_owned()),
+        Some(_) if !runs(&mut npm()) => {
+            missing.push("npm (it comes with Node, https://nodejs.org)".to_owned())
+        }
         Some(_) => {}
     }
     if missing.is_empty() { Ok(()) } else { bail!("the explorer needs {}", missing.join(", and ")) }
@@ -78,7 +80,8 @@ pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
 /// The version of a package in Cargo.lock.
 fn locked_version(package: &str) -> Result<String> {
     let lock = in_workspace("Cargo.lock");
-    let text = std::fs::read_to_string(&lock).with_context(|| format!("{} cannot be read", lock.display()))?;
+    let text =
+        std::fs::read_to_string(&lock).with_context(|| format!("{} cannot be read", lock.display()))?;
     version_in(&text, package).with_context(|| format!("Cargo.lock has no {package}"))
 }
 

@@ -164,7 +164,11 @@ impl core::fmt::Display for AttractorKind {
         match self {
             Self::Rest(AfterRest::StaysForEver) => formatter.write_str("comes to rest for ever"),
             Self::Rest(AfterRest::RestsAgain(cycle)) => {
-                write!(formatter, "comes to rest again and again: platform periods {}", cycle.platform_periods)
+                write!(
+                    formatter,
+                    "comes to rest again and again: platform periods {}",
+                    cycle.platform_periods
+                )
             }
             Self::Rest(AfterRest::LeadsTo(other)) => {
                 write!(formatter, "comes to rest, then attractor {other}")

@@ -1,0 +1,290 @@
+//! Answers to requests: what a page relies on, and every seam of what it may ask.
+
+use bouncing_disk_web::{Explorer, Reply};
+use serde_json::{Value, json};
+
+fn pizza() -> Value {
+    json!({
+        "amplitude": 0.13, "twist_amplitude": 1.0, "angular_frequency": 15.0, "phase_lag": 0.3, "contact_radius": 0.135,
+        "gyration_radius": 0.11, "friction": 0.6, "restitution": 0.5, "preload_acceleration": 9.8, "load_acceleration": 0.0
+    })
+}
+
+fn sheet() -> Value {
+    json!({
+        "drive_frequency": 70e3, "amplitude": 1e-8, "peak_angular_speed": 30.0, "phase_lag": 0.0, "mass": 1e-3,
+        "contact_radius": 1.25e-3, "gyration_radius": 6.3e-3, "preload_acceleration": 9.8, "friction": 0.1,
+        "restitution": 0.5, "load_torque": 0.0
+    })
+}
+
+/// The same with other values.
+fn with(mut value: Value, changes: Value) -> Value {
+    for (name, change) in changes.as_object().expect("an object") {
+        value[name] = change.clone();
+    }
+    value
+}
+
+fn ask(request: &Value) -> Reply {
+    Explorer::new().respond(&request.to_string())
+}
+
+fn answered(request: &Value) -> (Value, Reply) {
+    let reply = ask(request);
+    assert!(!reply.refused(), "{request}: {}", reply.json());
+    (serde_json::from_str(reply.json()).expect("JSON"), reply)
+}
+
+fn refused(request: &Value) -> Value {
+    let reply = ask(request);
+    assert!(reply.refused(), "{request}: {}", reply.json());
+    assert!(reply.numbers().is_empty() && reply.bytes().is_empty());
+    serde_json::from_str(reply.json()).expect("JSON")
+}
+
+fn start() -> Value {
+    json!({ "impact_phase": 1.2, "normalised_speed": 1.3 })
+}
+
+fn motion(start: Value, periods: u64) -> Value {
+    json!({ "call": "motion", "system": pizza(), "start": start, "periods": periods, "samples_per_period": 60 })
+}
+
+fn diagram(columns: [usize; 2], rotation: bool) -> Value {
+    json!({
+        "call": "diagram", "system": pizza(), "axial_forcing": [0.3, 0.62], "count": 40, "columns": columns,
+        "start": start(), "transient": 300, "recorded": 20, "rotation": rotation
+    })
+}
+
+fn basins(rows: [usize; 2]) -> Value {
+    json!({
+        "call": "basins", "axial_forcing": 0.486, "restitution": 0.5, "phase_periods": [0.0, 1.0], "phases": 30,
+        "normalised_speed": [0.0, 3.0], "speeds": 20, "rows": rows
+    })
+}
+
+#[test]
+fn a_system_is_checked_by_the_ranges_of_the_library() {
+    let (summary, _) = answered(&json!({ "call": "check", "system": pizza() }));
+    let forcing = 0.13 * 225.0 / (std::f64::consts::PI * 9.8);
+    assert!((summary["axial_forcing"].as_f64().expect("a number") - forcing).abs() < 1e-15);
+    assert_eq!(summary["bounces"], true);
+    for (name, value) in [("restitution", 1.5), ("amplitude", -1.0), ("angular_frequency", 0.0)] {
+        let system = with(pizza(), json!({ name: value }));
+        let refusal = refused(&json!({ "call": "check", "system": system }));
+        assert_eq!((&refusal["kind"], &refusal["quantity"]), (&json!("out-of-range"), &json!(name)));
+        assert_eq!(refusal["value"].as_f64(), Some(value));
+        assert!(refusal["range"].as_str().is_some_and(|range| !range.is_empty()), "{refusal}");
+    }
+    let frictionless = with(pizza(), json!({ "friction": 0.0, "amplitude": 0.0 }));
+    let (summary, _) = answered(&json!({ "call": "check", "system": frictionless }));
+    assert_eq!((&summary["angular_forcing"], &summary["rise_time"]), (&Value::Null, &Value::Null));
+    assert_eq!(summary["bounces"], false);
+}
+
+#[test]
+fn what_is_no_request_is_told() {
+    let mut explorer = Explorer::new();
+    let deep = "[".repeat(100_000);
+    for text in ["", "null", "{}", "{\"call\": \"nothing\"}", "{\"call\": \"check\"}", "\u{0}", deep.as_str()]
+    {
+        let reply = explorer.respond(text);
+        assert!(reply.refused() && reply.json().contains("\"kind\":\"request\""), "{}", reply.json());
+    }
+    let unknown = with(pizza(), json!({ "colour": 1.0 }));
+    assert_eq!(refused(&json!({ "call": "check", "system": unknown }))["kind"], "request");
+    // JavaScript writes a number that is none, or infinite, as null.
+    let missing = with(pizza(), json!({ "friction": null }));
+    assert_eq!(refused(&json!({ "call": "check", "system": missing }))["kind"], "request");
+}
+
+#[test]
+fn a_longer_motion_begins_like_a_shorter_one() {
+    for start in [
+        json!({ "kind": "impact", "impact_phase": 1.2, "normalised_speed": 1.3, "angular_speed": 0.0 }),
+        json!({ "kind": "contact", "phase": 4.7, "angular_speed": 0.0 }),
+        json!({ "kind": "flight", "phase": 0.0, "gap": 0.3, "relative_velocity": 1.0, "angular_speed": -2.0 }),
+    ] {
+        let (short, few) = answered(&motion(start.clone(), 3));
+        let (long, many) = answered(&motion(start, 12));
+        let samples = |json: &Value| json["samples"].as_u64().expect("a count") as usize;
+        let events = |json: &Value| json["events"].as_u64().expect("a count") as usize;
+        assert_eq!((samples(&short), samples(&long)), (181, 721));
+        assert_eq!(few.numbers().len(), 9 * samples(&short) + 6 * events(&short));
+        assert_eq!(few.bytes().len(), samples(&short) + events(&short));
+        assert_eq!(few.numbers()[..9 * 181], many.numbers()[..9 * 181]);
+        assert_eq!(few.bytes()[..181], many.bytes()[..181]);
+        let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+        let (own, others) = (&few.numbers()[9 * 181..], &many.numbers()[9 * 721..]);
+        assert_eq!(bits(own), bits(&others[..own.len()]));
+        // Twelve periods take the time that they take, and the disk is never under the platform.
+        let last = many.numbers()[9 * 720];
+        assert!((last - 12.0 * std::f64::consts::TAU / 15.0).abs() < 1e-12, "{last}");
+        let above = |row: &[f64]| row[1] >= row[5] - 1e-12;
+        assert!(many.numbers()[..9 * 721].chunks(9).all(above));
+    }
+}
+
+#[test]
+fn a_disk_that_is_never_thrown_lies_on_the_platform() {
+    let still = with(pizza(), json!({ "amplitude": 0.0 }));
+    let start = json!({ "kind": "contact", "phase": 0.0, "angular_speed": 0.0 });
+    let mut request = motion(start, 2);
+    request["system"] = still;
+    let (json, reply) = answered(&request);
+    assert_eq!(json["samples"], 121);
+    assert!(reply.numbers()[..9 * 121].chunks(9).all(|row| row[1] == row[5]));
+}
+
+#[test]
+fn motions_that_are_too_long_are_refused() {
+    let start = json!({ "kind": "contact", "phase": 0.0, "angular_speed": 0.0 });
+    for (periods, samples) in
+        [(0_u64, 60_u64), (200_000, 1), (u64::MAX, u64::MAX), (100_000, 100_000), (3, 0)]
+    {
+        let mut request = motion(start.clone(), periods);
+        request["samples_per_period"] = json!(samples);
+        assert_eq!(refused(&request)["kind"], "out-of-range", "{periods} {samples}");
+    }
+    let under = json!({ "kind": "flight", "phase": 0.0, "gap": -0.3, "relative_velocity": 0.0, "angular_speed": 0.0 });
+    assert_eq!(refused(&motion(under, 3))["quantity"], "gap");
+}
+
+#[test]
+fn columns_do_not_depend_on_which_are_asked_for_together() {
+    for rotation in [false, true] {
+        let (_, all) = answered(&diagram([0, 40], rotation));
+        let mut parts = Vec::new();
+        for from in [0, 7, 8, 39] {
+            let to = if from == 0 {
+                7
+            } else if from == 7 {
+                8
+            } else if from == 8 {
+                39
+            } else {
+                40
+            };
+            parts.extend_from_slice(answered(&diagram([from, to], rotation)).1.numbers());
+        }
+        let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(all.numbers()), bits(&parts));
+        assert_eq!(all.numbers().chunks(4).all(|row| row[3].is_nan()), !rotation);
+    }
+    // The rotation does not act back on the vertical motion: the same impacts, in the same order.
+    let (_, without) = answered(&diagram([0, 40], false));
+    let (_, rotating) = answered(&diagram([0, 40], true));
+    let vertical = |reply: &Reply| {
+        let rows = reply.numbers().chunks(4);
+        rows.flat_map(|row| row[..3].iter().map(|number| number.to_bits())).collect::<Vec<_>>()
+    };
+    assert_eq!(vertical(&without), vertical(&rotating));
+    for columns in [[3, 2], [0, 41]] {
+        assert_eq!(refused(&diagram(columns, false))["quantity"], "columns");
+    }
+    let one = with(diagram([0, 1], false), json!({ "count": 1 }));
+    assert_eq!(refused(&one)["quantity"], "count");
+    let huge = with(diagram([0, 40], false), json!({ "recorded": u32::MAX }));
+    assert_eq!(refused(&huge)["quantity"], "recorded");
+}
+
+#[test]
+fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
+    let mut explorer = Explorer::new();
+    let whole = ask(&basins([0, 20]));
+    let mut labels = Vec::new();
+    for rows in [[0, 1], [1, 13], [13, 20]] {
+        labels.extend_from_slice(explorer.respond(&basins(rows).to_string()).bytes());
+        // Another map in between: its attractors are not taken for those of this one.
+        explorer.respond(r#"{"call": "attractors", "axial_forcing": 0.35, "restitution": 0.5}"#);
+    }
+    assert_eq!((whole.bytes().len(), whole.bytes()), (600, &labels[..]));
+    let (json, _) = answered(&json!({ "call": "attractors", "axial_forcing": 0.486, "restitution": 0.5 }));
+    let known: Vec<_> =
+        json["attractors"].as_array().expect("a list").iter().map(|one| one["label"].as_u64()).collect();
+    assert!(labels.iter().all(|label| *label == 0 || known.contains(&Some(u64::from(*label)))));
+    let shares =
+        json["attractors"].as_array().expect("a list").iter().filter_map(|one| one["share"].as_f64());
+    let sum: f64 = shares.sum::<f64>() + json["undecided"].as_f64().expect("a share");
+    assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    assert_eq!(refused(&basins([5, 4]))["quantity"], "rows");
+    assert_eq!(refused(&basins([0, 21]))["quantity"], "rows");
+}
+
+#[test]
+fn branches_go_through_the_doublings_of_the_cascade() {
+    let (json, reply) =
+        answered(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.3, 0.62] }));
+    let found = json["bifurcations"].as_array().expect("a list");
+    let at = |kind: &str| {
+        let of_kind = found.iter().filter(|one| one["kind"] == kind);
+        of_kind.filter_map(|one| one["axial_forcing"].as_f64()).collect::<Vec<_>>()
+    };
+    // Birth at (1 - r)/(1 + r), and the first doubling in closed form.
+    assert!(at("fold").iter().any(|forcing| (forcing - 1.0 / 3.0).abs() < 1e-9), "{json}");
+    let first = bouncing_disk::core::ImpactMap::first_doubling_forcing(0.5);
+    assert!(at("doubling").iter().any(|forcing| (forcing - first).abs() < 1e-9), "{json}");
+    // Every impact is on an orbit of its map: the closed form of one impact a period.
+    let branches = json["branches"].as_array().expect("a list").len() as f64;
+    for row in reply.numbers().chunks(5) {
+        assert!(
+            (0.3..=0.62).contains(&row[0]) && row[3] < branches && (row[4] == 0.0 || row[4] == 1.0),
+            "{row:?}"
+        );
+    }
+    refused(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.6, 0.3] }));
+    refused(&json!({ "call": "branches", "restitution": 1.5, "axial_forcing": [0.3, 0.6] }));
+    let (none, _) = answered(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.1, 0.2] }));
+    assert_eq!(none["branches"], json!([]));
+}
+
+#[test]
+fn an_orbit_is_judged_as_by_the_library() {
+    let judged = |forcing: f64| {
+        let request =
+            json!({ "call": "orbit", "axial_forcing": forcing, "restitution": 0.5, "start": start() });
+        answered(&request).0
+    };
+    assert_eq!((&judged(0.45)["kind"], &judged(0.45)["impacts"]), (&json!("periodic"), &json!(1)));
+    assert_eq!(judged(0.553)["kind"], "chaotic");
+    assert_eq!(judged(0.62)["kind"], "chattering");
+    assert_eq!(judged(0.2)["kind"], "at-rest");
+}
+
+#[test]
+fn a_motor_is_that_of_its_sheet() {
+    let (report, _) = answered(&json!({ "call": "motor_report", "sheet": sheet() }));
+    assert_eq!((&report["mass"], &report["system"]["friction"]), (&json!(1e-3), &json!(0.1)));
+    let largest = report["largest_torque"].as_f64().expect("a torque");
+    let request = json!({
+        "call": "motor_loads", "sheet": sheet(), "load_torques": [0.0, 0.3 * largest, 2.0 * largest], "relative_error": 0.2,
+        "seed": 1
+    });
+    let (json, reply) = answered(&request);
+    let statuses: Vec<_> = reply.numbers().chunks(10).map(|row| row[9]).collect();
+    assert_eq!((statuses.len(), statuses[2]), (3, 2.0));
+    assert!(json["shortfalls"][2].is_string() && reply.numbers()[1] > reply.numbers()[11]);
+    let run = json!({ "call": "motor_transient", "sheet": sheet(), "members": 4, "rise_times": 3.0, "points": 20, "seed": 1 });
+    assert_eq!(answered(&run).1.numbers().len(), 60);
+    for (name, value) in [("members", json!(0)), ("points", json!(1)), ("rise_times", json!(-1.0))] {
+        refused(&with(run.clone(), json!({ name: value })));
+    }
+    let both = with(sheet(), json!({ "twist_amplitude": 1e-4 }));
+    refused(&json!({ "call": "motor_report", "sheet": both }));
+}
+
+#[test]
+fn a_sheet_that_is_written_is_read_again() {
+    let (written, _) = answered(&json!({ "call": "sheet_write", "sheet": sheet() }));
+    let (read, _) = answered(&json!({ "call": "sheet_read", "text": written["text"] }));
+    assert_eq!(read["sheet"]["peak_angular_speed"], 30.0);
+    let (of_system, _) =
+        answered(&json!({ "call": "sheet_of_system", "system": read["system"], "mass": read["mass"] }));
+    assert_eq!(of_system["sheet"]["friction"], 0.1);
+    for text in ["", "{}", "[]", "{\"friction\": 1}"] {
+        refused(&json!({ "call": "sheet_read", "text": text }));
+    }
+    refused(&json!({ "call": "sheet_of_system", "system": pizza(), "mass": 0.0 }));
+}
