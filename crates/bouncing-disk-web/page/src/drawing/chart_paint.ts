@@ -52,11 +52,11 @@ export function paintExtras(pen: Pen, chart: Chart, plot: Plot, colour: Colours)
     }
     pen.path([at, plot.top, at, bottom], { stroke: colour(line.colour), width: 1.2, dash: [5, 3] });
     const nearRight = at > plot.left + plot.width * 0.6;
-    pen.text(line.label, at + (nearRight ? -4 : 4), plot.top + plot.size * 0.5, {
+    pen.text(line.label, at + (nearRight ? -4 : 4), bottom - plot.size * 0.5, {
       colour: colour(line.colour),
       size: plot.size,
       anchor: nearRight ? "end" : "start",
-      baseline: "top",
+      baseline: "bottom",
       halo: colour("--picture-paper"),
     });
   }

@@ -47,8 +47,8 @@ class TossView implements View {
   private readonly ledgerTitle = element("h3", {}, "Energy balance");
   private readonly gains = element("p", { class: "remark" });
   private readonly alternative = element("p", { class: "alternative" });
-  private readonly heights = new ScreenChart(() => (this.scene.width < 480 ? 190 : 230));
-  private readonly spins = new ScreenChart(() => (this.scene.width < 480 ? 190 : 230));
+  private readonly heights = new ScreenChart(() => this.chartHeight());
+  private readonly spins = new ScreenChart(() => this.chartHeight());
   private portrait!: Portrait;
   private controls!: Controls;
   private readonly player = new Player(
@@ -234,6 +234,14 @@ class TossView implements View {
     const heights = recording.extent("height", "platform_height");
     this.stage = stageOf(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
     setText(this.gains, `${describeGains(this.stage)} Drag the disk upwards or sideways to throw it.`);
+  }
+
+  /** Where the charts stand beside the scene, both are as high as it is. */
+  private chartHeight(): number {
+    const { width, height } = this.scene;
+    const beside = this.heights.root.offsetTop < this.scene.root.offsetTop + height;
+    if (beside && height > 480) return height / 2 - 30;
+    return width < 480 ? 190 : 230;
   }
 
   private showTraces(recording: Recording): void {
