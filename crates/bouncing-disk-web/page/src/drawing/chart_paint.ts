@@ -17,7 +17,10 @@ export function paintChart(
   size: number,
 ): void {
   const x = { label: chart.xLabel, scale: linearScale(chart.xRange) };
-  const y = { label: chart.yLabel, scale: linearScale(chart.yRange) };
+  // A legend stands above the curves, not on them.
+  const [low, high] = chart.yRange;
+  const room = chart.curves.length > 1 ? ((1.3 * chart.curves.length + 2) * size) / height : 0;
+  const y = { label: chart.yLabel, scale: linearScale([low, high + room * 1.4 * (high - low)]) };
   const plot = layOut(pen, width, height, x, y, size);
   paintGrid(pen, plot, colour);
   pen.clipped(plot.left, plot.top, plot.width, plot.height, () => {

@@ -2,7 +2,6 @@
 
 import "./views.css";
 
-import { Cancelled } from "../contract";
 import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
 import { element, Facts, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
@@ -168,7 +167,7 @@ class TossView implements View {
       if (this.asked !== key) return;
       this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods), same, first);
     } catch (error) {
-      if (this.asked === key && !(error instanceof Cancelled)) this.asked = "";
+      if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
     }
   }
