@@ -77,6 +77,7 @@ export class ScreenChart {
         label: curve.label,
         stroke: colour(curve.colour),
         width: 1.6,
+        pxAlign: 0,
         ...(curve.dash === undefined ? {} : { dash: [...curve.dash] }),
         points: { show: curve.points === true, size: 5, fill: colour(curve.colour) },
         value: (_, value: number | null) => plain(value),
@@ -91,6 +92,8 @@ export class ScreenChart {
     return {
       width,
       height,
+      // Points between pixels keep curves smooth.
+      pxAlign: 0,
       series,
       bands,
       scales: {

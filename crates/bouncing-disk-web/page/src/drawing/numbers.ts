@@ -22,6 +22,11 @@ export function plain(value: number | null | undefined, digits = 4): string {
   return minus(grouped(value.toFixed(Math.max(0, digits - 1 - size))));
 }
 
+/** A number that people chose, without zeros that say nothing. */
+export function brief(value: number, digits = 6): string {
+  return minus(String(Number(value.toPrecision(digits))));
+}
+
 /** Thousands stand apart by a comma. */
 export function grouped(text: string): string {
   const [whole = "", part] = text.split(".");

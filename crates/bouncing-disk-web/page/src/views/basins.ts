@@ -10,7 +10,7 @@ import { debounced, element, setText } from "../drawing/elements";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
 import { confined } from "../drawing/gestures";
 import type { Window2 } from "../drawing/gestures";
-import { percent, plain } from "../drawing/numbers";
+import { brief, percent, plain } from "../drawing/numbers";
 import type { Pen } from "../drawing/pen";
 import { linearScale } from "../drawing/scale";
 import { paintStretched, WindowPicture } from "../drawing/window_picture";
@@ -167,7 +167,7 @@ class BasinsView implements View {
       this.complete = true;
       this.previous = null;
       const seconds = (performance.now() - began) / 1000;
-      this.context.status(`${fine.phases} × ${fine.speeds} starts at Γ = ${plain(wanted.axial_forcing, 5)} in ${seconds.toFixed(2)} s.`);
+      this.context.status(`${fine.phases} × ${fine.speeds} starts at Γ = ${brief(wanted.axial_forcing)} in ${seconds.toFixed(2)} s.`);
       this.describe();
     } catch (error) {
       if (this.asked === key) this.asked = "";
@@ -256,12 +256,12 @@ class BasinsView implements View {
     const parts: string[] = [];
     for (const [label, share] of fine.shares()) {
       if (isUndecided(label, known)) undecided += share;
-      else parts.push(`${percent(share)} end on ${this.nameOf(label, this.found).replace(/\.$/, "")}`);
+      else parts.push(`${percent(share)} end so: ${this.nameOf(label, this.found).replace(/\.$/, "")}`);
     }
     setText(
       this.alternative,
-      `Of the starts with phases from ${plain(x[0], 4)} to ${plain(x[1], 4)} periods and normalised speeds from ` +
-        `${plain(y[0], 4)} to ${plain(y[1], 4)}, ${parts.join("; ")}; ${percent(undecided)} are undecided.`,
+      `Of the starts with phases from ${brief(x[0])} to ${brief(x[1])} periods and normalised speeds from ` +
+        `${brief(y[0])} to ${brief(y[1])}, ${parts.join("; ")}; ${percent(undecided)} are undecided.`,
     );
   }
 }

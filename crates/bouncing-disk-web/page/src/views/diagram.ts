@@ -17,7 +17,7 @@ import { DIAGRAM_COLUMNS } from "../protocol";
 import { describeBifurcations, paintBranches } from "./diagram/branches";
 import type { Branches } from "./diagram/branches";
 import { computeColumns, RECORDED, TRANSIENT } from "./diagram/computation";
-import type { Columns } from "./diagram/computation";
+import type { Columns, Wanted } from "./diagram/computation";
 import { describeDiagram } from "./diagram/description";
 import { diagramOffers } from "./diagram/offers";
 import { OrbitPicture } from "./diagram/orbit_picture";
@@ -47,6 +47,8 @@ class DiagramView implements View {
   private automatic: Range = [0, 1];
   private branches: Branches | null = null;
   private asked = "";
+  private done = "";
+  private count = 0;
   private drawn = "";
   private branchesAsked = "";
   private readonly compute = debounced(60, () => void this.fetch());
@@ -93,8 +95,9 @@ class DiagramView implements View {
       element(
         "div",
         { class: "beside" },
-        element("div", { class: "main-part" }, this.picture.layers.root, this.note, legend, this.alternative),
+        element("div", { class: "main-part" }, this.picture.layers.root, this.note),
         this.verdict.root,
+        element("div", {}, legend, this.alternative),
       ),
     );
   }
@@ -116,10 +119,9 @@ class DiagramView implements View {
     this.context.client.cancel("diagram");
     this.context.client.cancel("diagram-branches");
     // What did not come is asked for when the view is shown again.
-    this.asked = this.asked === this.done ? this.asked : "";
+    if (this.asked !== this.done) this.asked = "";
     this.branchesAsked = this.branches === null ? "" : this.branchesAsked;
   }
-  private done = "";
 
   redraw(): void {
     this.shown?.recolour(this.context.colour);
@@ -178,13 +180,14 @@ class DiagramView implements View {
       count: clamp(laid.columns, 2, MOST_COLUMNS),
       rotation,
     };
-    const key = JSON.stringify(wanted);
-    void this.fetchBranches();
+    const key = keyOf(wanted);
     if (key === this.asked) {
       this.arrange(laid.rows);
+      void this.fetchBranches();
       return;
     }
     this.asked = key;
+    this.count = wanted.count;
     this.columns = [];
     this.drawn = "";
     const began = performance.now();
@@ -201,6 +204,7 @@ class DiagramView implements View {
       );
       this.arrange(laid.rows);
       this.describe();
+      void this.fetchBranches();
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
@@ -220,7 +224,7 @@ class DiagramView implements View {
     const { diagram } = this.state();
     this.findRange();
     const range = this.range();
-    const count = this.wantedColumns();
+    const { count } = this;
     const key = JSON.stringify([this.asked, diagram.quantity, range, rows]);
     if (key === this.drawn || count === 0) return false;
     const fresh = this.drawn === "";
@@ -235,10 +239,6 @@ class DiagramView implements View {
 
   private fill(picture: OrbitPicture, colour: Colours): void {
     for (const { numbers, from, to, coarse } of this.columns) picture.add(numbers, from, to, coarse, colour);
-  }
-
-  private wantedColumns(): number {
-    return this.asked === "" ? 0 : (JSON.parse(this.asked) as { count: number }).count;
   }
 
   /** The range of the axis that nobody chose: that of the dots. */
@@ -289,7 +289,7 @@ class DiagramView implements View {
   /** The same dots in the colours of print, finely enough for it. */
   private paintPrinted(pen: Pen, plot: Plot, colour: Colours): void {
     const { axial_forcing, quantity } = this.state().diagram;
-    const count = Math.max(this.wantedColumns(), 2);
+    const count = Math.max(this.count, 2);
     const picture = new OrbitPicture(axial_forcing, quantity, this.range(), count, Math.round(count * 0.5), RECORDED);
     this.fill(picture, colour);
     picture.paint(pen, plot);
@@ -320,10 +320,16 @@ class DiagramView implements View {
 
   private describe(): void {
     const { diagram, system } = this.state();
-    const seen = describeDiagram(this.columns, diagram, system.restitution, this.wantedColumns());
+    const seen = describeDiagram(this.columns, diagram, system.restitution, this.count);
     const branches = diagram.branches && this.branches !== null ? ` ${describeBifurcations(this.branches)}` : "";
     setText(this.alternative, seen + branches);
   }
+}
+
+/** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */
+function keyOf({ system, ...others }: Wanted): string {
+  const { amplitude: _, ...rest } = system;
+  return JSON.stringify([others, others.rotation ? rest : system.restitution]);
 }
 
 export const view: View = new DiagramView();

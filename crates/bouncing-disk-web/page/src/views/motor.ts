@@ -153,8 +153,12 @@ class MotorView implements View {
     await this.sweep(sheet, torques, fine, present);
     if (!present()) return;
     this.complete = true;
-    const open = this.operations.filter(({ status }) => status !== 0).length;
-    this.context.status(`Run-up and ${points} loads are computed${open === 0 ? "." : `; ${open} of them do not settle.`}`);
+    const unsettled = this.operations.filter(({ status }) => status === 1).length;
+    const runaway = this.operations.filter(({ status }) => status === 2).length;
+    const words = [`Run-up and ${points} loads are computed`];
+    if (unsettled > 0) words.push(`under ${unsettled} the motion has not settled`);
+    if (runaway > 0) words.push(`${runaway} drive the rotor`);
+    this.context.status(`${words.join("; ")}.`);
   }
 
   private async sweep(sheet: MotorSheet, torques: readonly number[], error: number, present: () => boolean): Promise<void> {

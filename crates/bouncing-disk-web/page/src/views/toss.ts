@@ -90,11 +90,15 @@ class TossView implements View {
       element(
         "div",
         { class: "toss" },
-        element("div", { class: "toss-scene" }, this.scene.root, this.gains, this.alternative),
-        element("section", { class: "panel", "aria-label": "Readings" }, element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root, form),
-        element("section", { "aria-label": "Time traces" }, this.heights.root, this.spins.root),
-        element("section", { "aria-label": "Phase portrait" }, element("h3", {}, "Impacts"), this.portrait.layers.root,
-          element("p", { class: "remark" }, "Each impact so far; the ring is the last one. A click starts the motion with that impact.")),
+        element("div", { class: "toss-left" },
+          element("div", {}, this.scene.root, this.gains, this.alternative),
+          element("section", { "aria-label": "Time traces" }, this.heights.root, this.spins.root)),
+        element("div", { class: "toss-right" },
+          element("section", { class: "panel", "aria-label": "Readings" },
+            element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root, form),
+          element("section", { "aria-label": "Phase portrait" }, element("h3", {}, "Impacts"), this.portrait.layers.root,
+            element("p", { class: "remark" },
+              "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there."))),
       ),
     ); // prettier-ignore
     this.mounted = true;
@@ -208,7 +212,7 @@ class TossView implements View {
     this.controls.show(recording.periods);
     this.showFacts(moment, recording);
     this.showTraces(recording);
-    this.portrait.show(recording, recording.impactsUntil(player.now * recording.period), this.anew);
+    this.portrait.show(recording, context.state().start, recording.impactsUntil(player.now * recording.period), this.anew);
     this.anew = false;
     if (player.playing && player.now > recording.periods * (1 - AHEAD)) {
       if (recording.periods < MOST_PERIODS) void this.fetch(recording.periods * 2);

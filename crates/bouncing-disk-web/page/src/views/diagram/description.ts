@@ -1,7 +1,7 @@
 /** The orbit diagram in words, for those who do not see it. */
 
 import type { State } from "../../contract";
-import { plain } from "../../drawing/numbers";
+import { brief, plain } from "../../drawing/numbers";
 import { DIAGRAM_COLUMNS } from "../../protocol";
 import type { Columns } from "./computation";
 import { columnOf, DESCRIBED } from "./quantity";
@@ -29,8 +29,8 @@ export function describeDiagram(
     parts.push(`${values(distinct(answer.numbers, forcing, columnOf(diagram.quantity)))} at ${plain(forcing, 4)}`);
   }
   return (
-    `The ${name} of the orbits from the shared start, for Γ from ${plain(low, 5)} to ${plain(high, 5)} at a coefficient of ` +
-    `restitution of ${plain(restitution, 3)}: ${parts.join(", ")}.`
+    `The ${name} of the orbits from the shared start, for Γ from ${brief(low)} to ${brief(high)} at a coefficient of ` +
+    `restitution of ${brief(restitution)}: ${parts.join(", ")}.`
   );
 }
 

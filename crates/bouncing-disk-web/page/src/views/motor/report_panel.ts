@@ -13,12 +13,14 @@ export class ReportPanel {
   readonly root = element("section", { class: "panel", "aria-label": "Report" });
   private readonly facts = new Facts(NAMES, "The motor in numbers");
   private readonly trap = element("p", { class: "caution", hidden: true });
-  private readonly warnings = element("ul", { class: "warnings", hidden: true });
+  private readonly warnings = element("ul", { class: "warnings" });
+  private readonly warned = element("summary", { class: "warned" });
+  private readonly warningsBox = element("details", { hidden: true }, this.warned, this.warnings);
   private readonly text = element("pre", { class: "report", tabindex: 0, "aria-label": "Full report" });
 
   constructor() {
     const full = element("details", {}, element("summary", {}, "Full report"), this.text);
-    this.root.append(element("h3", {}, "Report"), this.facts.root, this.trap, this.warnings, full);
+    this.root.append(element("h3", {}, "Report"), this.facts.root, this.trap, this.warningsBox, full);
   }
 
   report(report: ReportJson): void {
@@ -32,7 +34,9 @@ export class ReportPanel {
       const where = `at a preload acceleration of ${plain(preload_acceleration, 4)} m/s²`;
       setText(this.trap, `${caught ? "Trap: this motor is caught" : "A trap is near"}, ${where}. ${text}`);
     }
-    this.warnings.hidden = report.warnings.length === 0;
+    const { length } = report.warnings;
+    this.warningsBox.hidden = length === 0;
+    setText(this.warned, length === 1 ? "1 warning" : `${length} warnings`);
     this.warnings.replaceChildren(...report.warnings.map((warning) => element("li", {}, warning)));
     setText(this.text, report.text);
   }

@@ -8,6 +8,7 @@ import { Gestures } from "../../drawing/gestures";
 import { Layers } from "../../drawing/layers";
 import type { Pen } from "../../drawing/pen";
 import { linearScale, roundUp } from "../../drawing/scale";
+import type { ImpactStart } from "../../protocol";
 import type { Impact, Recording } from "./recording";
 
 const SIZE = 12;
@@ -21,6 +22,7 @@ export class Portrait {
   private drawn = 0;
   private top = 1;
   private recording: Recording | null = null;
+  private start: ImpactStart | null = null;
   private cross: readonly [number, number] | null = null;
 
   constructor(
@@ -42,10 +44,12 @@ export class Portrait {
   }
 
   /** Draws the first `count` impacts: only the new ones, where the others are there. */
-  show(recording: Recording, count: number, anew: boolean): void {
+  show(recording: Recording, start: ImpactStart, count: number, anew: boolean): void {
+    this.start = start;
     const resized = this.layers.fit();
     if (this.layers.width < 60) return;
-    const highest = Math.max(...recording.impacts.slice(0, 4000).map((impact) => impact.normalised_speed), 1e-6);
+    const speeds = recording.impacts.slice(0, 4000).map((impact) => impact.normalised_speed);
+    const highest = Math.max(...speeds, start.normalised_speed, 1e-6);
     const top = this.recording === recording ? this.top : roundUp(highest * 1.02);
     this.recording = recording;
     if (anew || resized || this.plot === null || count < this.drawn || top !== this.top) {
@@ -74,6 +78,13 @@ export class Portrait {
     const { plot, cross, context } = this;
     const last = this.recording?.impacts[this.drawn - 1];
     if (plot === null) return;
+    const { start } = this;
+    if (start !== null && start.normalised_speed <= this.top) {
+      const x = pixelX(plot, start.impact_phase / (2 * Math.PI) - Math.floor(start.impact_phase / (2 * Math.PI)));
+      const y = pixelY(plot, start.normalised_speed);
+      const style = { stroke: context.colour("--disk"), width: 1.8 };
+      pen.path([x - 6, y, x + 6, y, NaN, NaN, x, y - 6, x, y + 6], style);
+    }
     if (last !== undefined) {
       const style = { stroke: context.colour("--impact-now"), width: 2.2 };
       pen.circle(pixelX(plot, periods(last)), pixelY(plot, last.normalised_speed), 6, style);

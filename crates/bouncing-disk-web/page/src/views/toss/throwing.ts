@@ -11,7 +11,7 @@ export type Throw = Extract<MotionStart, { kind: "flight" }>;
 
 /** The longest flight that a throw may make, in periods. */
 const LONGEST_FLIGHT = 12;
-const LONGEST_PAUSE = 80;
+const LONGEST_PAUSE = 150;
 
 export interface ThrowHost {
   stage(): Stage | null;
