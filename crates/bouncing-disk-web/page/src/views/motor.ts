@@ -156,8 +156,8 @@ class MotorView implements View {
     const unsettled = this.operations.filter(({ status }) => status === 1).length;
     const runaway = this.operations.filter(({ status }) => status === 2).length;
     const words = [`Run-up and ${points} loads are computed`];
-    if (unsettled > 0) words.push(`under ${unsettled} the motion has not settled`);
-    if (runaway > 0) words.push(`${runaway} drive the rotor`);
+    if (unsettled > 0) words.push(`under ${unsettled} of them the motion has not settled`);
+    if (runaway > 0) words.push(runaway === 1 ? "one of them drives the rotor" : `${runaway} of them drive the rotor`);
     this.context.status(`${words.join("; ")}.`);
   }
 
