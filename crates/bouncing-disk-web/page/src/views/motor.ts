@@ -55,7 +55,11 @@ class MotorView implements View {
         "div",
         { class: "motor" },
         element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
-        element("section", { "aria-label": "Run-up and speed" }, ...[this.runUpChart, speed].map((chart) => chart?.root ?? "")),
+        element(
+          "section",
+          { "aria-label": "Run-up and speed" },
+          ...[this.runUpChart, speed].map((chart) => chart?.root ?? ""),
+        ),
         element(
           "section",
           { "aria-label": "Power and efficiency" },
@@ -140,7 +144,12 @@ class MotorView implements View {
     await this.computeCurve(sheet, report, state, present);
   }
 
-  private async computeCurve(sheet: MotorSheet, report: ReportJson, state: State, present: () => boolean): Promise<void> {
+  private async computeCurve(
+    sheet: MotorSheet,
+    report: ReportJson,
+    state: State,
+    present: () => boolean,
+  ): Promise<void> {
     const { points, loads } = state.motor;
     const [low, high] = [loads[0] * report.largest_torque, loads[1] * report.largest_torque];
     this.loads = [low, high];
@@ -161,11 +170,19 @@ class MotorView implements View {
     this.context.status(`${words.join("; ")}.`);
   }
 
-  private async sweep(sheet: MotorSheet, torques: readonly number[], error: number, present: () => boolean): Promise<void> {
+  private async sweep(
+    sheet: MotorSheet,
+    torques: readonly number[],
+    error: number,
+    present: () => boolean,
+  ): Promise<void> {
     await operate(this.context, sheet, torques, error, (operation, index) => {
       if (!present()) return;
       this.operations[index] = operation;
-      this.context.status(`Load ${index + 1} of ${torques.length} with an error of ${100 * error} % of the speed`, "busy");
+      this.context.status(
+        `Load ${index + 1} of ${torques.length} with an error of ${100 * error} % of the speed`,
+        "busy",
+      );
       this.draw();
     });
   }
@@ -197,7 +214,10 @@ class MotorView implements View {
     const { colour } = this.context;
     if (this.transient !== null) {
       const { steady_speed, steady_speed_error } = this.transient.json;
-      const steady = steady_speed === null ? "No steady speed is known." : `The speed tends to ${withError(steady_speed, steady_speed_error)} rad/s.`;
+      const steady =
+        steady_speed === null
+          ? "No steady speed is known."
+          : `The speed tends to ${withError(steady_speed, steady_speed_error)} rad/s.`;
       this.runUpChart.show(transientChart(this.transient), colour, steady);
     }
     const words = this.describeCurves();
@@ -212,7 +232,10 @@ class MotorView implements View {
     const powerful = steady.reduce((best, row) => (row.mechanical_power > best.mechanical_power ? row : best));
     const efficient = steady.reduce((best, row) => (row.efficiency > best.efficiency ? row : best));
     const at = ({ load_torque }: Operation) => quantityWithError(load_torque, null, "N m");
-    const stall = this.stall === null ? "" : ` The motor stalls at ${quantityWithError(this.stall.torque, this.stall.torque_error, "N m")}.`;
+    const stall =
+      this.stall === null
+        ? ""
+        : ` The motor stalls at ${quantityWithError(this.stall.torque, this.stall.torque_error, "N m")}.`;
     return [
       `From ${withError(first.speed, first.speed_error)} rad/s at ${at(first)} to ${withError(last.speed, last.speed_error)} rad/s at ${at(last)}.${stall}`,
       `Of the loads computed, the load takes most power at ${at(powerful)}: ${quantityWithError(powerful.mechanical_power, powerful.mechanical_power_error, "W")}.`,

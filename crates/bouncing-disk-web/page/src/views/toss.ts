@@ -68,7 +68,11 @@ class TossView implements View {
   mount(host: HTMLElement, context: Context): void {
     this.context = context;
     this.portrait = new Portrait(context, (phase, speed) => this.choose(phase, speed));
-    this.controls = new Controls(this.player, () => this.period(), () => this.describe());
+    this.controls = new Controls(
+      this.player,
+      () => this.period(),
+      () => this.describe(),
+    );
     this.scene.surface.addEventListener("keydown", (event) => this.key(event));
     attachThrowing(this.scene.surface, {
       stage: () => this.stage,
@@ -83,7 +87,11 @@ class TossView implements View {
       },
       start: (thrown) => this.throwDisk(thrown),
     });
-    const form = throwForm(() => context.state().system, () => this.phase(), (thrown) => this.throwDisk(thrown));
+    const form = throwForm(
+      () => context.state().system,
+      () => this.phase(),
+      (thrown) => this.throwDisk(thrown),
+    );
     host.append(
       this.controls.root,
       element(
@@ -127,7 +135,12 @@ class TossView implements View {
 
   offers(): Offer[] {
     if (this.recording === null) return [];
-    return tossOffers(this.recording, this.player.now, { system: this.context.state().system, start: this.start() }, () => this.portrait.axes());
+    return tossOffers(
+      this.recording,
+      this.player.now,
+      { system: this.context.state().system, start: this.start() },
+      () => this.portrait.axes(),
+    );
   }
 
   private start(): MotionStart {
@@ -211,7 +224,12 @@ class TossView implements View {
     this.controls.show(recording.periods);
     this.showFacts(moment, recording);
     this.showTraces(recording);
-    this.portrait.show(recording, context.state().start, recording.impactsUntil(player.now * recording.period), this.anew);
+    this.portrait.show(
+      recording,
+      context.state().start,
+      recording.impactsUntil(player.now * recording.period),
+      this.anew,
+    );
     this.anew = false;
     if (player.playing && player.now > recording.periods * (1 - AHEAD)) {
       if (recording.periods < MOST_PERIODS) void this.fetch(recording.periods * 2);
@@ -284,7 +302,9 @@ class TossView implements View {
   private choose(phasePeriods: number, speed: number): void {
     const start = { impact_phase: phasePeriods * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) };
     this.context.change({ start });
-    this.context.status(`The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`);
+    this.context.status(
+      `The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`,
+    );
   }
 
   private key(event: KeyboardEvent): void {
