@@ -17,7 +17,10 @@ export function paintChart(
   size: number,
 ): void {
   const x = { label: chart.xLabel, scale: linearScale(chart.xRange) };
-  const y = { label: chart.yLabel, scale: linearScale(chart.yRange) };
+  // A legend stands above the curves, not on them.
+  const [low, high] = chart.yRange;
+  const room = chart.curves.length > 1 ? ((1.3 * chart.curves.length + 2) * size) / height : 0;
+  const y = { label: chart.yLabel, scale: linearScale([low, high + room * 1.4 * (high - low)]) };
   const plot = layOut(pen, width, height, x, y, size);
   paintGrid(pen, plot, colour);
   pen.clipped(plot.left, plot.top, plot.width, plot.height, () => {
@@ -52,11 +55,11 @@ export function paintExtras(pen: Pen, chart: Chart, plot: Plot, colour: Colours)
     }
     pen.path([at, plot.top, at, bottom], { stroke: colour(line.colour), width: 1.2, dash: [5, 3] });
     const nearRight = at > plot.left + plot.width * 0.6;
-    pen.text(line.label, at + (nearRight ? -4 : 4), plot.top + plot.size * 0.5, {
+    pen.text(line.label, at + (nearRight ? -4 : 4), bottom - plot.size * 0.5, {
       colour: colour(line.colour),
       size: plot.size,
       anchor: nearRight ? "end" : "start",
-      baseline: "top",
+      baseline: "bottom",
       halo: colour("--picture-paper"),
     });
   }

@@ -45,6 +45,9 @@ export function baselineShift(baseline: TextStyle["baseline"], size: number): nu
   return baseline === "top" ? 0.8 * size : baseline === "middle" ? 0.34 * size : baseline === "bottom" ? -0.2 * size : 0;
 }
 
+/** Lines of print are finer than those of screens. */
+export const PRINT_WEIGHT = 0.6;
+
 export const SCREEN_FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif';
 export const PRINT_FONT = '"STIX Two Text", "Times New Roman", Tinos, "Liberation Serif", "DejaVu Serif", serif';
 

@@ -191,6 +191,7 @@ class BasinsView implements View {
         this.layers = layers;
       }
       layers[index]?.add(labels, from, labelsOf(this.found), this.context.colour);
+      if (index === 1) this.context.status(`Computing basins: ${percent(from / (grids[1]?.speeds ?? 1), 0)}`, "busy");
       this.picture.redraw();
     });
     const fine = layers[1];

@@ -2,7 +2,6 @@
 
 import "./views.css";
 
-import { Cancelled } from "../contract";
 import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
 import { element, Facts, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
@@ -47,8 +46,8 @@ class TossView implements View {
   private readonly ledgerTitle = element("h3", {}, "Energy balance");
   private readonly gains = element("p", { class: "remark" });
   private readonly alternative = element("p", { class: "alternative" });
-  private readonly heights = new ScreenChart(() => (this.scene.width < 480 ? 190 : 230));
-  private readonly spins = new ScreenChart(() => (this.scene.width < 480 ? 190 : 230));
+  private readonly heights = new ScreenChart(() => this.chartHeight());
+  private readonly spins = new ScreenChart(() => this.chartHeight());
   private portrait!: Portrait;
   private controls!: Controls;
   private readonly player = new Player(
@@ -168,7 +167,7 @@ class TossView implements View {
       if (this.asked !== key) return;
       this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods), same, first);
     } catch (error) {
-      if (this.asked === key && !(error instanceof Cancelled)) this.asked = "";
+      if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
     }
   }
@@ -234,6 +233,14 @@ class TossView implements View {
     const heights = recording.extent("height", "platform_height");
     this.stage = stageOf(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
     setText(this.gains, `${describeGains(this.stage)} Drag the disk upwards or sideways to throw it.`);
+  }
+
+  /** Where the charts stand beside the scene, both are as high as it is. */
+  private chartHeight(): number {
+    const { width, height } = this.scene;
+    const beside = this.heights.root.offsetTop < this.scene.root.offsetTop + height;
+    if (beside && height > 480) return height / 2 - 30;
+    return width < 480 ? 190 : 230;
   }
 
   private showTraces(recording: Recording): void {

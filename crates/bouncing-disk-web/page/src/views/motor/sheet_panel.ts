@@ -16,7 +16,7 @@ export interface Imported {
 const LONGEST_SHEET = 100_000;
 
 export class SheetPanel {
-  readonly root = element("section", { class: "panel sheet", "aria-label": "Data sheet" });
+  readonly root = element("section", { class: "panel", "aria-label": "Data sheet" });
   private readonly text = element("textarea", {
     rows: 9,
     spellcheck: false,
