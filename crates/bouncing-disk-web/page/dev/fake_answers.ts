@@ -121,6 +121,17 @@ function sheetOf(system: SystemParameters, mass: number): MotorSheet {
   };
 }
 
+function systemOf(sheet: MotorSheet): SystemParameters {
+  const { amplitude, phase_lag, contact_radius, friction, restitution } = sheet;
+  const angular_frequency = turn * sheet.drive_frequency;
+  const twist_amplitude = (sheet.peak_angular_speed ?? 0) / angular_frequency;
+  const gyration_radius = sheet.gyration_radius ?? contact_radius;
+  const preload_acceleration = sheet.preload_acceleration ?? 9.8;
+  const platform = { amplitude, twist_amplitude, angular_frequency, phase_lag };
+  const disk = { contact_radius, gyration_radius, friction, restitution, preload_acceleration, load_acceleration: 0 };
+  return { ...platform, ...disk };
+}
+
 const PERIODIC = { impacts: 1, platform_periods: 1, multipliers: [[0.25, 0.1], [0.25, -0.1]] }; // prettier-ignore
 
 /** What is not asked for in the tests of the shell has the shape of its answer and hardly more. */
@@ -139,12 +150,26 @@ function motorAnswer(request: Request): Answer {
       return { json: { torque: 3e-5, torque_error: 1e-7, bracket: [2.9e-5, 3.1e-5], no_load_speed: 21, no_load_speed_error: 0.1 } };
     case "sheet_write":
       return { json: { text: JSON.stringify(request.sheet, null, 2) } };
+    case "sheet_read":
+      return { json: { sheet: JSON.parse(request.text), system: systemOf(JSON.parse(request.text)), mass: 0.0329 } };
+    case "motor_report": {
+      const system = systemOf(request.sheet);
+      const numbers = { axial_forcing: peak(system) / Math.PI, angular_forcing: 1, largest_torque: 4e-5 };
+      const words = { regime: "long chattering", warnings: [], text: "A report of the fake.", trap: null };
+      return { json: { ...numbers, ...words, system, mass: request.sheet.mass } };
+    }
     default:
       throw new FakeRefusal({ kind: "request", quantity: null, value: null, range: null, message: "the fake cannot do this" });
   }
 }
 
+/** This coefficient of friction makes the module break down, and this one takes for ever, so that tests see what then happens. */
+const BREAKS = 0.06660666;
+const HANGS = 0.07770777;
+
 export function answer(request: Request): Answer {
+  if ("system" in request && request.system.friction === BREAKS) throw new WebAssembly.RuntimeError("unreachable");
+  if (request.call !== "check" && "system" in request && request.system.friction === HANGS) for (;;);
   if ("system" in request) check(request.system);
   switch (request.call) {
     case "check":

@@ -147,7 +147,7 @@ export class Field {
     this.input.select();
   }
 
-  /** All digits while somebody edits, five of them otherwise. */
+  /** All digits while somebody edits, as many as fit otherwise. */
   private print(): void {
     if (this.value === null || !this.error.hidden) return;
     const editing = document.activeElement === this.input;

@@ -10,7 +10,7 @@ import { fileName, save } from "./exports";
 import { Menu } from "./menu";
 import { Notes } from "./notes";
 import { Parameters } from "./parameters";
-import { stateOf, type Panel, type Preset } from "./presets";
+import { openingPanel, stateOf, type Panel, type Preset } from "./presets";
 import { Problems } from "./problems";
 import { Readout } from "./readout";
 import { Stage } from "./stage";
@@ -88,7 +88,7 @@ function begin(): void {
     open(stateOf(panel));
   };
   const notes = new Notes(byId("note"), choose);
-  const presets = presetDialog((preset) => choose(preset, preset.panels[0]));
+  const presets = presetDialog((preset) => choose(preset, openingPanel(preset)));
   const help = helpDialog();
   const tour = new TourPanel(open);
   byId("main").prepend(tour.element);

@@ -20,8 +20,16 @@ const SUPERSCRIPT: Readonly<Record<string, string>> = {
   "-": "⁻", "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹",
 }; // prettier-ignore
 
-/** For a field: as short as it can be read back, at most five digits. */
-export const abridged = (value: number): string => String(Number(value.toPrecision(5)));
+/** For a field that is eight characters wide: as short as it can be read back, five or six digits at most. */
+export function abridged(value: number): string {
+  const rounded = (digits: number): string => {
+    const number = Number(value.toPrecision(digits));
+    const small = number !== 0 && Math.abs(number) < 1e-3;
+    return small ? number.toExponential() : String(number);
+  };
+  const text = rounded(6);
+  return text.length > 8 ? rounded(5) : text;
+}
 
 /** A typed number: `0.5`, `1e-8`, with a true minus sign, and `0.26π` or `pi/2` where multiples of pi are meant. */
 export function typed(text: string, multiplesOfPi: boolean): number | null {

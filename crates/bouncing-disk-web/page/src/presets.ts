@@ -17,9 +17,12 @@ export interface Preset {
   readonly title: string;
   /** Two sentences on what to see. */
   readonly text: string;
-  /** The first one is what the preset opens. */
   readonly panels: readonly [Panel, ...Panel[]];
+  /** The panel that the preset opens; without it the first one. */
+  readonly opens?: number;
 }
+
+export const openingPanel = ({ panels, opens = 0 }: Preset): Panel => panels[opens] ?? panels[0];
 
 const { PI } = Math;
 
@@ -173,7 +176,8 @@ export const PRESETS: readonly Preset[] = [
     id: "fig10",
     place: "Fig. 10",
     title: "Run-up of the motor",
-    text: "Impacts drag the rotor along until it reaches its steady speed, nearly exponentially; a larger amplitude gives fewer and harder impacts and a rougher curve. The measured runs (d) to (f) are not in the paper's text, so they are not here either.",
+    text: "Impacts drag the rotor along to its steady speed, nearly exponentially, and more roughly where a larger amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², is caught in a short cycle and rises on a straight line. The measured runs (d) to (f) are not in the paper's text, so they are not here either.",
+    opens: 1,
     panels: [
       motor("(a) A = 1 nm", { amplitude: 1e-9 }),
       motor("(b) A = 10 nm", { amplitude: 1e-8 }),

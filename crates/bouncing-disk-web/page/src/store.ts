@@ -37,6 +37,9 @@ const START_NAMES: Readonly<Record<string, string>> = {
 /** The speed of an impact is its velocity (disk minus platform) without the sign. */
 const SPEEDS = "[0, inf)";
 
+/** The kind of a refusal that is none: there was no answer. */
+const BROKEN = "broken";
+
 /** An address is mended part by part so many times at most. */
 const MOST_MENDINGS = 12;
 
@@ -77,6 +80,10 @@ export class Store {
     for (let tries = 0; tries < MOST_MENDINGS; tries++) {
       const refusal = await this.refusalOf(candidate, { system: {}, start: {}, mass: candidate.mass });
       if (refusal === null) break;
+      if (refusal.kind === BROKEN) {
+        this.listener.refused(refusal.message);
+        break;
+      }
       const change = mended(refusal, tries);
       this.listener.refused(`The address asks for what is not possible (${refusal.message}); a default is taken instead.`);
       candidate = changed(candidate, change);
@@ -147,9 +154,9 @@ export class Store {
     } catch (error) {
       if (error instanceof Refused) return error.refusal;
       if (error instanceof Cancelled) return null;
-      // The module does not work at all: the page says so, and goes on with what it has.
-      this.listener.refused(error instanceof Error ? error.message : String(error));
-      return null;
+      // The module broke down: what it has not said to be legal does not become the state.
+      const message = error instanceof Error ? error.message : String(error);
+      return { kind: BROKEN, quantity: null, value: null, range: null, message };
     }
   }
 }

@@ -213,10 +213,15 @@ test("every file that a view offers can be saved, and is not empty", () =>
     for (const view of VIEWS) {
       await page.click(`#tab-${view}`);
       await settled(page);
-      await page.click("#export-button");
-      const count = (await page.locator(".menu .items button").count()) - 1;
+      // A view offers its files as soon as it has something to say.
+      let count = 0;
+      for (let tries = 0; count < 1 && tries < 40; tries++) {
+        await page.waitForTimeout(tries === 0 ? 0 : 500);
+        await page.click("#export-button");
+        count = (await page.locator(".menu .items button").count()) - 1;
+        await page.keyboard.press("Escape");
+      }
       assert.ok(count >= 1, view);
-      await page.keyboard.press("Escape");
       for (let item = 0; item < count; item++) {
         await page.click("#export-button");
         const [download] = await Promise.all([
@@ -235,6 +240,7 @@ test("touch: sliders and tabs answer", () =>
   clean({ width: 390, height: 800, touch: true }, async (page) => {
     await page.tap("#tab-basins");
     await whenAddress(page, "view", "basins");
+    await settled(page);
     await page.tap("details:nth-of-type(2) > summary");
     const box = await page.locator('[data-name="restitution"] input[type=range]').boundingBox();
     await page.touchscreen.tap(box.x + box.width * 0.25, box.y + box.height / 2);

@@ -29,9 +29,9 @@ export interface Plot {
 /** Finds the margins that numbers and labels need, in a picture of `width` by `height` with letters of `size`. */
 export function layOut(pen: Pen, width: number, height: number, x: Axis, y: Axis, size: number): Plot {
   const top = Math.round(size * 0.9);
-  const bottom = Math.round(size * 3.1);
+  const bottom = Math.round(size * 3.4);
   const plotHeight = Math.max(height - top - bottom, 20);
-  const yTicks = ticks(y.scale, Math.max(Math.floor(plotHeight / (size * 4)), 2), y.factor);
+  const yTicks = ticks(y.scale, Math.max(Math.floor(plotHeight / (size * 3.2)), 2), y.factor);
   const numbers = Math.max(...yTicks.major.map((tick) => pen.measure(tick.label, size)), size);
   const left = Math.ceil(numbers + size * 2.5);
   const right = Math.ceil(size * 1.1);

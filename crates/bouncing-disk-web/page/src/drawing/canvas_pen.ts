@@ -7,6 +7,8 @@ export class CanvasPen implements Pen {
   constructor(
     readonly context: CanvasRenderingContext2D,
     readonly family: string = SCREEN_FONT,
+    /** All widths of lines, and their dashes, times this. */
+    private readonly weight = 1,
   ) {}
 
   path(points: ArrayLike<number>, style: PathStyle): void {
@@ -94,9 +96,9 @@ export class CanvasPen implements Pen {
     }
     if (style.stroke !== undefined) {
       context.strokeStyle = style.stroke;
-      context.lineWidth = style.width ?? 1;
+      context.lineWidth = (style.width ?? 1) * this.weight;
       context.lineJoin = "round";
-      context.setLineDash((style.dash ?? []) as number[]);
+      context.setLineDash((style.dash ?? []).map((length) => length * this.weight));
       context.stroke();
     }
     context.globalAlpha = 1;

@@ -8,16 +8,12 @@ import type { Pen } from "./pen";
 import { linearScale } from "./scale";
 
 /** The whole chart with its legend, in a box of `width` by `height`. */
-export function paintChart(
-  pen: Pen,
-  chart: Chart,
-  colour: Colours,
-  width: number,
-  height: number,
-  size: number,
-): void {
+export function paintChart(pen: Pen, chart: Chart, colour: Colours, width: number, height: number, size: number): void {
   const x = { label: chart.xLabel, scale: linearScale(chart.xRange) };
-  const y = { label: chart.yLabel, scale: linearScale(chart.yRange) };
+  // A legend stands above the curves, not on them.
+  const [low, high] = chart.yRange;
+  const room = chart.curves.length > 1 ? ((1.3 * chart.curves.length + 2) * size) / height : 0;
+  const y = { label: chart.yLabel, scale: linearScale([low, high + room * 1.4 * (high - low)]) };
   const plot = layOut(pen, width, height, x, y, size);
   paintGrid(pen, plot, colour);
   pen.clipped(plot.left, plot.top, plot.width, plot.height, () => {
@@ -52,11 +48,11 @@ export function paintExtras(pen: Pen, chart: Chart, plot: Plot, colour: Colours)
     }
     pen.path([at, plot.top, at, bottom], { stroke: colour(line.colour), width: 1.2, dash: [5, 3] });
     const nearRight = at > plot.left + plot.width * 0.6;
-    pen.text(line.label, at + (nearRight ? -4 : 4), plot.top + plot.size * 0.5, {
+    pen.text(line.label, at + (nearRight ? -4 : 4), bottom - plot.size * 0.5, {
       colour: colour(line.colour),
       size: plot.size,
       anchor: nearRight ? "end" : "start",
-      baseline: "top",
+      baseline: "bottom",
       halo: colour("--picture-paper"),
     });
   }
@@ -66,7 +62,11 @@ export function paintExtras(pen: Pen, chart: Chart, plot: Plot, colour: Colours)
     const stroke = { stroke: colour(mark.colour), width: 1.6 };
     const arm = plot.size * 0.4;
     if (mark.form === "circle") pen.circle(at, level, arm, { ...stroke, fill: colour("--picture-paper") });
-    else pen.path([at - arm, level - arm, at + arm, level + arm, NaN, NaN, at - arm, level + arm, at + arm, level - arm], stroke);
+    else
+      pen.path(
+        [at - arm, level - arm, at + arm, level + arm, NaN, NaN, at - arm, level + arm, at + arm, level - arm],
+        stroke,
+      );
   }
 }
 

@@ -4,7 +4,7 @@ import type { Offer } from "../contract";
 import { CanvasPen } from "./canvas_pen";
 import type { Colours } from "./colours";
 import { printedColours } from "./colours";
-import { PRINT_FONT } from "./pen";
+import { PRINT_FONT, PRINT_WEIGHT } from "./pen";
 import type { Pen } from "./pen";
 import { SvgPen } from "./svg_pen";
 
@@ -47,9 +47,12 @@ async function pngOf(picture: Picture): Promise<Blob> {
   context.fillStyle = colour("--picture-paper");
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.scale(PRINT_DOTS_PER_POINT, PRINT_DOTS_PER_POINT);
-  picture.paint(new CanvasPen(context, PRINT_FONT), colour, picture.width, picture.height);
+  picture.paint(new CanvasPen(context, PRINT_FONT, PRINT_WEIGHT), colour, picture.width, picture.height);
   return new Promise((resolve, reject) => {
-    canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)), "image/png");
+    canvas.toBlob(
+      (blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)),
+      "image/png",
+    );
   });
 }
 
