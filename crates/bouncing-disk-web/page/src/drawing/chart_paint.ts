@@ -8,14 +8,7 @@ import type { Pen } from "./pen";
 import { linearScale } from "./scale";
 
 /** The whole chart with its legend, in a box of `width` by `height`. */
-export function paintChart(
-  pen: Pen,
-  chart: Chart,
-  colour: Colours,
-  width: number,
-  height: number,
-  size: number,
-): void {
+export function paintChart(pen: Pen, chart: Chart, colour: Colours, width: number, height: number, size: number): void {
   const x = { label: chart.xLabel, scale: linearScale(chart.xRange) };
   // A legend stands above the curves, not on them.
   const [low, high] = chart.yRange;
@@ -69,7 +62,11 @@ export function paintExtras(pen: Pen, chart: Chart, plot: Plot, colour: Colours)
     const stroke = { stroke: colour(mark.colour), width: 1.6 };
     const arm = plot.size * 0.4;
     if (mark.form === "circle") pen.circle(at, level, arm, { ...stroke, fill: colour("--picture-paper") });
-    else pen.path([at - arm, level - arm, at + arm, level + arm, NaN, NaN, at - arm, level + arm, at + arm, level - arm], stroke);
+    else
+      pen.path(
+        [at - arm, level - arm, at + arm, level + arm, NaN, NaN, at - arm, level + arm, at + arm, level - arm],
+        stroke,
+      );
   }
 }
 

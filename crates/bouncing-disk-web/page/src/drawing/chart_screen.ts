@@ -70,7 +70,9 @@ export class ScreenChart {
       values: (_, splits) => splits.map((value) => minus(String(Number(value.toPrecision(10))))),
       ...(size === undefined ? {} : { size }),
     });
-    const series: uPlot.Series[] = [{ label: plainText(chart.xLabel).replace(/ \(.*/, ""), value: (_, value) => plain(value) }];
+    const series: uPlot.Series[] = [
+      { label: plainText(chart.xLabel).replace(/ \(.*/, ""), value: (_, value) => plain(value) },
+    ];
     const bands: uPlot.Band[] = [];
     for (const curve of chart.curves) {
       series.push({

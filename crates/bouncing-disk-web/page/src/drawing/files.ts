@@ -49,7 +49,10 @@ async function pngOf(picture: Picture): Promise<Blob> {
   context.scale(PRINT_DOTS_PER_POINT, PRINT_DOTS_PER_POINT);
   picture.paint(new CanvasPen(context, PRINT_FONT, PRINT_WEIGHT), colour, picture.width, picture.height);
   return new Promise((resolve, reject) => {
-    canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)), "image/png");
+    canvas.toBlob(
+      (blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)),
+      "image/png",
+    );
   });
 }
 

@@ -66,10 +66,7 @@ export class Gestures {
   /** Zooms about the middle: for buttons. */
   zoom(factor: number): void {
     const { x, y } = this.host.window();
-    this.host.move(
-      { x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) },
-      true,
-    );
+    this.host.move({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
   }
 
   private place(event: MouseEvent): { x: number; y: number } {

@@ -42,7 +42,13 @@ export const SUBSCRIPT_DROP = 0.22;
 
 /** Where the first line's baseline is, relative to the place asked for. */
 export function baselineShift(baseline: TextStyle["baseline"], size: number): number {
-  return baseline === "top" ? 0.8 * size : baseline === "middle" ? 0.34 * size : baseline === "bottom" ? -0.2 * size : 0;
+  return baseline === "top"
+    ? 0.8 * size
+    : baseline === "middle"
+      ? 0.34 * size
+      : baseline === "bottom"
+        ? -0.2 * size
+        : 0;
 }
 
 /** Lines of print are finer than those of screens. */
@@ -71,7 +77,8 @@ export function measureRuns(text: string, size: number, family: string): number 
 
 /** The same pen with its sheet moved down: for pictures below each other. */
 export function shifted(pen: Pen, down: number): Pen {
-  const moved = (points: ArrayLike<number>) => Float64Array.from(points, (value, index) => (index % 2 === 1 ? value + down : value));
+  const moved = (points: ArrayLike<number>) =>
+    Float64Array.from(points, (value, index) => (index % 2 === 1 ? value + down : value));
   return {
     path: (points, style) => pen.path(moved(points), style),
     circle: (x, y, radius, style) => pen.circle(x, y + down, radius, style),

@@ -98,8 +98,12 @@ function attributes(style: PathStyle): string {
   const { stroke, dash } = style;
   return (
     ` fill="${escape(style.fill ?? "none")}"` +
-    (stroke === undefined ? "" : ` stroke="${escape(stroke)}" stroke-width="${short((style.width ?? 1) * PRINT_WEIGHT)}"`) +
-    (stroke === undefined || dash === undefined || dash.length === 0 ? "" : ` stroke-dasharray="${dash.map((length) => short(length * PRINT_WEIGHT)).join(" ")}"`) +
+    (stroke === undefined
+      ? ""
+      : ` stroke="${escape(stroke)}" stroke-width="${short((style.width ?? 1) * PRINT_WEIGHT)}"`) +
+    (stroke === undefined || dash === undefined || dash.length === 0
+      ? ""
+      : ` stroke-dasharray="${dash.map((length) => short(length * PRINT_WEIGHT)).join(" ")}"`) +
     (stroke === undefined ? "" : ' stroke-linejoin="round"') +
     (style.opacity === undefined ? "" : ` opacity="${style.opacity}"`)
   );
@@ -110,5 +114,10 @@ function short(value: number): string {
 }
 
 function escape(text: string): string {
-  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/"/g, "&quot;").replace(/'/g, "&#39;");
+  return text
+    .replace(/&/g, "&amp;")
+    .replace(/</g, "&lt;")
+    .replace(/>/g, "&gt;")
+    .replace(/"/g, "&quot;")
+    .replace(/'/g, "&#39;");
 }

@@ -29,7 +29,8 @@ const LEAST_SPEED = 1e-9;
 class BasinsView implements View {
   readonly name = "basins";
   readonly title = "Basins";
-  readonly description = "All starts by phase and speed of their first impact, coloured by the attractor that they end on.";
+  readonly description =
+    "All starts by phase and speed of their first impact, coloured by the attractor that they end on.";
   private context!: Context;
   private picture!: WindowPicture;
   private readonly legend = new Legend();
@@ -58,7 +59,8 @@ class BasinsView implements View {
       },
       context,
     );
-    const hint = "× one impact of a periodic attractor, + the shared start. A click runs the orbit of that start in the first view.";
+    const hint =
+      "× one impact of a periodic attractor, + the shared start. A click runs the orbit of that start in the first view.";
     host.append(
       element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
       element(
@@ -97,7 +99,13 @@ class BasinsView implements View {
     return [
       ...tableOffers({
         name: "basins",
-        parameters: { picture: "basins", axial_forcing: axialForcing(system), restitution: system.restitution, basins, ...this.found },
+        parameters: {
+          picture: "basins",
+          axial_forcing: axialForcing(system),
+          restitution: system.restitution,
+          basins,
+          ...this.found,
+        },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
       }),
@@ -167,7 +175,9 @@ class BasinsView implements View {
       this.complete = true;
       this.previous = null;
       const seconds = (performance.now() - began) / 1000;
-      this.context.status(`${fine.phases} × ${fine.speeds} starts at Γ = ${brief(wanted.axial_forcing)} in ${seconds.toFixed(2)} s.`);
+      this.context.status(
+        `${fine.phases} × ${fine.speeds} starts at Γ = ${brief(wanted.axial_forcing)} in ${seconds.toFixed(2)} s.`,
+      );
       this.describe();
     } catch (error) {
       if (this.asked === key) this.asked = "";

@@ -33,7 +33,8 @@ const FORCING_BOUNDS: Range = [1e-3, 1e3];
 class DiagramView implements View {
   readonly name = "diagram";
   readonly title = "Orbit diagram";
-  readonly description = "The impacts that an orbit repeats, over the axial forcing parameter; zooming computes them anew.";
+  readonly description =
+    "The impacts that an orbit repeats, over the axial forcing parameter; zooming computes them anew.";
   private context!: Context;
   private picture!: WindowPicture;
   private verdict!: Verdict;
@@ -163,7 +164,10 @@ class DiagramView implements View {
     const range = confined(window.y, widths, bounds);
     const before = this.range();
     const same = range[0] === before[0] && range[1] === before[1];
-    this.context.change({ diagram: { axial_forcing: forcing, range: same ? this.state().diagram.range : range } }, { settled });
+    this.context.change(
+      { diagram: { axial_forcing: forcing, range: same ? this.state().diagram.range : range } },
+      { settled },
+    );
   }
 
   /** Asks for the columns of the present window, unless they are there or on their way. */

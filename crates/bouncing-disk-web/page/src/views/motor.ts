@@ -7,7 +7,7 @@ import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
 import type { Chart } from "../drawing/chart";
 import { debounced, element, oncePerFrame, setText } from "../drawing/elements";
-import { quantityWithError, withError } from "../drawing/numbers";
+import { withError } from "../drawing/numbers";
 import type { MotorSheet, Range, ReportJson, StallJson } from "../protocol";
 import { tellFailure } from "./failures";
 import { loadCharts, transientChart } from "./motor/charts";
@@ -17,6 +17,7 @@ import { motorOffers } from "./motor/offers";
 import { ReportPanel } from "./motor/report_panel";
 import { SheetPanel } from "./motor/sheet_panel";
 import type { Imported } from "./motor/sheet_panel";
+import { describeCurves } from "./motor/words";
 
 const SLOTS = ["motor-report", "motor-transient", "motor-loads", "motor-stall"] as const;
 
@@ -55,7 +56,11 @@ class MotorView implements View {
         "div",
         { class: "motor" },
         element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
-        element("section", { "aria-label": "Run-up and speed" }, ...[this.runUpChart, speed].map((chart) => chart?.root ?? "")),
+        element(
+          "section",
+          { "aria-label": "Run-up and speed" },
+          ...[this.runUpChart, speed].map((chart) => chart?.root ?? ""),
+        ),
         element(
           "section",
           { "aria-label": "Power and efficiency" },
@@ -140,7 +145,12 @@ class MotorView implements View {
     await this.computeCurve(sheet, report, state, present);
   }
 
-  private async computeCurve(sheet: MotorSheet, report: ReportJson, state: State, present: () => boolean): Promise<void> {
+  private async computeCurve(
+    sheet: MotorSheet,
+    report: ReportJson,
+    state: State,
+    present: () => boolean,
+  ): Promise<void> {
     const { points, loads } = state.motor;
     const [low, high] = [loads[0] * report.largest_torque, loads[1] * report.largest_torque];
     this.loads = [low, high];
@@ -156,16 +166,24 @@ class MotorView implements View {
     const unsettled = this.operations.filter(({ status }) => status === 1).length;
     const runaway = this.operations.filter(({ status }) => status === 2).length;
     const words = [`Run-up and ${points} loads are computed`];
-    if (unsettled > 0) words.push(`under ${unsettled} the motion has not settled`);
-    if (runaway > 0) words.push(`${runaway} drive the rotor`);
+    if (unsettled > 0) words.push(`under ${unsettled} of them the motion has not settled`);
+    if (runaway > 0) words.push(runaway === 1 ? "one of them drives the rotor" : `${runaway} of them drive the rotor`);
     this.context.status(`${words.join("; ")}.`);
   }
 
-  private async sweep(sheet: MotorSheet, torques: readonly number[], error: number, present: () => boolean): Promise<void> {
+  private async sweep(
+    sheet: MotorSheet,
+    torques: readonly number[],
+    error: number,
+    present: () => boolean,
+  ): Promise<void> {
     await operate(this.context, sheet, torques, error, (operation, index) => {
       if (!present()) return;
       this.operations[index] = operation;
-      this.context.status(`Load ${index + 1} of ${torques.length} with an error of ${100 * error} % of the speed`, "busy");
+      this.context.status(
+        `Load ${index + 1} of ${torques.length} with an error of ${100 * error} % of the speed`,
+        "busy",
+      );
       this.draw();
     });
   }
@@ -197,29 +215,14 @@ class MotorView implements View {
     const { colour } = this.context;
     if (this.transient !== null) {
       const { steady_speed, steady_speed_error } = this.transient.json;
-      const steady = steady_speed === null ? "No steady speed is known." : `The speed tends to ${withError(steady_speed, steady_speed_error)} rad/s.`;
+      const steady =
+        steady_speed === null
+          ? "No steady speed is known."
+          : `The speed tends to ${withError(steady_speed, steady_speed_error)} rad/s.`;
       this.runUpChart.show(transientChart(this.transient), colour, steady);
     }
-    const words = this.describeCurves();
+    const words = describeCurves(this.operations, this.stall);
     this.curves().forEach((chart, index) => this.curveCharts[index]?.show(chart, colour, words[index]));
-  }
-
-  private describeCurves(): string[] {
-    const steady = this.operations.filter(({ status }) => status !== 2);
-    const first = steady[0];
-    const last = steady[steady.length - 1];
-    if (first === undefined || last === undefined) return [];
-    const powerful = steady.reduce((best, row) => (row.mechanical_power > best.mechanical_power ? row : best));
-    const efficient = steady.reduce((best, row) => (row.efficiency > best.efficiency ? row : best));
-    const at = ({ load_torque }: Operation) => quantityWithError(load_torque, null, "N m");
-    const stall = this.stall === null ? "" : ` The motor stalls at ${quantityWithError(this.stall.torque, this.stall.torque_error, "N m")}.`;
-    return [
-      `From ${withError(first.speed, first.speed_error)} rad/s at ${at(first)} to ${withError(last.speed, last.speed_error)} rad/s at ${at(last)}.${stall}`,
-      `Of the loads computed, the load takes most power at ${at(powerful)}: ${quantityWithError(powerful.mechanical_power, powerful.mechanical_power_error, "W")}.`,
-      Number.isFinite(efficient.efficiency)
-        ? `Of the loads computed, the best efficiency is ${withError(efficient.efficiency, efficient.efficiency_error, 100)} % at ${at(efficient)}.`
-        : "No efficiency is known.",
-    ];
   }
 }
 

@@ -4,7 +4,7 @@ import "./views.css";
 
 import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
-import { element, Facts, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
+import { element, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
 import { Layers } from "../drawing/layers";
 import { plain, quantity } from "../drawing/numbers";
 import type { MotionStart } from "../protocol";
@@ -13,6 +13,7 @@ import { Controls } from "./toss/controls";
 import { tossOffers } from "./toss/offers";
 import { Player } from "./toss/player";
 import { Portrait } from "./toss/portrait";
+import { Readings } from "./toss/readings";
 import { Recording } from "./toss/recording";
 import type { Moment } from "./toss/recording";
 import { describeGains, paintScale, paintScene, stageOf } from "./toss/scene";
@@ -26,11 +27,6 @@ const MOST_PERIODS = 1280;
 const SAMPLES_PER_PERIOD = 64;
 /** More of the motion is asked for when less than this share of it is still to be shown. */
 const AHEAD = 0.35;
-const READOUTS = [
-  "Mode", "Time", "Height above the platform", "Angular speed", "Impacts so far",
-  "Kinetic, axial", "Kinetic, rotary", "Potential",
-] as const; // prettier-ignore
-const LEDGER = ["Work of the platform", "Lost in restitution", "Lost in friction", "Stored in the disk"] as const;
 
 class TossView implements View {
   readonly name = "toss";
@@ -41,9 +37,7 @@ class TossView implements View {
     "picture-scene",
     "Disk and platform in perspective. Space plays or pauses, left and right move in time, Home goes to the start.",
   );
-  private readonly facts = new Facts(READOUTS, "Present state; energies per mass of the disk");
-  private readonly ledger = new Facts(LEDGER, "Energy balance per mass of the disk");
-  private readonly ledgerTitle = element("h3", {}, "Energy balance");
+  private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
   private readonly alternative = element("p", { class: "alternative" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
@@ -68,7 +62,11 @@ class TossView implements View {
   mount(host: HTMLElement, context: Context): void {
     this.context = context;
     this.portrait = new Portrait(context, (phase, speed) => this.choose(phase, speed));
-    this.controls = new Controls(this.player, () => this.period(), () => this.describe());
+    this.controls = new Controls(
+      this.player,
+      () => this.period(),
+      () => this.describe(),
+    );
     this.scene.surface.addEventListener("keydown", (event) => this.key(event));
     attachThrowing(this.scene.surface, {
       stage: () => this.stage,
@@ -83,7 +81,11 @@ class TossView implements View {
       },
       start: (thrown) => this.throwDisk(thrown),
     });
-    const form = throwForm(() => context.state().system, () => this.phase(), (thrown) => this.throwDisk(thrown));
+    const form = throwForm(
+      () => context.state().system,
+      () => this.phase(),
+      (thrown) => this.throwDisk(thrown),
+    );
     host.append(
       this.controls.root,
       element(
@@ -94,7 +96,7 @@ class TossView implements View {
           element("section", { "aria-label": "Time traces" }, this.heights.root, this.spins.root)),
         element("div", { class: "toss-right" },
           element("section", { class: "panel", "aria-label": "Readings" },
-            element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root, form),
+            ...this.readings.elements, form),
           element("section", { "aria-label": "Phase portrait" }, element("h3", {}, "Impacts"), this.portrait.layers.root,
             element("p", { class: "remark" },
               "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there."))),
@@ -127,7 +129,12 @@ class TossView implements View {
 
   offers(): Offer[] {
     if (this.recording === null) return [];
-    return tossOffers(this.recording, this.player.now, { system: this.context.state().system, start: this.start() }, () => this.portrait.axes());
+    return tossOffers(
+      this.recording,
+      this.player.now,
+      { system: this.context.state().system, start: this.start() },
+      () => this.portrait.axes(),
+    );
   }
 
   private start(): MotionStart {
@@ -184,7 +191,7 @@ class TossView implements View {
     // The first motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
     if (first && !prefersLessMotion()) this.player.play();
     else if (!same && !this.player.playing) this.player.now = prefersLessMotion() ? Math.min(7, recording.periods) : 0;
-    this.showLedger(recording);
+    this.readings.balance(recording);
     this.describe();
     this.draw();
   }
@@ -209,9 +216,10 @@ class TossView implements View {
     paintScene(pen, stage, moment, context.colour);
     paintScale(pen, stage, this.scene.height, context.colour);
     this.controls.show(recording.periods);
-    this.showFacts(moment, recording);
+    const impacts = recording.impactsUntil(player.now * recording.period);
+    this.readings.show(moment, player.now, impacts, context.state().system);
     this.showTraces(recording);
-    this.portrait.show(recording, context.state().start, recording.impactsUntil(player.now * recording.period), this.anew);
+    this.portrait.show(recording, context.state().start, impacts, this.anew);
     this.anew = false;
     if (player.playing && player.now > recording.periods * (1 - AHEAD)) {
       if (recording.periods < MOST_PERIODS) void this.fetch(recording.periods * 2);
@@ -252,27 +260,6 @@ class TossView implements View {
     this.spins.show(spins, this.context.colour);
   }
 
-  private showFacts(moment: Moment, recording: Recording): void {
-    const { gyration_radius, preload_acceleration } = this.context.state().system;
-    const { facts, player } = this;
-    facts.set("Mode", moment.mode);
-    facts.set("Time", `${player.now.toFixed(2)} periods, ${quantity(moment.time, "s")}`);
-    facts.set("Height above the platform", quantity(Math.max(moment.height - moment.platform_height, 0), "m"));
-    facts.set("Angular speed", `${plain(moment.angular_speed, 3)} rad/s`);
-    facts.set("Impacts so far", String(recording.impactsUntil(player.now * recording.period)));
-    facts.set("Kinetic, axial", quantity(moment.axial_velocity ** 2 / 2, "J/kg"));
-    facts.set("Kinetic, rotary", quantity((gyration_radius * moment.angular_speed) ** 2 / 2, "J/kg"));
-    facts.set("Potential", quantity(preload_acceleration * moment.height, "J/kg"));
-  }
-
-  private showLedger({ energy, periods }: Recording): void {
-    setText(this.ledgerTitle, `Energy balance of ${periods} periods`);
-    this.ledger.set("Work of the platform", quantity(energy.platform_work, "J/kg"));
-    this.ledger.set("Lost in restitution", quantity(energy.restitution_loss, "J/kg"));
-    this.ledger.set("Lost in friction", quantity(energy.friction_loss, "J/kg"));
-    this.ledger.set("Stored in the disk", quantity(energy.stored, "J/kg"));
-  }
-
   private throwDisk(thrown: Throw): void {
     this.thrown = thrown;
     this.context.status(describeThrow(thrown));
@@ -284,7 +271,9 @@ class TossView implements View {
   private choose(phasePeriods: number, speed: number): void {
     const start = { impact_phase: phasePeriods * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) };
     this.context.change({ start });
-    this.context.status(`The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`);
+    this.context.status(
+      `The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`,
+    );
   }
 
   private key(event: KeyboardEvent): void {

@@ -26,7 +26,11 @@ export async function findAttractors(context: Context, wanted: Wanted): Promise<
 }
 
 /** The fine grid of a plot of so many device pixels, and the coarse one. */
-export function gridsOf(window: Pick<Grid, "phase_periods" | "normalised_speed">, columns: number, rows: number): [Grid, Grid] {
+export function gridsOf(
+  window: Pick<Grid, "phase_periods" | "normalised_speed">,
+  columns: number,
+  rows: number,
+): [Grid, Grid] {
   const phases = Math.max(Math.min(columns, MOST_PHASES), 2);
   const speeds = Math.max(Math.min(rows, MOST_SPEEDS), 2);
   const coarse = { phases: Math.ceil(phases / COARSE), speeds: Math.ceil(speeds / COARSE) };
@@ -50,7 +54,12 @@ export async function computeCells(
       rows: [part * step, Math.min((part + 1) * step, grid.speeds)] as [number, number],
     }));
   });
-  const requests = parts.map(({ grid, rows }) => ({ call: "basins" as const, ...wanted, ...(grids[grid] as Grid), rows }));
+  const requests = parts.map(({ grid, rows }) => ({
+    call: "basins" as const,
+    ...wanted,
+    ...(grids[grid] as Grid),
+    rows,
+  }));
   await context.client.series("basins", requests, ({ bytes }, index) => {
     const part = parts[index];
     if (part !== undefined) take(bytes, part.grid, part.rows[0]);

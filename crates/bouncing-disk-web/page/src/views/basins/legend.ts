@@ -29,7 +29,14 @@ export class Legend {
         "li",
         {},
         element("span", { class: "swatch", style: `background:var(${categoryColour(index)})`, "aria-hidden": "true" }),
-        element("span", {}, describe(attractor, found), " ", element("b", {}, shareOf(attractor)), windowShare(inWindow)),
+        element(
+          "span",
+          {},
+          describe(attractor, found),
+          " ",
+          element("b", {}, shareOf(attractor)),
+          windowShare(inWindow),
+        ),
       );
       return item;
     });
@@ -64,7 +71,8 @@ export function labelsOf(found: AttractorsJson | null): number[] {
 
 export function describe(attractor: Attractor, found: AttractorsJson): string {
   const text = attractor.text.replace(/\.$/, "");
-  if (attractor.lasts || attractor.leads_to === null) return attractor.lasts ? `${text}.` : `${text}; it does not last.`;
+  if (attractor.lasts || attractor.leads_to === null)
+    return attractor.lasts ? `${text}.` : `${text}; it does not last.`;
   const target = found.attractors[attractor.leads_to]?.text.replace(/\.$/, "") ?? "another attractor";
   return `${text}; it does not last, and leads to: ${target}.`;
 }

@@ -33,7 +33,8 @@ export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity
     const x = pixelX(plot, numbers[row] as number);
     const y = pixelY(plot, axisValue(quantity, numbers[row + field] as number, low));
     const branch = numbers[row + BRANCH] as number;
-    const jump = last === null || last.branch !== branch || Math.abs(last.x - x) > width || Math.abs(last.y - y) > height;
+    const jump =
+      last === null || last.branch !== branch || Math.abs(last.x - x) > width || Math.abs(last.y - y) > height;
     if (!jump && last !== null) {
       const line = numbers[row + STABLE] === 1 ? full : dashed;
       const end = line.length;
@@ -49,7 +50,13 @@ export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity
 }
 
 /** Each bifurcation is marked at the nearest computed orbit of its branch. */
-function paintBifurcations(pen: Pen, plot: Plot, { json, numbers }: Branches, quantity: Quantity, colour: Colours): void {
+function paintBifurcations(
+  pen: Pen,
+  plot: Plot,
+  { json, numbers }: Branches,
+  quantity: Quantity,
+  colour: Colours,
+): void {
   const field = columnOf(quantity);
   const low = plot.y.scale.domain[0];
   const style = { stroke: colour("--bifurcation"), width: 1.3, fill: colour("--picture-paper") };
@@ -69,7 +76,11 @@ function paintBifurcations(pen: Pen, plot: Plot, { json, numbers }: Branches, qu
     if (found.kind === "doubling") pen.circle(x, y, 3.5, style);
     else if (found.kind === "fold") pen.rect(x - 3, y - 3, 6, 6, style);
     else if (found.kind === "birth") pen.path([x, y - 4, x + 4, y, x, y + 4, x - 4, y], { ...style, close: true });
-    else pen.path([x - 3, y - 3, x + 3, y + 3, NaN, NaN, x - 3, y + 3, x + 3, y - 3], { stroke: style.stroke, width: 1.5 });
+    else
+      pen.path([x - 3, y - 3, x + 3, y + 3, NaN, NaN, x - 3, y + 3, x + 3, y - 3], {
+        stroke: style.stroke,
+        width: 1.5,
+      });
   }
 }
 

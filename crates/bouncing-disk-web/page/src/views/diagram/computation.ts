@@ -35,7 +35,14 @@ export async function computeColumns(
     for (let from = 0; from < count; from += CHUNK) {
       const to = Math.min(from + CHUNK, count);
       places.push({ from, to, coarse });
-      requests.push({ call: "diagram", ...wanted, count, columns: [from, to], transient: TRANSIENT, recorded: RECORDED });
+      requests.push({
+        call: "diagram",
+        ...wanted,
+        count,
+        columns: [from, to],
+        transient: TRANSIENT,
+        recorded: RECORDED,
+      });
     }
   };
   add(Math.ceil(wanted.count / COARSE), true);

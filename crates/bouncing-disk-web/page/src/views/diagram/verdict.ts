@@ -11,7 +11,11 @@ const NAMES = ["Γ", "Orbit", "Period", "Multipliers", "Exponent per impact"] as
 export class Verdict {
   readonly root = element("section", { class: "panel", "aria-label": "Orbit under the cursor" });
   private readonly facts = new Facts(NAMES, "Orbit under the cursor");
-  private readonly sentence = element("p", {}, "Point at the diagram: the orbit of that forcing from the shared start.");
+  private readonly sentence = element(
+    "p",
+    {},
+    "Point at the diagram: the orbit of that forcing from the shared start.",
+  );
   private readonly caution = element("p", { class: "caution", hidden: true });
   private asked = NaN;
   private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));

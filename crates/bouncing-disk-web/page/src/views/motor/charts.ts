@@ -10,13 +10,19 @@ import type { Operation, Transient } from "./computation";
 export function transientChart({ json, numbers }: Transient): Chart {
   const width = TRANSIENT_COLUMNS.length;
   const column = (place: number, factor = 1) =>
-    Float64Array.from({ length: Math.floor(numbers.length / width) }, (_, row) => (numbers[row * width + place] ?? NaN) * factor);
+    Float64Array.from(
+      { length: Math.floor(numbers.length / width) },
+      (_, row) => (numbers[row * width + place] ?? NaN) * factor,
+    );
   const last = column(0)[json.points - 1] ?? 1;
   const time = prefixOf(last);
   const speed = column(1);
   const error = column(2);
   const steady = json.steady_speed;
-  const edges = [...speed.map((value, row) => value + 2 * (error[row] ?? 0)), ...speed.map((value, row) => value - 2 * (error[row] ?? 0))];
+  const edges = [
+    ...speed.map((value, row) => value + 2 * (error[row] ?? 0)),
+    ...speed.map((value, row) => value - 2 * (error[row] ?? 0)),
+  ];
   const range = extent([...edges, 0, ...(steady === null ? [] : [steady])]) ?? [0, 1];
   return {
     title: "Run-up",
@@ -35,7 +41,12 @@ export function transientChart({ json, numbers }: Transient): Chart {
 interface Kind {
   readonly title: string;
   readonly label: (prefix: string) => string;
-  readonly curves: readonly { name: "speed" | "mechanical_power" | "input_power" | "efficiency"; label: string; colour: string; dash?: readonly number[] }[];
+  readonly curves: readonly {
+    name: "speed" | "mechanical_power" | "input_power" | "efficiency";
+    label: string;
+    colour: string;
+    dash?: readonly number[];
+  }[];
   readonly scaled: boolean;
   readonly factor: number;
 }
@@ -83,7 +94,9 @@ export function loadCharts(
     const greatest = Math.max(...values.filter(Number.isFinite).map(Math.abs), 0);
     const prefix = kind.scaled ? prefixOf(greatest) : { factor: kind.factor, symbol: "" };
     const edges = shown.flatMap((row) =>
-      kind.curves.flatMap(({ name }) => [-2, 2].map((errors) => (row[name] + errors * finite(row[`${name}_error`])) * prefix.factor)),
+      kind.curves.flatMap(({ name }) =>
+        [-2, 2].map((errors) => (row[name] + errors * finite(row[`${name}_error`])) * prefix.factor),
+      ),
     );
     // A point that is not settled may have any error; it must not flatten the others.
     const most = 1.6 * greatest * prefix.factor;
@@ -119,8 +132,19 @@ export function loadCharts(
       marks,
       ...(stall === null
         ? {}
-        : { lines: [{ x: stall.torque * torque.factor, error: stall.torque_error * torque.factor, label: "stall", colour: "--stall" }] }),
-      ...(span[1] > beyond * 1.001 ? { shade: { range: [beyond, span[1]] as Range, label: "friction cannot hold" } } : {}),
+        : {
+            lines: [
+              {
+                x: stall.torque * torque.factor,
+                error: stall.torque_error * torque.factor,
+                label: "stall",
+                colour: "--stall",
+              },
+            ],
+          }),
+      ...(span[1] > beyond * 1.001
+        ? { shade: { range: [beyond, span[1]] as Range, label: "friction cannot hold" } }
+        : {}),
     };
   });
 }

@@ -53,7 +53,13 @@ export async function operate(
   relative_error: number,
   take: (operation: Operation, index: number) => void,
 ): Promise<void> {
-  const requests = loads.map((load) => ({ call: "motor_loads" as const, sheet, load_torques: [load], relative_error, seed: SEED }));
+  const requests = loads.map((load) => ({
+    call: "motor_loads" as const,
+    sheet,
+    load_torques: [load],
+    relative_error,
+    seed: SEED,
+  }));
   await context.client.series("motor-loads", requests, ({ json, numbers }, index) => {
     const operation: Record<string, number | string | null> = { wanted: relative_error };
     OPERATION_COLUMNS.forEach((name, column) => {
@@ -69,7 +75,11 @@ export async function stallOf(context: Context, sheet: MotorSheet): Promise<Stal
   return (await one(context, "motor-stall", request)).json as StallJson;
 }
 
-async function one(context: Context, slot: string, request: Parameters<Context["client"]["ask"]>[1]): Promise<Response> {
+async function one(
+  context: Context,
+  slot: string,
+  request: Parameters<Context["client"]["ask"]>[1],
+): Promise<Response> {
   let answer: Response | null = null;
   await context.client.series(slot, [request], (response) => {
     answer = response;

@@ -27,7 +27,11 @@ const STATUS = ["steady", "unsettled", "runaway"] as const;
 
 export function motorOffers({ sheet, text, transient, operations, runUp, curves }: MotorParts): Offer[] {
   const offers: Offer[] = [
-    { name: "motor data sheet", kind: "json", make: () => Promise.resolve(new Blob([text], { type: "application/json" })) },
+    {
+      name: "motor data sheet",
+      kind: "json",
+      make: () => Promise.resolve(new Blob([text], { type: "application/json" })),
+    },
   ];
   if (transient !== null) {
     offers.push(
@@ -47,7 +51,9 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves 
         columns: [...LOAD_UNITS, "relative_error_wanted", "shortfall"],
         *rows() {
           for (const row of operations) {
-            const numbers = OPERATION_COLUMNS.map((name) => (name === "status" ? (STATUS[row.status] ?? "") : row[name]));
+            const numbers = OPERATION_COLUMNS.map((name) =>
+              name === "status" ? (STATUS[row.status] ?? "") : row[name],
+            );
             yield [...numbers, row.wanted, row.shortfall ?? ""];
           }
         },
@@ -55,7 +61,8 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves 
     );
   }
   if (runUp !== null) offers.push(...stacked("motor run-up", "Run-up of the motor", [runUp]));
-  if (curves.length > 0) offers.push(...stacked("motor load curve", "Speed, power and efficiency against load", curves));
+  if (curves.length > 0)
+    offers.push(...stacked("motor load curve", "Speed, power and efficiency against load", curves));
   return offers;
 }
 

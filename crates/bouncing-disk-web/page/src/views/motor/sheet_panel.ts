@@ -45,7 +45,11 @@ export class SheetPanel {
         button("Save as JSON", () => this.save()),
         this.file,
       ),
-      element("p", { class: "remark" }, "The sheet of the shared system and mass, as the command line and Python read it. Paste another one, or edit it."),
+      element(
+        "p",
+        { class: "remark" },
+        "The sheet of the shared system and mass, as the command line and Python read it. Paste another one, or edit it.",
+      ),
     );
   }
 
@@ -83,7 +87,10 @@ export class SheetPanel {
   }
 
   private save(): void {
-    const link = element("a", { href: URL.createObjectURL(new Blob([this.text.value], { type: "application/json" })), download: "motor.json" });
+    const link = element("a", {
+      href: URL.createObjectURL(new Blob([this.text.value], { type: "application/json" })),
+      download: "motor.json",
+    });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   }

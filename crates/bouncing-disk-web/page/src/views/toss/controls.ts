@@ -13,7 +13,13 @@ export class Controls {
   readonly root: HTMLElement;
   private readonly playButton = button("Play", () => this.toggle(), { class: "play" });
   private readonly place = element("input", { type: "range", min: 0, step: "any", "aria-label": "Time in periods" });
-  private readonly speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Speed of the animation" });
+  private readonly speed = element("input", {
+    type: "range",
+    min: 0,
+    max: STEPS,
+    step: 1,
+    "aria-label": "Speed of the animation",
+  });
   private readonly told = element("output", { class: "speed" });
 
   /** `period` is that of the platform in seconds. */

@@ -104,9 +104,10 @@ export function paintImpacts(pen: Pen, plot: Plot, impacts: readonly Impact[], c
   for (const impact of impacts) {
     const x = pixelX(plot, periods(impact));
     const y = pixelY(plot, impact.normalised_speed);
-    points.push(x - size / 2, y, x + size / 2, y, NaN, NaN);
+    const half = size / 2;
+    points.push(x - half, y - half, x + half, y - half, x + half, y + half, x - half, y + half, NaN, NaN);
   }
-  pen.path(points, { stroke: colour("--impact"), width: size, opacity: 0.75 });
+  pen.path(points, { fill: colour("--impact"), opacity: 0.75 });
 }
 
 function periods({ phase }: Impact): number {

@@ -66,7 +66,16 @@ export function paintScene(pen: Pen, stage: Stage, pose: Pose, colour: Colours):
   const disk = (pose.height * stage.heightGain) / stage.radius;
   const turn = pose.platform_angle * stage.angleGain;
   column(pen, stage, platform - THICKNESS, colour);
-  cylinder(pen, stage, PLATFORM, platform - THICKNESS, platform, colour("--platform"), colour("--platform-side"), colour);
+  cylinder(
+    pen,
+    stage,
+    PLATFORM,
+    platform - THICKNESS,
+    platform,
+    colour("--platform"),
+    colour("--platform-side"),
+    colour,
+  );
   spokes(pen, stage, platform, turn, PLATFORM, colour("--platform-side"), 6);
   wedge(pen, stage, platform, turn, 0.98, PLATFORM, 0.09, colour("--platform-mark"));
   pen.path(ring(stage, 1, platform), { fill: colour("--platform-side"), opacity: 0.45, close: true });
@@ -85,7 +94,12 @@ export function paintScale(pen: Pen, stage: Stage, height: number, colour: Colou
   const top = bottom - length * perMetre;
   const ink = { stroke: colour("--picture-text"), width: 1.2 };
   pen.path([14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top], ink);
-  const text = { colour: colour("--picture-text"), size: 12, baseline: "middle", halo: colour("--picture-paper") } as const;
+  const text = {
+    colour: colour("--picture-text"),
+    size: 12,
+    baseline: "middle",
+    halo: colour("--picture-paper"),
+  } as const;
   pen.text(quantity(length, "m", 1), 27, (top + bottom) / 2, text);
 }
 

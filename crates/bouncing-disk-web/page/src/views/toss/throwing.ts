@@ -111,7 +111,11 @@ export function describeThrow({ gap, relative_velocity, angular_speed }: Throw):
 }
 
 /** Three numbers and a button: the same throw without a pointer. */
-export function throwForm(system: () => Readonly<SystemParameters>, phase: () => number, start: (thrown: Throw) => void): HTMLElement {
+export function throwForm(
+  system: () => Readonly<SystemParameters>,
+  phase: () => number,
+  start: (thrown: Throw) => void,
+): HTMLElement {
   const field = (label: string, value: string) => {
     const input = element("input", { type: "number", step: "any", value, inputmode: "decimal" });
     return { input, row: element("label", {}, label, input) };
@@ -119,7 +123,8 @@ export function throwForm(system: () => Readonly<SystemParameters>, phase: () =>
   const gap = field("Height above the platform (mm)", "100");
   const velocity = field("Relative velocity upwards (mm/s)", "500");
   const spin = field("Angular speed (rad/s)", "5");
-  const read = ({ input }: { input: HTMLInputElement }) => (Number.isFinite(input.valueAsNumber) ? input.valueAsNumber : 0);
+  const read = ({ input }: { input: HTMLInputElement }) =>
+    Number.isFinite(input.valueAsNumber) ? input.valueAsNumber : 0;
   const throwIt = () =>
     start(
       bounded(system(), {
