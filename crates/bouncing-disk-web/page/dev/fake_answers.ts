@@ -45,7 +45,8 @@ const turn = 2 * Math.PI;
 const reduced = (phase: number): number => ((phase % turn) + turn) % turn;
 
 function summary(system: SystemParameters): unknown {
-  const { friction, contact_radius, gyration_radius, preload_acceleration, twist_amplitude, angular_frequency } = system;
+  const { friction, contact_radius, gyration_radius, preload_acceleration, twist_amplitude, angular_frequency } =
+    system;
   const push = (friction * contact_radius * preload_acceleration) / gyration_radius ** 2;
   const spin = twist_amplitude * angular_frequency;
   return {
@@ -138,16 +139,39 @@ const PERIODIC = { impacts: 1, platform_periods: 1, multipliers: [[0.25, 0.1], [
 function motorAnswer(request: Request): Answer {
   switch (request.call) {
     case "motor_transient": {
-      const numbers = Array.from({ length: request.points }, (_, index) => [index, 21 * (1 - Math.exp(-index / 20)), 0.2]);
+      const numbers = Array.from({ length: request.points }, (_, index) => [
+        index,
+        21 * (1 - Math.exp(-index / 20)),
+        0.2,
+      ]);
       const json = { points: request.points, steady_speed: 21, steady_speed_error: 0.1, time_constant: 0.8 };
       return { json, numbers: numbers.flat() };
     }
     case "motor_loads": {
-      const rows = request.load_torques.map((load) => [load, 21 - 1e5 * load, 0.1, 1e-6, 1e-8, 4e-6, 1e-8, 0.25, 0.01, 0]);
+      const rows = request.load_torques.map((load) => [
+        load,
+        21 - 1e5 * load,
+        0.1,
+        1e-6,
+        1e-8,
+        4e-6,
+        1e-8,
+        0.25,
+        0.01,
+        0,
+      ]);
       return { json: { shortfalls: request.load_torques.map(() => null) }, numbers: rows.flat() };
     }
     case "motor_stall":
-      return { json: { torque: 3e-5, torque_error: 1e-7, bracket: [2.9e-5, 3.1e-5], no_load_speed: 21, no_load_speed_error: 0.1 } };
+      return {
+        json: {
+          torque: 3e-5,
+          torque_error: 1e-7,
+          bracket: [2.9e-5, 3.1e-5],
+          no_load_speed: 21,
+          no_load_speed_error: 0.1,
+        },
+      };
     case "sheet_write":
       return { json: { text: JSON.stringify(request.sheet, null, 2) } };
     case "sheet_read":
@@ -159,11 +183,17 @@ function motorAnswer(request: Request): Answer {
       return { json: { ...numbers, ...words, system, mass: request.sheet.mass } };
     }
     default:
-      throw new FakeRefusal({ kind: "request", quantity: null, value: null, range: null, message: "the fake cannot do this" });
+      throw new FakeRefusal({
+        kind: "request",
+        quantity: null,
+        value: null,
+        range: null,
+        message: "the fake cannot do this",
+      });
   }
 }
 
-/** This coefficient of friction makes the module break down, and this one takes for ever, so that tests see what then happens. */
+/** With the first of these coefficients of friction the fake breaks down, with the second it never ends. */
 const BREAKS = 0.06660666;
 const HANGS = 0.07770777;
 
@@ -179,14 +209,26 @@ export function answer(request: Request): Answer {
     case "diagram":
       return diagram(request);
     case "orbit":
-      return { json: { kind: "periodic", ...PERIODIC, exponent: -0.5, exponent_error: 0.01, rounding_dependent: false, text: "Period 1" } };
+      return {
+        json: {
+          kind: "periodic",
+          ...PERIODIC,
+          exponent: -0.5,
+          exponent_error: 0.01,
+          rounding_dependent: false,
+          text: "Period 1",
+        },
+      };
     case "branches":
       return { json: { branches: [], bifurcations: [] } };
     case "attractors":
       return { json: { attractors: [{ label: 1, kind: "periodic", text: "One impact in each period", share: 0.4, interval: [0.38, 0.42], lasts: true, leads_to: null, impact: { impact_phase: 0.7, normalised_speed: 1.33 } }, { label: 2, kind: "rest", text: "Chatters", share: 0.6, interval: [0.58, 0.62], lasts: true, leads_to: null, impact: null }], undecided: 0 } }; // prettier-ignore
     case "basins": {
       const [from, to] = request.rows;
-      const bytes = Array.from({ length: (to - from) * request.phases }, (_, cell) => 1 + (((cell % request.phases) ^ (from + Math.floor(cell / request.phases))) & 1));
+      const bytes = Array.from(
+        { length: (to - from) * request.phases },
+        (_, cell) => 1 + (((cell % request.phases) ^ (from + Math.floor(cell / request.phases))) & 1),
+      );
       return { json: {}, bytes };
     }
     case "sheet_of_system":

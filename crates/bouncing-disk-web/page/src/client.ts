@@ -13,12 +13,15 @@ const URGENT: ReadonlySet<Request["call"]> = new Set(["check"]);
 
 export function makeClient(source: Source): Client {
   let compiled: WebAssembly.Module | null = null;
-  const address = "script" in source ? URL.createObjectURL(new Blob([source.script], { type: "text/javascript" })) : null;
+  const address =
+    "script" in source ? URL.createObjectURL(new Blob([source.script], { type: "text/javascript" })) : null;
   const workshop = {
     worker: () => new Worker(address ?? (source as { worker: string }).worker),
     module: (): ModuleSource => {
       if (compiled !== null) return { compiled };
-      return "script" in source ? { base64: source.base64 } : { address: new URL(source.module, document.baseURI).href };
+      return "script" in source
+        ? { base64: source.base64 }
+        : { address: new URL(source.module, document.baseURI).href };
     },
     keep: (module: WebAssembly.Module) => {
       compiled = module;
@@ -30,7 +33,10 @@ export function makeClient(source: Source): Client {
   return {
     ask: (slot, request) =>
       new Promise<Response>((resolve, reject) => {
-        quick.add({ slot, requests: [request], each: resolve, done: () => {}, failed: reject }, URGENT.has(request.call));
+        quick.add(
+          { slot, requests: [request], each: resolve, done: () => {}, failed: reject },
+          URGENT.has(request.call),
+        );
       }),
     series: (slot, requests, each) =>
       new Promise<void>((resolve, reject) => {

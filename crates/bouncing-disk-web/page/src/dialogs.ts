@@ -5,7 +5,11 @@ import { PRESETS, type Preset } from "./presets";
 
 function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElement {
   const made = element("dialog", { class: name, "aria-labelledby": `${name}-title` });
-  const close = element("button", { type: "button", class: "quiet close", "aria-label": "Close", onclick: () => made.close() }, "×");
+  const close = element(
+    "button",
+    { type: "button", class: "quiet close", "aria-label": "Close", onclick: () => made.close() },
+    "×",
+  );
   made.append(element("div", { class: "sheet" }, element("h2", { id: `${name}-title` }, title), close, ...content));
   // A click beside the sheet closes it.
   made.addEventListener("click", (event) => {
@@ -71,7 +75,12 @@ export function helpDialog(): HTMLDialogElement {
   const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcuts.on });
   box.addEventListener("change", () => kept.write("keys", box.checked ? "on" : "off"));
   const keys = KEYS.map(([key, what]) =>
-    element("div", {}, element("dt", {}, ...key.split(" ").map((one) => element("kbd", {}, one))), element("dd", {}, what)),
+    element(
+      "div",
+      {},
+      element("dt", {}, ...key.split(" ").map((one) => element("kbd", {}, one))),
+      element("dd", {}, what),
+    ),
   );
   const paragraph = (text: string): HTMLElement => element("p", {}, text);
   return dialog(

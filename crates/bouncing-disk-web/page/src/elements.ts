@@ -35,9 +35,9 @@ export function symbol(text: string): HTMLElement {
 
 /** Running text with the paper's subscripts: `φ_L`. */
 export function rich(text: string): Node[] {
-  return text.split(/(_[A-Za-z]+)/).map((part) =>
-    part.startsWith("_") ? element("sub", {}, part.slice(1)) : document.createTextNode(part),
-  );
+  return text
+    .split(/(_[A-Za-z]+)/)
+    .map((part) => (part.startsWith("_") ? element("sub", {}, part.slice(1)) : document.createTextNode(part)));
 }
 
 /** Something kept from visit to visit; a page on the disk may not be allowed to. */

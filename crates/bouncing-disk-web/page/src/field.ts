@@ -90,7 +90,9 @@ export class Field {
     const logarithmic = this.parameter.slider === "logarithmic";
     const exact = logarithmic ? low * (high / low) ** share : low + share * (high - low);
     // No more digits than a position means, so that the number can be read, typed and cited.
-    const digit = logarithmic ? 10 ** (Math.floor(Math.log10(exact)) - 3) : 10 ** Math.floor(Math.log10(high - low) - 3);
+    const digit = logarithmic
+      ? 10 ** (Math.floor(Math.log10(exact)) - 3)
+      : 10 ** Math.floor(Math.log10(high - low) - 3);
     this.ask(Number((Math.round(exact / digit) * digit).toPrecision(12)), settled);
   }
 
@@ -102,7 +104,10 @@ export class Field {
     }
     const value = typed(text, this.parameter.angle === true);
     if (value !== null) this.ask(value, true);
-    else this.complain(`"${text.slice(0, 24)}" is not a number; write it like 0.5 or 1e-8${this.parameter.angle ? " or 0.26π" : ""}.`);
+    else
+      this.complain(
+        `"${text.slice(0, 24)}" is not a number; write it like 0.5 or 1e-8${this.parameter.angle ? " or 0.26π" : ""}.`,
+      );
   }
 
   private pressed(event: KeyboardEvent): void {

@@ -141,7 +141,8 @@ function begin(): void {
   document.addEventListener("keydown", (event) => {
     const busy = document.querySelector("dialog[open]") !== null || event.ctrlKey || event.altKey || event.metaKey;
     const target = event.target as HTMLElement;
-    if (busy || event.defaultPrevented || !shortcuts.on || target.closest("input, select, textarea, [contenteditable]")) return;
+    if (busy || event.defaultPrevented || !shortcuts.on || target.closest("input, select, textarea, [contenteditable]"))
+      return;
     const view = VIEW_NAMES[Number(event.key) - 1];
     const keys: Readonly<Record<string, () => void>> = {
       p: actions.presets, t: actions.tour, e: () => exportButton.click(), l: actions.copy, d: actions.theme, "?": actions.help,

@@ -52,7 +52,8 @@ export class Menu {
         note === undefined ? null : element("span", { class: "kind" }, note),
       ),
     );
-    if (buttons.length === 0) buttons.push(element("button", { type: "button", role: "menuitem", disabled: true }, "Nothing yet"));
+    if (buttons.length === 0)
+      buttons.push(element("button", { type: "button", role: "menuitem", disabled: true }, "Nothing yet"));
     this.list.replaceChildren(...buttons);
     this.list.hidden = false;
     this.button.setAttribute("aria-expanded", "true");

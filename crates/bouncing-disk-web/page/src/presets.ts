@@ -63,7 +63,13 @@ const braking = (label: string, preload: number): Panel => ({
   label,
   change: {
     view: "toss",
-    system: { ...MOTOR, amplitude: 1e-6, twist_amplitude: 0, angular_frequency: 20 * PI, preload_acceleration: preload },
+    system: {
+      ...MOTOR,
+      amplitude: 1e-6,
+      twist_amplitude: 0,
+      angular_frequency: 20 * PI,
+      preload_acceleration: preload,
+    },
     mass: 0.0329,
     start: { impact_phase: 0, normalised_speed: 0.02, angular_speed: 30 },
   },
@@ -74,14 +80,19 @@ export const PRESETS: readonly Preset[] = [
     id: "fig01",
     place: "Fig. 1",
     title: "Disk, platform and the toss",
-    text: "Height and angle of the disk follow those of the platform as long as friction holds it, and part from them where it is thrown. Every point of the platform runs along a closed curve on a cylinder.",
+    text:
+      "Height and angle of the disk follow those of the platform as long as friction holds it, and part from " +
+      "them where it is thrown. Every point of the platform runs along a closed curve on a cylinder.",
     panels: [toss("Table I", {})],
   },
   {
     id: "fig02",
     place: "Fig. 2",
     title: "Paths of the hand, or of a stator",
-    text: "The phase lag θ opens the path from a line to an ellipse, and the amplitude ratio tan φ_L = a_e Φ/A tilts it. The text names only some of these values: the lag of (b) and the angles of (d) and (f) are chosen as in the project's own figure, and at (f) the hand moves too gently to throw.",
+    text:
+      "The phase lag θ opens the path from a line to an ellipse, and the amplitude ratio tan φ_L = a_e Φ/A " +
+      "tilts it. The text names only some of these values: the lag of (b) and the angles of (d) and (f) are " +
+      "chosen as in the project's own figure, and at (f) the hand moves too gently to throw.",
     panels: [
       toss("(a) θ = −π/2", tossOf({ angle: 0.25 * PI, lag: -PI / 2 })),
       toss("(b), (e) θ = −π/4", tossOf({ angle: 0.25 * PI, lag: -PI / 4 })),
@@ -94,7 +105,10 @@ export const PRESETS: readonly Preset[] = [
     id: "fig03",
     place: "Fig. 3",
     title: "Modes and events",
-    text: "The flow chart is the engine behind every picture here, and its inset is this motion: a flight, impacts that come ever faster, attachment, a ride on the platform, and separation. Watch the mode change between flight, sticking and sliding.",
+    text:
+      "The flow chart is the engine behind every picture here, and its inset is this motion: a flight, impacts " +
+      "that come ever faster, attachment, a ride on the platform, and separation. Watch the mode change " +
+      "between flight, sticking and sliding.",
     panels: [
       {
         label: "chattering",
@@ -106,7 +120,10 @@ export const PRESETS: readonly Preset[] = [
     id: "fig04",
     place: "Fig. 4",
     title: "Best hand motion of a single toss",
-    text: "The figure plots the airborne speed against φ_L and θ; each panel here is one point of it, and the speed after the first separation is the one to read. A linear motion (θ = 0) is best; the fastest toss reaches the printed 22 rad/s, though not exactly at the printed φ_L = 0.323π.",
+    text:
+      "The figure plots the airborne speed against φ_L and θ; each panel here is one point of it, and the " +
+      "speed after the first separation is the one to read. A linear motion (θ = 0) is best; the fastest toss " +
+      "reaches the printed 22 rad/s, though not exactly at the printed φ_L = 0.323π.",
     panels: [
       toss("φ_L = 0.323π", tossOf({ angle: 0.323 * PI })),
       toss("φ_L = 0.55", {}),
@@ -120,7 +137,10 @@ export const PRESETS: readonly Preset[] = [
     id: "fig05",
     place: "Fig. 5",
     title: "Hand and dough, six tosses",
-    text: "At a small φ_L the toss is high and the dough follows a hand that hardly turns; at a large one the hand turns fast, the toss is low and the hand slips away. With θ = π/2 the hand has turned back before the dough leaves it.",
+    text:
+      "At a small φ_L the toss is high and the dough follows a hand that hardly turns; at a large one the hand " +
+      "turns fast, the toss is low and the hand slips away. With θ = π/2 the hand has turned back before the " +
+      "dough leaves it.",
     panels: [
       toss("(a) θ = 0", tossOf({ angle: 0.132 * PI })),
       toss("(a) θ = π/2", tossOf({ angle: 0.132 * PI, lag: PI / 2 })),
@@ -134,7 +154,11 @@ export const PRESETS: readonly Preset[] = [
     id: "fig06",
     place: "Fig. 6",
     title: "Orbit diagram",
-    text: "From Γ = 1/3 on the disk can bounce once in every period; that orbit doubles its period at Γ = 0.486, 0.531, 0.5402 and so on to chaos, which ends in a crisis near 0.561. Every column starts with the same impact, inside the basin of that orbit; the chattering orbits of Fig. 6 show where a start with a small speed is chosen instead.",
+    text:
+      "From Γ = 1/3 on the disk can bounce once in every period; that orbit doubles its period at Γ = 0.486, " +
+      "0.531, 0.5402 and so on to chaos, which ends in a crisis near 0.561. Every column starts with the same " +
+      "impact, inside the basin of that orbit; the chattering orbits of Fig. 6 show where a start with a small " +
+      "speed is chosen instead.",
     panels: [
       diagram("(a) phase", "impact_phase", withForcing(multipleToss, 0.486)),
       diagram("(b) speed", "normalised_speed", withForcing(multipleToss, 0.486)),
@@ -149,34 +173,41 @@ export const PRESETS: readonly Preset[] = [
     id: "fig07",
     place: "Fig. 7",
     title: "Basins of attraction",
-    text: "The basin of the period-1 orbit grows from Γ = 0.34 to its doubling at 0.486, where it is easiest to keep, but never reaches the axis of speed zero: a disk at rest cannot be tossed into it. At 0.55 the boundary is fractal, and at 0.60, beyond the crisis, every start chatters in the end.",
-    panels: [
-      basins("(a)", 0.34),
-      basins("(b)", 0.486),
-      basins("(c)", 0.5),
-      basins("(d)", 0.55),
-      basins("(e)", 0.6),
-    ],
+    text:
+      "The basin of the period-1 orbit grows from Γ = 0.34 to its doubling at 0.486, where it is easiest to " +
+      "keep, but never reaches the axis of speed zero: a disk at rest cannot be tossed into it. At 0.55 the " +
+      "boundary is fractal, and at 0.60, beyond the crisis, every start chatters in the end.",
+    panels: [basins("(a)", 0.34), basins("(b)", 0.486), basins("(c)", 0.5), basins("(d)", 0.55), basins("(e)", 0.6)],
   },
   {
     id: "fig08",
     place: "Fig. 8",
     title: "The ultrasonic motor",
-    text: "A steel ball of 20 mm on the tip of a twisted beam: stretching untwists the beam, so that its tip moves up and down and to and fro at once. There is no drawing of it here; the data sheet has its numbers, and the run-up is that of its default parameters.",
+    text:
+      "A steel ball of 20 mm on the tip of a twisted beam: stretching untwists the beam, so that its tip moves " +
+      "up and down and to and fro at once. There is no drawing of it here; the data sheet has its numbers, and " +
+      "the run-up is that of its default parameters.",
     panels: [motor("Table III", {})],
   },
   {
     id: "fig09",
     place: "Fig. 9",
     title: "Braking, the coefficient of friction",
-    text: "With the power off the rotor slides until it stops, its speed falls on a straight line, and the slope gives μ by Eq. (17). No view is made for this: the rotor of Table III turns here at 30 rad/s on a platform that all but stands still (at 10 Hz and 1 µm, so that the second it takes can be watched).",
+    text:
+      "With the power off the rotor slides until it stops, its speed falls on a straight line, and the slope " +
+      "gives μ by Eq. (17). No view is made for this: the rotor of Table III turns here at 30 rad/s on a " +
+      "platform that all but stands still (at 10 Hz and 1 µm, so that the second it takes can be watched).",
     panels: [braking("g = 9.8 m/s²", 9.8), braking("g = 5 m/s²", 5), braking("g = 2.4 m/s²", 2.4)],
   },
   {
     id: "fig10",
     place: "Fig. 10",
     title: "Run-up of the motor",
-    text: "Impacts drag the rotor along to its steady speed, nearly exponentially, and more roughly where a larger amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², is caught in a short cycle and rises on a straight line. The measured runs (d) to (f) are not in the paper's text, so they are not here either.",
+    text:
+      "Impacts drag the rotor along to its steady speed, nearly exponentially, and more roughly where a larger " +
+      "amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², is caught in a short cycle " +
+      "and rises on a straight line. The measured runs (d) to (f) are not in the paper's text, so they are not " +
+      "here either.",
     opens: 1,
     panels: [
       motor("(a) A = 1 nm", { amplitude: 1e-9 }),
@@ -188,7 +219,10 @@ export const PRESETS: readonly Preset[] = [
     id: "fig11",
     place: "Fig. 11",
     title: "Effect of the preload",
-    text: "The figure plots steady speed and stall torque over the preload; each panel here is one motor of it, at the ends of the measured range of 80 to 280 mN. The torque follows the preload and the speed does not, except where the motor is caught in a short cycle.",
+    text:
+      "The figure plots steady speed and stall torque over the preload; each panel here is one motor of it, at " +
+      "the ends of the measured range of 80 to 280 mN. The torque follows the preload and the speed does not, " +
+      "except where the motor is caught in a short cycle.",
     panels: [
       motor("280 mN, 70 kHz", { preload_acceleration: 8.51 }),
       motor("80 mN, 70 kHz", { preload_acceleration: 2.43 }),
@@ -200,7 +234,11 @@ export const PRESETS: readonly Preset[] = [
     id: "fig12",
     place: "Fig. 12",
     title: "Long and short chattering",
-    text: "A long chattering cycle averages over many impacts, and the speed approaches its limit exponentially; a short one adds the same impulses again and again, and the speed rises on straight lines and stops abruptly. The printed amplitude of the second case gives a long cycle; short ones stand next to it, which the motor view marks as traps.",
+    text:
+      "A long chattering cycle averages over many impacts, and the speed approaches its limit exponentially; a " +
+      "short one adds the same impulses again and again, and the speed rises on straight lines and stops " +
+      "abruptly. The printed amplitude of the second case gives a long cycle; short ones stand next to it, " +
+      "which the motor view marks as traps.",
     panels: [
       motor("(a) long", { amplitude: 1e-7, preload_acceleration: 0.5 }),
       motor("(d) short, as printed", { amplitude: 1e-8, preload_acceleration: 1 }),
@@ -210,7 +248,10 @@ export const PRESETS: readonly Preset[] = [
     id: "fig13",
     place: "Fig. 13",
     title: "What the motor is sensitive to",
-    text: "Friction sets the stall torque and leaves the steady speed alone; ωΦ sets the speed and leaves the torque alone; the lag and the restitution change both. The figure sweeps each of them; a panel here is one value, to be compared with the default.",
+    text:
+      "Friction sets the stall torque and leaves the steady speed alone; ωΦ sets the speed and leaves the " +
+      "torque alone; the lag and the restitution change both. The figure sweeps each of them; a panel here is " +
+      "one value, to be compared with the default.",
     panels: [
       motor("default", {}),
       motor("(a) μ = 0.2", { friction: 0.2 }),
@@ -225,7 +266,10 @@ export const PRESETS: readonly Preset[] = [
     id: "fig14",
     place: "Fig. 14",
     title: "Growth of the dough",
-    text: "The figure measures the diameter of a dough in a video; it grows by 3 % with each toss, which is why the model leaves deformation out. Nothing of it can be computed, so this shows what the video shows: multiple tosses, with the semielliptical motion of the hand that makes them easy.",
+    text:
+      "The figure measures the diameter of a dough in a video; it grows by 3 % with each toss, which is why " +
+      "the model leaves deformation out. Nothing of it can be computed, so this shows what the video shows: " +
+      "multiple tosses, with the semielliptical motion of the hand that makes them easy.",
     panels: [
       {
         label: "multiple tosses",
@@ -241,14 +285,19 @@ export const PRESETS: readonly Preset[] = [
     id: "table1",
     place: "Table I",
     title: "Specification of a single toss",
-    text: "The dough begins at rest on the hand at its lowest point and leaves it with 14 rad/s, as measured in the video. Table I has no restitution, on which a single toss does not depend; 0.5 is that of Sec. IV.",
+    text:
+      "The dough begins at rest on the hand at its lowest point and leaves it with 14 rad/s, as measured in " +
+      "the video. Table I has no restitution, on which a single toss does not depend; 0.5 is that of Sec. IV.",
     panels: [toss("Table I", {})],
   },
   {
     id: "table2",
     place: "Table II",
     title: "Effects of the uncertainties",
-    text: "Each panel is Table I with one input at the upper end of its uncertainty: read the speed of the dough after it has left the hand. Stroke, frequency and angle matter, the contact radius a little, friction and the radius of gyration hardly at all.",
+    text:
+      "Each panel is Table I with one input at the upper end of its uncertainty: read the speed of the dough " +
+      "after it has left the hand. Stroke, frequency and angle matter, the contact radius a little, friction " +
+      "and the radius of gyration hardly at all.",
     panels: [
       toss("c + 0.05 m", tossOf({ stroke: 0.3 })),
       toss("ω + 5 rad/s", { angular_frequency: 20 }),
@@ -262,7 +311,10 @@ export const PRESETS: readonly Preset[] = [
     id: "table3",
     place: "Table III",
     title: "Default values of the motor",
-    text: "The table prints g = 70 m/s² and no frequency; read as a drive frequency of 70 kHz under gravity, that number fits everything else in the paper. Both readings are here, and the steady speed is nearly the same.",
+    text:
+      "The table prints g = 70 m/s² and no frequency; read as a drive frequency of 70 kHz under gravity, that " +
+      "number fits everything else in the paper. Both readings are here, and the steady speed is nearly the " +
+      "same.",
     panels: [motor("70 kHz, gravity", {}), motor("g = 70 m/s²", { preload_acceleration: 70 })],
   },
 ];

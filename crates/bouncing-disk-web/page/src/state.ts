@@ -64,7 +64,11 @@ export function changed(state: State, change: Change): State {
 export function merged(first: Change, second: Change): Change {
   const names = ["system", "start", "diagram", "basins", "motor"] as const;
   const both = names.filter((name) => first[name] !== undefined && second[name] !== undefined);
-  return { ...first, ...second, ...Object.fromEntries(both.map((name) => [name, { ...first[name], ...second[name] }])) };
+  return {
+    ...first,
+    ...second,
+    ...Object.fromEntries(both.map((name) => [name, { ...first[name], ...second[name] }])),
+  };
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */

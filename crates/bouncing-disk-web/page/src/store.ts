@@ -85,7 +85,9 @@ export class Store {
         break;
       }
       const change = mended(refusal, tries);
-      this.listener.refused(`The address asks for what is not possible (${refusal.message}); a default is taken instead.`);
+      this.listener.refused(
+        `The address asks for what is not possible (${refusal.message}); a default is taken instead.`,
+      );
       candidate = changed(candidate, change);
     }
     this.queue = [];
@@ -172,7 +174,7 @@ async function only(answer: Promise<unknown>, of: (refusal: Refusal) => Refusal 
   }
 }
 
-/** A refusal in the words of the form, where the start is what is refused: an impact so hard that its flight is too long too. */
+/** A refusal of the start in the words of the form; an impact so hard that its flight is too long is one, too. */
 function ofStart(refusal: Refusal, change: Change): Refusal | null {
   const name = START_NAMES[refusal.quantity ?? ""];
   if (refusal.kind === "computation" && change.start?.normalised_speed !== undefined) return refusal;

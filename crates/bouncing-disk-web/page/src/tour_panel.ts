@@ -11,7 +11,11 @@ export class TourPanel {
   private readonly title = element("h2", { tabindex: -1 });
   private readonly text = element("p", { class: "text" });
   private readonly back = element("button", { type: "button", onclick: () => this.go(this.step - 1) }, "Back");
-  private readonly next = element("button", { type: "button", class: "primary", onclick: () => this.go(this.step + 1) }, "Next");
+  private readonly next = element(
+    "button",
+    { type: "button", class: "primary", onclick: () => this.go(this.step + 1) },
+    "Next",
+  );
   private step = 0;
   private opener: HTMLElement | null = null;
 
@@ -19,7 +23,12 @@ export class TourPanel {
     const end = element("button", { type: "button", onclick: () => this.end() }, "End");
     this.element = element(
       "section",
-      { class: "tour", hidden: true, "aria-label": "Guided tour", onkeydown: (event: KeyboardEvent) => this.pressed(event) },
+      {
+        class: "tour",
+        hidden: true,
+        "aria-label": "Guided tour",
+        onkeydown: (event: KeyboardEvent) => this.pressed(event),
+      },
       this.place,
       this.title,
       this.text,

@@ -71,7 +71,14 @@ export async function settled(page) {
 
 /** The state, as the address has it. */
 export const stateOf = (page) =>
-  page.evaluate(() => Object.fromEntries(location.hash.slice(1).split("&").map((part) => part.split("="))));
+  page.evaluate(() =>
+    Object.fromEntries(
+      location.hash
+        .slice(1)
+        .split("&")
+        .map((part) => part.split("=")),
+    ),
+  );
 
 /** The address follows the state a little later when much changes at once. */
 export async function whenAddress(page, name, value) {

@@ -43,15 +43,22 @@ test("states with awkward numbers come back to the bit", async () => {
       basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
       motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7", motor_rise_times: String(1 + 5 * random()),
     }; // prettier-ignore
-    const hash = `#${Object.entries(wanted).map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`).join("&")}`;
+    const hash = `#${Object.entries(wanted)
+      .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
+      .join("&")}`;
     await page.evaluate((next) => {
       location.hash = next;
     }, hash);
     await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
-    await page.waitForFunction((text) => document.getElementById("field-amplitude").title === text, String(wanted.amplitude));
+    await page.waitForFunction(
+      (text) => document.getElementById("field-amplitude").title === text,
+      String(wanted.amplitude),
+    );
     assert.equal(await page.evaluate(() => location.hash), hash);
     const typed = await page.evaluate(() =>
-      Object.fromEntries([...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title])),
+      Object.fromEntries(
+        [...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title]),
+      ),
     );
     for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
       assert.equal(Number(typed[name]), wanted[name], name);
@@ -72,7 +79,9 @@ test("the copied link opens the same state in a fresh page", async () => {
       globalThis.copied = document.activeElement.value;
       return true;
     };
-    Object.defineProperty(navigator, "clipboard", { value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) } });
+    Object.defineProperty(navigator, "clipboard", {
+      value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) },
+    });
   });
   await page.click("#link-button");
   await page.waitForFunction(() => globalThis.copied);
@@ -99,7 +108,8 @@ test("broken parts of a link are refused with a sentence each, and the rest is k
   assert.equal(state.restitution, "0.5");
   assert.equal(state.basins_speed, "0,5");
   const text = await page.textContent("#problems");
-  for (const part of ["abc", "nonsense", "twice", "5,1", "diagram_quantity", "0x1"]) assert.ok(text.includes(part), `${part}: ${text}`);
+  for (const part of ["abc", "nonsense", "twice", "5,1", "diagram_quantity", "0x1"])
+    assert.ok(text.includes(part), `${part}: ${text}`);
   assert.deepEqual(errors, []);
   await page.click("#problems .close");
   assert.equal(await page.isVisible("#problems"), false);
@@ -107,7 +117,12 @@ test("broken parts of a link are refused with a sentence each, and the rest is k
 });
 
 test("a link with nothing legal in it opens the defaults", async () => {
-  for (const hash of ["#", "#%%%", "#restitution=7&amplitude=-1&angular_frequency=0&mass=-3&normalised_speed=-1", "#<script>alert(1)</script>"]) {
+  for (const hash of [
+    "#",
+    "#%%%",
+    "#restitution=7&amplitude=-1&angular_frequency=0&mass=-3&normalised_speed=-1",
+    "#<script>alert(1)</script>",
+  ]) {
     const { page, context, errors } = await opened(browser, { hash });
     await settled(page);
     const state = await stateOf(page);

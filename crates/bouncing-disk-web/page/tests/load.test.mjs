@@ -1,4 +1,4 @@
-/** Under load: the page never freezes, forgets what is not wanted, and survives a thousand changes and a dead worker. */
+/** Under load: the page never freezes, and survives a thousand changes. */
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -63,62 +63,66 @@ test("no task of the main thread takes longer than 50 ms while work goes on", { 
   assert.fail(JSON.stringify(rounds));
 });
 
-test("a thousand changes in a row: no error, no growth, and the last picture is that of a fresh page", { timeout: 900_000 }, async () => {
-  const random = stream(2009);
-  const { page, context, errors, requests } = await opened(browser);
-  const memory = async () => {
-    await page.evaluate(() => globalThis.gc?.());
-    await page.waitForTimeout(300);
-    await page.evaluate(() => globalThis.gc?.());
-    return page.evaluate(() => performance.memory.usedJSHeapSize);
-  };
-  for (const view of VIEWS) {
-    await page.click(`#tab-${view}`);
-    await settled(page);
-  }
-  const before = await memory();
-  const ranges = {
+test(
+  "a thousand changes in a row: no error, no growth, and the last picture is that of a fresh page",
+  { timeout: 900_000 },
+  async () => {
+    const random = stream(2009);
+    const { page, context, errors, requests } = await opened(browser);
+    const memory = async () => {
+      await page.evaluate(() => globalThis.gc?.());
+      await page.waitForTimeout(300);
+      await page.evaluate(() => globalThis.gc?.());
+      return page.evaluate(() => performance.memory.usedJSHeapSize);
+    };
+    for (const view of VIEWS) {
+      await page.click(`#tab-${view}`);
+      await settled(page);
+    }
+    const before = await memory();
+    const ranges = {
     axial_forcing: [0.2, 0.7], twist_amplitude: [0, 2], phase_lag: [-3, 3], restitution: [0, 0.9], friction: [0, 1],
     contact_radius: [0.05, 0.2], gyration_radius: [0.05, 0.2], load_acceleration: [-3, 3], impact_phase: [0, 6],
     normalised_speed: [0.1, 5], angular_speed: [-20, 20], mass: [0.1, 1],
   }; // prettier-ignore
-  const names = Object.keys(ranges);
-  for (let change = 0; change < CHANGES; change++) {
-    if (random() < 0.15) {
-      await page.click(`#tab-${VIEWS[Math.floor(random() * VIEWS.length)]}`);
-    } else {
-      const name = names[Math.floor(random() * names.length)];
-      const [low, high] = ranges[name];
-      await page.evaluate(
-        ([id, text]) => {
-          const field = document.getElementById(id);
-          field.focus();
-          field.value = text;
-          field.dispatchEvent(new Event("change", { bubbles: true }));
-        },
-        [`field-${name}`, (low + random() * (high - low)).toPrecision(6)],
-      );
+    const names = Object.keys(ranges);
+    for (let change = 0; change < CHANGES; change++) {
+      if (random() < 0.15) {
+        await page.click(`#tab-${VIEWS[Math.floor(random() * VIEWS.length)]}`);
+      } else {
+        const name = names[Math.floor(random() * names.length)];
+        const [low, high] = ranges[name];
+        await page.evaluate(
+          ([id, text]) => {
+            const field = document.getElementById(id);
+            field.focus();
+            field.value = text;
+            field.dispatchEvent(new Event("change", { bubbles: true }));
+          },
+          [`field-${name}`, (low + random() * (high - low)).toPrecision(6)],
+        );
+      }
+      // Mostly before the answers of the last change are there.
+      if (random() < 0.3) await page.waitForTimeout(60 * random());
     }
-    // Mostly before the answers of the last change are there.
-    if (random() < 0.3) await page.waitForTimeout(60 * random());
-  }
-  await page.click("#tab-diagram");
-  await settled(page);
-  await page.waitForTimeout(600);
-  const grown = (await memory()) - before;
-  assert.deepEqual([errors, requests], [[], []]);
-  assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
-  assert.ok(grown < GROWTH, `${grown / 1e6} MB`);
-  await page.mouse.move(5, 795);
-  const last = await picture(page, "diagram");
-  const hash = await page.evaluate(() => location.hash);
-  const state = await stateOf(page);
-  await context.close();
-  const fresh = await opened(browser, { hash });
-  await settled(fresh.page);
-  await fresh.page.waitForTimeout(300);
-  await fresh.page.mouse.move(5, 795);
-  assert.deepEqual(await stateOf(fresh.page), state);
-  assert.ok(last.equals(await picture(fresh.page, "diagram")), "the pictures differ");
-  await fresh.context.close();
-});
+    await page.click("#tab-diagram");
+    await settled(page);
+    await page.waitForTimeout(600);
+    const grown = (await memory()) - before;
+    assert.deepEqual([errors, requests], [[], []]);
+    assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
+    assert.ok(grown < GROWTH, `${grown / 1e6} MB`);
+    await page.mouse.move(5, 795);
+    const last = await picture(page, "diagram");
+    const hash = await page.evaluate(() => location.hash);
+    const state = await stateOf(page);
+    await context.close();
+    const fresh = await opened(browser, { hash });
+    await settled(fresh.page);
+    await fresh.page.waitForTimeout(300);
+    await fresh.page.mouse.move(5, 795);
+    assert.deepEqual(await stateOf(fresh.page), state);
+    assert.ok(last.equals(await picture(fresh.page, "diagram")), "the pictures differ");
+    await fresh.context.close();
+  },
+);

@@ -4,7 +4,12 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, opened, settled, stateOf } from "./browser.mjs";
 
-const IDS = [...Array.from({ length: 14 }, (_, index) => `fig${String(index + 1).padStart(2, "0")}`), "table1", "table2", "table3"];
+const IDS = [
+  ...Array.from({ length: 14 }, (_, index) => `fig${String(index + 1).padStart(2, "0")}`),
+  "table1",
+  "table2",
+  "table3",
+];
 
 let browser;
 before(async () => {
@@ -62,7 +67,10 @@ test("the tour has eight steps, each a state and two or three sentences", async 
   await page.click("#tour-button");
   const states = new Set();
   for (let step = 1; step <= 8; step++) {
-    await page.waitForFunction((text) => document.querySelector(".tour .place").textContent === text, `Step ${step} of 8`);
+    await page.waitForFunction(
+      (text) => document.querySelector(".tour .place").textContent === text,
+      `Step ${step} of 8`,
+    );
     await settled(page);
     await page.waitForTimeout(300);
     states.add(JSON.stringify(await stateOf(page)));

@@ -95,7 +95,8 @@ test("every control has a name, and the order of tabs has no trap", () =>
       await page.keyboard.press("Tab");
       seen.add(await page.evaluate(() => document.activeElement.id || document.activeElement.outerHTML.slice(0, 80)));
     }
-    for (const id of ["tab-toss", "presets-button", "field-axial_forcing", "field-angular_speed"]) assert.ok(seen.has(id), id);
+    for (const id of ["tab-toss", "presets-button", "field-axial_forcing", "field-angular_speed"])
+      assert.ok(seen.has(id), id);
   }));
 
 test("a value outside of its range is refused where it is typed, with the range, and the picture stays", () =>

@@ -59,7 +59,10 @@ test("the split files work from a server, and ask for nothing but themselves", a
   const [errors, foreign] = [[], []];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
-  page.on("request", (request) => /^(data|blob):/.test(request.url()) || request.url().startsWith(origin) || foreign.push(request.url()));
+  page.on(
+    "request",
+    (request) => /^(data|blob):/.test(request.url()) || request.url().startsWith(origin) || foreign.push(request.url()),
+  );
   await page.goto(`${origin}/#view=diagram`);
   await ready(page);
   await settled(page);
