@@ -52,7 +52,7 @@ export interface MotorSheet {
   load_torque: number; // N m
 }
 
-/** An impact that an orbit begins with: its phase (rad), and its normalised speed w_A/(A omega), positive. */
+/** An impact that an orbit begins with: its phase (rad), and its normalised speed |w_A| Gamma/(A omega), positive. */
 export interface ImpactStart {
   impact_phase: number;
   normalised_speed: number;
@@ -75,7 +75,7 @@ export type Request =
   | { call: "motion"; system: SystemParameters; start: MotionStart; periods: number; samples_per_period: number }
   /** The columns `[from, to)` of an orbit diagram of `count` forcings from `axial_forcing[0]` to `axial_forcing[1]`.
    * `DiagramJson`; numbers: rows of `DIAGRAM_COLUMNS`. Angular speeds follow from the angular forcing, the phase lag
-   * and the load of `system`, whose axial forcing is replaced by that of the column at the same ratio A/Phi. */
+   * and the load of `system`, of which the amplitude alone is that of the column. */
   | {
       call: "diagram";
       system: SystemParameters;
@@ -131,7 +131,7 @@ export const MOTION_COLUMNS = [
 /** Modes in `bytes`. */
 export const MODES = ["flight", "sticking", "sliding forward", "sliding backward"] as const;
 
-/** Time (s), phase (rad), normalised impact speed w_A/(A omega) of an impact (else NaN), tangential impact velocity as
+/** Time (s), phase (rad), normalised impact speed |w_A| Gamma/(A omega) of an impact (else NaN), tangential impact velocity as
  * an angular speed relative to the platform (rad/s; else NaN), angular speed after the event (rad/s), height (m). */
 export const EVENT_COLUMNS = [
   "time", "phase", "normalised_speed", "tangential_speed", "angular_speed", "height",
@@ -219,7 +219,8 @@ export interface BranchesJson {
 
 export interface AttractorsJson {
   attractors: {
-    label: number;
+    /** What `basins` has in its cells; null beyond the 251 that a byte holds. */
+    label: number | null;
     kind: "rest" | "periodic" | "chaotic" | "unclassified";
     /** A sentence. */
     text: string;
