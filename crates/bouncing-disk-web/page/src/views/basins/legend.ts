@@ -24,7 +24,7 @@ export class Legend {
   show(found: AttractorsJson, shares: ReadonlyMap<number, number>): void {
     const known = labelsOf(found);
     const items = found.attractors.map((attractor, index) => {
-      const inWindow = shares.get(attractor.label);
+      const inWindow = attractor.label === null ? undefined : shares.get(attractor.label);
       const item = element(
         "li",
         {},
@@ -66,7 +66,7 @@ export class Legend {
 }
 
 export function labelsOf(found: AttractorsJson | null): number[] {
-  return found?.attractors.map(({ label }) => label) ?? [];
+  return found?.attractors.flatMap(({ label }) => (label === null ? [] : [label])) ?? [];
 }
 
 export function describe(attractor: Attractor, found: AttractorsJson): string {
