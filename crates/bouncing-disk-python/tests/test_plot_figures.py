@@ -235,3 +235,73 @@ def test_all_are_drawn_into_axes_of_the_caller() -> None:
     assert plt.get_fignums() == [fig.number] and tuple(fig.get_size_inches()) == tuple(
         plt.rcParams["figure.figsize"]
     )
+
+
+# Figs. 6(c) and (d)
+
+
+def twisted(angular_forcing: float, lag: float) -> bd.System:
+    """The pizza with another angular forcing and phase lag."""
+    assert PIZZA.angular_forcing is not None
+    twist = PIZZA.twist_amplitude * angular_forcing / PIZZA.angular_forcing
+    return PIZZA.replace(twist_amplitude=twist, phase_lag=lag)
+
+
+def driven(system: bd.System, forcing: float) -> bd.System:
+    amplitude = forcing * np.pi * system.preload_acceleration / system.angular_frequency**2
+    return system.replace(amplitude=amplitude)
+
+
+@pytest.mark.parametrize("normalised", [True, False])
+def test_the_rotation_at_impacts_is_that_of_multi_toss(normalised: bool) -> None:
+    _, ax = plot.rotation_diagram(
+        PIZZA, axial_forcing=(0.3, 0.62), columns=9, transient=500, recorded=40, normalised=normalised
+    )
+    x, y = drawn(ax.lines[1])
+    assert [line.get_label() for line in ax.lines] == ["from the period-1 orbit", "from rest"]
+    unit = PIZZA.peak_angular_speed if normalised else 1.0
+    # A disk below 1/pi rests for ever, and has no point.
+    assert x.min() > 1.0 / np.pi
+    for forcing in np.linspace(0.3, 0.62, 9)[1:]:
+        orbit = bd.multi_toss(
+            driven(PIZZA, forcing),
+            angular_speed=0.0,
+            transient_impacts=500,
+            examined_impacts=40,
+            tolerance=1e-7,
+        )
+        assert y[x == forcing] == pytest.approx(orbit.angular_speed / unit, rel=1e-9)
+    assert ax.get_xlim() == (0.3, 0.62) and ("Phi" in ax.get_ylabel()) == normalised
+
+
+@pytest.mark.parametrize(("angular_forcing", "lag"), [(100.0, 0.0), (1.0, -0.26 * np.pi)])
+def test_the_rotation_of_period_1_is_that_of_the_platform_at_impact(
+    angular_forcing: float, lag: float
+) -> None:
+    # Eq. (16) of the paper.
+    system = twisted(angular_forcing, lag)
+    _, ax = plot.rotation_diagram(system, axial_forcing=(0.34, 0.48), columns=4)
+    x, y = drawn(ax.lines[0])
+    orbits = [bd.ImpactMap(axial_forcing=forcing, restitution=0.5).period_one() for forcing in x]
+    phases = np.array([orbit[0] for orbit in orbits if orbit is not None])
+    assert y == pytest.approx(np.cos(phases + lag), abs=1e-4) and len(y) == 4
+
+
+def test_the_amplitude_of_the_system_does_not_matter_to_the_rotation() -> None:
+    settings: dict[str, Any] = {"columns": 3, "transient": 200, "recorded": 20}
+    for one, other in zip(
+        plot.rotation_diagram(PIZZA, **settings)[1].lines,
+        plot.rotation_diagram(PIZZA.replace(amplitude=0.0), **settings)[1].lines,
+    ):
+        assert np.array_equal(one.get_xydata(), other.get_xydata())
+
+
+def test_rotations_that_have_not_settled_are_counted() -> None:
+    _, ax = plot.rotation_diagram(MOTOR, axial_forcing=(0.4, 0.45), columns=2, transient=300)
+    assert [line.get_label() for line in ax.lines] == [
+        "from the period-1 orbit (2 of 2 not settled)",
+        "from rest (2 of 2 not settled)",
+    ]
+    # A disk with much inertia is followed until it has settled.
+    _, ax = plot.rotation_diagram(twisted(100.0, 0.0), axial_forcing=(0.34, 0.34), columns=1)
+    assert not any("settled" in str(line.get_label()) for line in ax.lines)

@@ -353,3 +353,42 @@ def test_values_of_a_parameter_of_any_size() -> None:
     for values, arguments, error, message in refused:
         with pytest.raises(error, match=message):
             plot.motor_dependence(MOTOR, "amplitude", values, **arguments)
+
+
+# Rotation
+
+
+def test_rotations_of_disks_that_rest_or_cannot_turn() -> None:
+    settings: dict[str, Any] = {"columns": 2, "transient": 100, "recorded": 10}
+    _, ax = plot.rotation_diagram(PIZZA, axial_forcing=(0.0, 0.3), **settings)
+    assert note_of(ax) == "all disks rest" and [len(drawn(line)[0]) for line in ax.lines] == [0]
+    # Without friction or twist nothing turns a disk.
+    _, ax = plot.rotation_diagram(PIZZA.replace(friction=0.0), axial_forcing=(0.5, 0.6), columns=2)
+    assert all(not drawn(line)[1].any() for line in ax.lines)
+    still = PIZZA.replace(twist_amplitude=0.0)
+    with pytest.raises(bd.InvalidError) as none:
+        plot.rotation_diagram(still, **settings)
+    assert none.value.kind == "no-twist"
+    _, ax = plot.rotation_diagram(still, axial_forcing=(0.5, 0.6), normalised=False, **settings)
+    assert all(not drawn(line)[1].any() for line in ax.lines) and "(rad/s)" in ax.get_ylabel()
+
+
+def test_rotations_of_one_forcing_and_of_wrong_things() -> None:
+    _, ax = plot.rotation_diagram(PIZZA, axial_forcing=(0.5, 0.5), columns=1, transient=50, recorded=5)
+    assert ax.get_xlim() == pytest.approx((0.45, 0.55))
+    refused: Any = [
+        ({"columns": 0}, bd.OutOfRangeError, "columns is 0"),
+        ({"columns": 2.5}, TypeError, "columns"),
+        ({"transient": -1}, bd.OutOfRangeError, "transient is -1"),
+        ({"transient": "many"}, TypeError, "transient"),
+        ({"recorded": 1}, bd.OutOfRangeError, "recorded is 1"),
+        ({"axial_forcing": (-0.1, 0.5)}, bd.OutOfRangeError, "axial_forcing is -0.1"),
+        ({"axial_forcing": (0.6, 0.5)}, bd.OutOfRangeError, "axial_forcing is 0.5"),
+        ({"axial_forcing": (0.3, np.nan)}, bd.OutOfRangeError, "axial_forcing is nan"),
+        ({"axial_forcing": ("a", "b")}, TypeError, "axial_forcing"),
+    ]
+    for arguments, error, message in refused:
+        with pytest.raises(error, match=message):
+            plot.rotation_diagram(PIZZA, **arguments)
+    with pytest.raises(TypeError, match="not Motor"):
+        plot.rotation_diagram(SHEET)  # type: ignore[arg-type]
