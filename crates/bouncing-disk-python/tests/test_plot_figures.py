@@ -1,4 +1,4 @@
-"""Figs. 2, 3 and 8: what is drawn of a system or a motor, and axes of the caller."""
+"""Figs. 2, 3, 4(d, e), 6(c, d) and 8: what is drawn of a system or a motor, and axes of the caller."""
 
 from __future__ import annotations
 
@@ -305,3 +305,73 @@ def test_rotations_that_have_not_settled_are_counted() -> None:
     # A disk with much inertia is followed until it has settled.
     _, ax = plot.rotation_diagram(twisted(100.0, 0.0), axial_forcing=(0.34, 0.34), columns=1)
     assert not any("settled" in str(line.get_label()) for line in ax.lines)
+
+
+# Figs. 4(d) and (e)
+
+
+def at_angle(system: bd.System, angle: float) -> bd.System:
+    """The system with its stroke divided otherwise."""
+    return system.replace(
+        amplitude=float(system.stroke * np.cos(angle)),
+        twist_amplitude=float(system.stroke * np.sin(angle) / system.contact_radius),
+    )
+
+
+def test_the_airborne_speed_is_that_of_single_tosses() -> None:
+    system = PIZZA.replace(phase_lag=0.2)
+    _, (separation, friction) = plot.toss_speed(
+        system, phase_lags=[0.0, 1.0], frictions=[0.3, 0.6], points=20
+    )
+    assert len(separation.lines) == 2 and len(friction.lines) == 4
+    angles = np.pi * drawn(friction.lines[0])[0]
+    # Up to the angle arccos(g/(c omega^2)), at which the disk leaves at pi/2.
+    last = np.arccos(system.preload_acceleration / (system.stroke * system.angular_frequency**2))
+    assert 0.99 * last < angles[-1] < last and len(angles) == 20
+    for place in (0, 7, 19):
+        tossed = bd.single_toss(at_angle(system, angles[place]).replace(friction=0.3))
+        assert drawn(friction.lines[0])[1][place] == pytest.approx(tossed.airborne_speed, rel=1e-9)
+        tossed = bd.single_toss(at_angle(system, angles[place]).replace(phase_lag=1.0))
+        phase, speed = (values[place] for values in drawn(separation.lines[1]))
+        assert np.pi * phase == pytest.approx(tossed.separation_phase, rel=1e-9)
+        assert speed == pytest.approx(tossed.airborne_speed, rel=1e-9)
+
+
+def test_the_circles_are_at_the_best_tosses() -> None:
+    _, (_, panel) = plot.toss_speed(PIZZA, points=3)
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == ["$0.5$", "$0.6$", "$0.7$"]
+    places = []
+    for friction, line in zip((0.5, 0.6, 0.7), panel.lines[1::2]):
+        best = bd.best_toss(
+            stroke=PIZZA.stroke,
+            friction=(friction, friction),
+            angular_frequency=(15.0, 15.0),
+            phase_lag=(0.0, 0.0),
+            contact_radius=PIZZA.contact_radius,
+            gyration_radius=PIZZA.gyration_radius,
+            preload_acceleration=9.8,
+        )
+        (angle,), (speed,) = drawn(line)
+        assert speed == pytest.approx(best.value, rel=1e-8)
+        assert np.pi * angle == pytest.approx(best.amplitude_angle, abs=1e-5)
+        places.append(angle)
+    # As the paper says of Fig. 4(e).
+    assert places == sorted(places)
+
+
+def test_a_toss_that_turns_backwards_has_its_circle_too() -> None:
+    forwards = plot.toss_speed(PIZZA, points=3)[1][1].lines[1::2]
+    backwards = plot.toss_speed(PIZZA.replace(phase_lag=np.pi), points=3)[1][1].lines[1::2]
+    for one, other in zip(forwards, backwards):
+        assert drawn(other)[1] == pytest.approx(-drawn(one)[1]) and drawn(other)[1] < 0.0
+
+
+def test_rotation_and_speed_are_drawn_into_axes_of_the_caller() -> None:
+    import matplotlib.pyplot as plt
+
+    fig, axes = plt.subplots(1, 3)
+    assert plot.rotation_diagram(PIZZA, columns=2, transient=10, recorded=5, ax=axes[0]) == (fig, axes[0])
+    found, panels = plot.toss_speed(PIZZA, points=3, ax=axes[1:])
+    assert found is fig and list(panels) == list(axes[1:]) and plt.get_fignums() == [fig.number]
+    with pytest.raises(ValueError, match="2 axes, not 3"):
+        plot.toss_speed(PIZZA, points=3, ax=axes)

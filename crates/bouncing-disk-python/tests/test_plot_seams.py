@@ -392,3 +392,38 @@ def test_rotations_of_one_forcing_and_of_wrong_things() -> None:
             plot.rotation_diagram(PIZZA, **arguments)
     with pytest.raises(TypeError, match="not Motor"):
         plot.rotation_diagram(SHEET)  # type: ignore[arg-type]
+
+
+# Airborne speed
+
+
+def test_speeds_of_tosses_that_never_leave_or_turn_and_of_single_points() -> None:
+    _, axes = plot.toss_speed(PIZZA.replace(angular_frequency=1.0), points=5)
+    assert [note_of(ax) for ax in axes] == ["no motion tosses the disk"] * 2
+    _, axes = plot.toss_speed(PIZZA.replace(amplitude=0.0, twist_amplitude=0.0), points=2)
+    assert [note_of(ax) for ax in axes] == ["no motion tosses the disk"] * 2
+    # One curve of a system without friction: its multiples are all the same. No toss is the fastest.
+    _, axes = plot.toss_speed(PIZZA.replace(friction=0.0), points=5)
+    curve, circle = axes[1].lines
+    assert not drawn(curve)[1].any() and np.isnan(drawn(circle)[1]).all() and note_of(axes[1]) == ""
+    # Another division of the stroke gives a twist to one that has none.
+    _, axes = plot.toss_speed(PIZZA.replace(twist_amplitude=0.0), frictions=0.6, points=1)
+    assert axes[1].lines[0].get_marker() == "o" and drawn(axes[1].lines[0])[1] > 0.0
+
+
+def test_wrong_speeds_of_tosses_are_refused() -> None:
+    refused: Any = [
+        ({"points": 0}, bd.OutOfRangeError),
+        ({"points": 2.5}, TypeError),
+        ({"phase_lags": []}, bd.InvalidError),
+        ({"phase_lags": [np.nan]}, bd.OutOfRangeError),
+        ({"frictions": []}, bd.InvalidError),
+        ({"frictions": [-0.1]}, bd.OutOfRangeError),
+        ({"frictions": [[0.5]]}, bd.InvalidError),
+        ({"frictions": ["a"]}, TypeError),
+    ]
+    for arguments, error in refused:
+        with pytest.raises(error, match=next(iter(arguments))):
+            plot.toss_speed(PIZZA, **arguments)
+    with pytest.raises(TypeError, match="not Motor"):
+        plot.toss_speed(SHEET)  # type: ignore[arg-type]

@@ -17,6 +17,7 @@ from bouncing_disk.plot._motor import motor_transient, torque_speed
 from bouncing_disk.plot._path import platform_path
 from bouncing_disk.plot._rotation import rotation_diagram
 from bouncing_disk.plot._schematic import motor_schematic
+from bouncing_disk.plot._speed import toss_speed
 from bouncing_disk.plot._style import style
 from bouncing_disk.plot._toss import toss
 from bouncing_disk.plot._trends import motor_dependence, toss_performance
@@ -37,4 +38,5 @@ __all__ = [
     "toss",
     "toss_animation",
     "toss_performance",
+    "toss_speed",
 ]
