@@ -1,4 +1,4 @@
-"""Figs. 2, 3 and 8: what is drawn of a system or a motor, and axes of the caller."""
+"""Figs. 2, 3, 4(d, e), 6(c, d) and 8: what is drawn of a system or a motor, and axes of the caller."""
 
 from __future__ import annotations
 
@@ -235,3 +235,143 @@ def test_all_are_drawn_into_axes_of_the_caller() -> None:
     assert plt.get_fignums() == [fig.number] and tuple(fig.get_size_inches()) == tuple(
         plt.rcParams["figure.figsize"]
     )
+
+
+# Figs. 6(c) and (d)
+
+
+def twisted(angular_forcing: float, lag: float) -> bd.System:
+    """The pizza with another angular forcing and phase lag."""
+    assert PIZZA.angular_forcing is not None
+    twist = PIZZA.twist_amplitude * angular_forcing / PIZZA.angular_forcing
+    return PIZZA.replace(twist_amplitude=twist, phase_lag=lag)
+
+
+def driven(system: bd.System, forcing: float) -> bd.System:
+    amplitude = forcing * np.pi * system.preload_acceleration / system.angular_frequency**2
+    return system.replace(amplitude=amplitude)
+
+
+@pytest.mark.parametrize("normalised", [True, False])
+def test_the_rotation_at_impacts_is_that_of_multi_toss(normalised: bool) -> None:
+    _, ax = plot.rotation_diagram(
+        PIZZA, axial_forcing=(0.3, 0.62), columns=9, transient=500, recorded=40, normalised=normalised
+    )
+    x, y = drawn(ax.lines[1])
+    assert [line.get_label() for line in ax.lines] == ["from the period-1 orbit", "from rest"]
+    unit = PIZZA.peak_angular_speed if normalised else 1.0
+    # A disk below 1/pi rests for ever, and has no point.
+    assert x.min() > 1.0 / np.pi
+    for forcing in np.linspace(0.3, 0.62, 9)[1:]:
+        orbit = bd.multi_toss(
+            driven(PIZZA, forcing),
+            angular_speed=0.0,
+            transient_impacts=500,
+            examined_impacts=40,
+            tolerance=1e-7,
+        )
+        assert y[x == forcing] == pytest.approx(orbit.angular_speed / unit, rel=1e-9)
+    assert ax.get_xlim() == (0.3, 0.62) and ("Phi" in ax.get_ylabel()) == normalised
+
+
+@pytest.mark.parametrize(("angular_forcing", "lag"), [(100.0, 0.0), (1.0, -0.26 * np.pi)])
+def test_the_rotation_of_period_1_is_that_of_the_platform_at_impact(
+    angular_forcing: float, lag: float
+) -> None:
+    # Eq. (16) of the paper.
+    system = twisted(angular_forcing, lag)
+    _, ax = plot.rotation_diagram(system, axial_forcing=(0.34, 0.48), columns=4)
+    x, y = drawn(ax.lines[0])
+    orbits = [bd.ImpactMap(axial_forcing=forcing, restitution=0.5).period_one() for forcing in x]
+    phases = np.array([orbit[0] for orbit in orbits if orbit is not None])
+    assert y == pytest.approx(np.cos(phases + lag), abs=1e-4) and len(y) == 4
+
+
+def test_the_amplitude_of_the_system_does_not_matter_to_the_rotation() -> None:
+    settings: dict[str, Any] = {"columns": 3, "transient": 200, "recorded": 20}
+    for one, other in zip(
+        plot.rotation_diagram(PIZZA, **settings)[1].lines,
+        plot.rotation_diagram(PIZZA.replace(amplitude=0.0), **settings)[1].lines,
+    ):
+        assert np.array_equal(one.get_xydata(), other.get_xydata())
+
+
+def test_rotations_that_have_not_settled_are_counted() -> None:
+    _, ax = plot.rotation_diagram(MOTOR, axial_forcing=(0.4, 0.45), columns=2, transient=300)
+    assert [line.get_label() for line in ax.lines] == [
+        "from the period-1 orbit (2 of 2 not settled)",
+        "from rest (2 of 2 not settled)",
+    ]
+    # A disk with much inertia is followed until it has settled.
+    _, ax = plot.rotation_diagram(twisted(100.0, 0.0), axial_forcing=(0.34, 0.34), columns=1)
+    assert not any("settled" in str(line.get_label()) for line in ax.lines)
+
+
+# Figs. 4(d) and (e)
+
+
+def at_angle(system: bd.System, angle: float) -> bd.System:
+    """The system with its stroke divided otherwise."""
+    return system.replace(
+        amplitude=float(system.stroke * np.cos(angle)),
+        twist_amplitude=float(system.stroke * np.sin(angle) / system.contact_radius),
+    )
+
+
+def test_the_airborne_speed_is_that_of_single_tosses() -> None:
+    system = PIZZA.replace(phase_lag=0.2)
+    _, (separation, friction) = plot.toss_speed(
+        system, phase_lags=[0.0, 1.0], frictions=[0.3, 0.6], points=20
+    )
+    assert len(separation.lines) == 2 and len(friction.lines) == 4
+    angles = np.pi * drawn(friction.lines[0])[0]
+    # Up to the angle arccos(g/(c omega^2)), at which the disk leaves at pi/2.
+    last = np.arccos(system.preload_acceleration / (system.stroke * system.angular_frequency**2))
+    assert 0.99 * last < angles[-1] < last and len(angles) == 20
+    for place in (0, 7, 19):
+        tossed = bd.single_toss(at_angle(system, angles[place]).replace(friction=0.3))
+        assert drawn(friction.lines[0])[1][place] == pytest.approx(tossed.airborne_speed, rel=1e-9)
+        tossed = bd.single_toss(at_angle(system, angles[place]).replace(phase_lag=1.0))
+        phase, speed = (values[place] for values in drawn(separation.lines[1]))
+        assert np.pi * phase == pytest.approx(tossed.separation_phase, rel=1e-9)
+        assert speed == pytest.approx(tossed.airborne_speed, rel=1e-9)
+
+
+def test_the_circles_are_at_the_best_tosses() -> None:
+    _, (_, panel) = plot.toss_speed(PIZZA, points=3)
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == ["$0.5$", "$0.6$", "$0.7$"]
+    places = []
+    for friction, line in zip((0.5, 0.6, 0.7), panel.lines[1::2]):
+        best = bd.best_toss(
+            stroke=PIZZA.stroke,
+            friction=(friction, friction),
+            angular_frequency=(15.0, 15.0),
+            phase_lag=(0.0, 0.0),
+            contact_radius=PIZZA.contact_radius,
+            gyration_radius=PIZZA.gyration_radius,
+            preload_acceleration=9.8,
+        )
+        (angle,), (speed,) = drawn(line)
+        assert speed == pytest.approx(best.value, rel=1e-8)
+        assert np.pi * angle == pytest.approx(best.amplitude_angle, abs=1e-5)
+        places.append(angle)
+    # As the paper says of Fig. 4(e).
+    assert places == sorted(places)
+
+
+def test_a_toss_that_turns_backwards_has_its_circle_too() -> None:
+    forwards = plot.toss_speed(PIZZA, points=3)[1][1].lines[1::2]
+    backwards = plot.toss_speed(PIZZA.replace(phase_lag=np.pi), points=3)[1][1].lines[1::2]
+    for one, other in zip(forwards, backwards):
+        assert drawn(other)[1] == pytest.approx(-drawn(one)[1]) and drawn(other)[1] < 0.0
+
+
+def test_rotation_and_speed_are_drawn_into_axes_of_the_caller() -> None:
+    import matplotlib.pyplot as plt
+
+    fig, axes = plt.subplots(1, 3)
+    assert plot.rotation_diagram(PIZZA, columns=2, transient=10, recorded=5, ax=axes[0]) == (fig, axes[0])
+    found, panels = plot.toss_speed(PIZZA, points=3, ax=axes[1:])
+    assert found is fig and list(panels) == list(axes[1:]) and plt.get_fignums() == [fig.number]
+    with pytest.raises(ValueError, match="2 axes, not 3"):
+        plot.toss_speed(PIZZA, points=3, ax=axes)

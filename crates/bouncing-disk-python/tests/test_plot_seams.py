@@ -353,3 +353,77 @@ def test_values_of_a_parameter_of_any_size() -> None:
     for values, arguments, error, message in refused:
         with pytest.raises(error, match=message):
             plot.motor_dependence(MOTOR, "amplitude", values, **arguments)
+
+
+# Rotation
+
+
+def test_rotations_of_disks_that_rest_or_cannot_turn() -> None:
+    settings: dict[str, Any] = {"columns": 2, "transient": 100, "recorded": 10}
+    _, ax = plot.rotation_diagram(PIZZA, axial_forcing=(0.0, 0.3), **settings)
+    assert note_of(ax) == "all disks rest" and [len(drawn(line)[0]) for line in ax.lines] == [0]
+    # Without friction or twist nothing turns a disk.
+    _, ax = plot.rotation_diagram(PIZZA.replace(friction=0.0), axial_forcing=(0.5, 0.6), columns=2)
+    assert all(not drawn(line)[1].any() for line in ax.lines)
+    still = PIZZA.replace(twist_amplitude=0.0)
+    with pytest.raises(bd.InvalidError) as none:
+        plot.rotation_diagram(still, **settings)
+    assert none.value.kind == "no-twist"
+    _, ax = plot.rotation_diagram(still, axial_forcing=(0.5, 0.6), normalised=False, **settings)
+    assert all(not drawn(line)[1].any() for line in ax.lines) and "(rad/s)" in ax.get_ylabel()
+
+
+def test_rotations_of_one_forcing_and_of_wrong_things() -> None:
+    _, ax = plot.rotation_diagram(PIZZA, axial_forcing=(0.5, 0.5), columns=1, transient=50, recorded=5)
+    assert ax.get_xlim() == pytest.approx((0.45, 0.55))
+    refused: Any = [
+        ({"columns": 0}, bd.OutOfRangeError, "columns is 0"),
+        ({"columns": 2.5}, TypeError, "columns"),
+        ({"transient": -1}, bd.OutOfRangeError, "transient is -1"),
+        ({"transient": "many"}, TypeError, "transient"),
+        ({"recorded": 1}, bd.OutOfRangeError, "recorded is 1"),
+        ({"axial_forcing": (-0.1, 0.5)}, bd.OutOfRangeError, "axial_forcing is -0.1"),
+        ({"axial_forcing": (0.6, 0.5)}, bd.OutOfRangeError, "axial_forcing is 0.5"),
+        ({"axial_forcing": (0.3, np.nan)}, bd.OutOfRangeError, "axial_forcing is nan"),
+        ({"axial_forcing": ("a", "b")}, TypeError, "axial_forcing"),
+    ]
+    for arguments, error, message in refused:
+        with pytest.raises(error, match=message):
+            plot.rotation_diagram(PIZZA, **arguments)
+    with pytest.raises(TypeError, match="not Motor"):
+        plot.rotation_diagram(SHEET)  # type: ignore[arg-type]
+
+
+# Airborne speed
+
+
+def test_speeds_of_tosses_that_never_leave_or_turn_and_of_single_points() -> None:
+    _, axes = plot.toss_speed(PIZZA.replace(angular_frequency=1.0), points=5)
+    assert [note_of(ax) for ax in axes] == ["no motion tosses the disk"] * 2
+    _, axes = plot.toss_speed(PIZZA.replace(amplitude=0.0, twist_amplitude=0.0), points=2)
+    assert [note_of(ax) for ax in axes] == ["no motion tosses the disk"] * 2
+    # One curve of a system without friction: its multiples are all the same. No toss is the fastest.
+    _, axes = plot.toss_speed(PIZZA.replace(friction=0.0), points=5)
+    curve, circle = axes[1].lines
+    assert not drawn(curve)[1].any() and np.isnan(drawn(circle)[1]).all() and note_of(axes[1]) == ""
+    # Another division of the stroke gives a twist to one that has none.
+    _, axes = plot.toss_speed(PIZZA.replace(twist_amplitude=0.0), frictions=0.6, points=1)
+    assert axes[1].lines[0].get_marker() == "o" and drawn(axes[1].lines[0])[1] > 0.0
+
+
+def test_wrong_speeds_of_tosses_are_refused() -> None:
+    refused: Any = [
+        ({"points": 0}, bd.OutOfRangeError),
+        ({"points": 2.5}, TypeError),
+        ({"phase_lags": []}, bd.InvalidError),
+        ({"phase_lags": [np.nan]}, bd.OutOfRangeError),
+        ({"frictions": []}, bd.InvalidError),
+        ({"frictions": [-0.1]}, bd.OutOfRangeError),
+        ({"frictions": [[0.5]]}, bd.InvalidError),
+        ({"frictions": ["a"]}, TypeError),
+    ]
+    for arguments, error in refused:
+        with pytest.raises(error, match=next(iter(arguments))):
+            plot.toss_speed(PIZZA, **arguments)
+    with pytest.raises(TypeError, match="not Motor"):
+        plot.toss_speed(SHEET)  # type: ignore[arg-type]

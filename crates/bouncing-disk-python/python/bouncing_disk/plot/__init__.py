@@ -15,7 +15,9 @@ from bouncing_disk.plot._flow import flow_chart
 from bouncing_disk.plot._growth import dough_growth
 from bouncing_disk.plot._motor import motor_transient, torque_speed
 from bouncing_disk.plot._path import platform_path
+from bouncing_disk.plot._rotation import rotation_diagram
 from bouncing_disk.plot._schematic import motor_schematic
+from bouncing_disk.plot._speed import toss_speed
 from bouncing_disk.plot._style import style
 from bouncing_disk.plot._toss import toss
 from bouncing_disk.plot._trends import motor_dependence, toss_performance
@@ -30,9 +32,11 @@ __all__ = [
     "motor_transient",
     "orbit_diagram",
     "platform_path",
+    "rotation_diagram",
     "style",
     "torque_speed",
     "toss",
     "toss_animation",
     "toss_performance",
+    "toss_speed",
 ]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["basins", "orbit_diagram"]
+__all__ = ["OFF_PERIOD_ONE", "basins", "dot_size", "dots_legend", "forcing_ends", "orbit_diagram"]
 
 #: Size of a point (1/72 inch) of many, of which several make a line, and of few, each of which must be seen.
 _DOT, _LARGE_DOT = 0.6, 2.4
@@ -30,7 +30,7 @@ _MOST_LABELS = 8
 #: Of the normalised speed of a start that comes to rest: a slow one.
 _SLOW = 0.05
 #: How far off the period-1 orbit a start is, so that it leaves it where it is unstable.
-_OFF = 1.01
+OFF_PERIOD_ONE = 1.01
 
 
 def orbit_diagram(
@@ -79,13 +79,10 @@ def orbit_diagram(
     """
     if quantity not in ("phase", "speed"):
         raise ValueError(f'quantity must be "phase" or "speed", not {quantity!r}')
-    lowest, highest = axial_forcing
-    ends = np.array([number("axial_forcing", lowest), number("axial_forcing", highest)])
-    if not lowest <= highest:
-        raise out_of_range("axial_forcing", float(highest), f"[{lowest}, infinity), the lowest one first")
+    ends = np.array(forcing_ends(axial_forcing))
     if diagram is None:
         columns = whole_number("columns", columns, 1)
-        diagram = _two_starts(restitution, (lowest, highest), columns, transient, recorded)
+        diagram = _two_starts(restitution, (ends[0], ends[1]), columns, transient, recorded)
     named = diagram if isinstance(diagram, Mapping) else {"": diagram}
     for orbits in named.values():
         if not isinstance(orbits, bd.OrbitDiagram):
@@ -95,7 +92,6 @@ def orbit_diagram(
     # The diagrams, not what is asked for, if there are any forcings.
     forcings = np.concatenate([orbits.axial_forcing for orbits in named.values()] or [ends])
     impacts = sum(len(orbits.impact_phase) for orbits in named.values())
-    dot = float(np.clip(_LARGE_DOT - (_LARGE_DOT - _DOT) * impacts / _MANY, _DOT, _LARGE_DOT))
     speeds = np.concatenate([orbits.normalised_speed for orbits in named.values()] or [ends])
     factors = [unit_of(forcings, ""), (1.0, "")]
     if quantity == "speed":
@@ -110,7 +106,7 @@ def orbit_diagram(
                 up * values,
                 linestyle="",
                 marker="o",
-                markersize=dot,
+                markersize=dot_size(impacts),
                 markeredgewidth=0.0,
                 color=COLOURS[place % len(COLOURS)],
                 label=str(name) or None,
@@ -130,8 +126,21 @@ def orbit_diagram(
         if impacts == 0:
             note(axes, "all disks rest" if len(forcings) and named else "no orbits")
         if any(map(str, named)):
-            _dots_legend(axes, own=ax is None)
+            dots_legend(axes, own=ax is None)
     return fig, axes
+
+
+def forcing_ends(axial_forcing: tuple[float, float]) -> tuple[float, float]:
+    """The lowest and the highest forcing of a diagram."""
+    lowest, highest = (number("axial_forcing", end) for end in axial_forcing)
+    if not lowest <= highest:
+        raise out_of_range("axial_forcing", highest, f"[{lowest}, infinity), the lowest one first")
+    return lowest, highest
+
+
+def dot_size(points: int) -> float:
+    """The size of a point of so many: each of few is seen, and many make lines."""
+    return float(np.clip(_LARGE_DOT - (_LARGE_DOT - _DOT) * points / _MANY, _DOT, _LARGE_DOT))
 
 
 def _two_starts(
@@ -155,13 +164,15 @@ def _two_starts(
     diagrams = {}
     if born.any():
         phases, velocities = np.array([orbit for orbit in orbits if orbit is not None]).T
-        diagrams["from the period-1 orbit"] = diagram(forcings[born], phases, -_OFF * velocities / np.pi)
+        diagrams["from the period-1 orbit"] = diagram(
+            forcings[born], phases, -OFF_PERIOD_ONE * velocities / np.pi
+        )
     # On top: beyond the crisis both are on the same attractor.
     diagrams["from a slow impact"] = diagram(forcings, 0.0, _SLOW)
     return diagrams
 
 
-def _dots_legend(ax: Any, own: bool) -> None:
+def dots_legend(ax: Any, own: bool) -> None:
     """A legend with dots that can be seen, behind which no point is lost."""
     legend = legend_above(ax, own=own, most=2, handletextpad=0.1)
     for handle in legend.get_lines():
