@@ -1,13 +1,11 @@
 //! The attractors of a map, and their basins.
 
-use bouncing_disk::core::{
-    AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors as Found, BasinSettings, UndecidedReason,
-};
+use bouncing_disk::core::{AfterRest, AttractorKind, AttractorSearch, Attractors as Found, BasinSettings};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arguments::{Count, ProgressCallable};
-use crate::basins::{GridArguments, labels, result, told};
+use crate::basins::{GridArguments, labels, result};
 use crate::chatter::{ChatterCut, policy};
 use crate::impact_map::ImpactMap;
 use crate::names::{Named, name};
@@ -22,29 +20,6 @@ use crate::{errors, long_call, results, text};
 #[pyclass(frozen, eq, module = "bouncing_disk")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Attractors(Found);
-
-fn reason(reason: &UndecidedReason) -> &'static str {
-    match reason {
-        UndecidedReason::ExponentNearZero { .. } => "exponent near zero",
-        UndecidedReason::NoPeriodFound { .. } => "no period found",
-        UndecidedReason::Grazing { .. } => "grazing",
-        _ => "unknown",
-    }
-}
-
-fn meaning(attractor: &Attractor) -> String {
-    match &attractor.kind {
-        AttractorKind::Rest(AfterRest::StaysForEver) => "comes to rest for ever".to_owned(),
-        AttractorKind::Rest(AfterRest::RestsAgain(cycle)) => {
-            format!("comes to rest again and again: platform periods {}", cycle.platform_periods)
-        }
-        AttractorKind::Rest(AfterRest::LeadsTo(other)) => format!("comes to rest, then attractor {other}"),
-        AttractorKind::Periodic(known) => told(known.orbit()),
-        AttractorKind::Chaotic { exponent, .. } => format!("chaotic: exponent {exponent:.4} per impact"),
-        AttractorKind::Unclassified { reason: why, .. } => format!("not classified: {}", reason(why)),
-        _ => "unknown".to_owned(),
-    }
-}
 
 #[pymethods]
 impl Attractors {
@@ -89,7 +64,7 @@ impl Attractors {
                 attractor.starts.interval(),
                 attractor.kind.lasts(),
                 leads_to,
-                meaning(attractor),
+                attractor.kind.to_string(),
             );
             all.push(results::make(py, "Attractor", fields)?);
         }
@@ -138,7 +113,7 @@ impl Attractors {
             labels(&self.0.basins_observed(grid, settings, observer)?)
         })?;
         let mut told = vec!["undecided".to_owned()];
-        told.extend(self.0.all().iter().map(meaning));
+        told.extend(self.0.all().iter().map(|attractor| attractor.kind.to_string()));
         let map = Bound::new(py, self.impact_map())?;
         result(py, &map, &grid, found, told)
     }
@@ -177,7 +152,7 @@ impl Attractors {
     }
 
     fn __repr__(&self) -> String {
-        let all: Vec<_> = self.0.all().iter().map(meaning).collect();
+        let all: Vec<_> = self.0.all().iter().map(|attractor| attractor.kind.to_string()).collect();
         format!("<Attractors: {}>", all.join("; "))
     }
 }
