@@ -58,7 +58,9 @@ fn files() -> Vec<String> {
             let path = format!("{prefix}{name}");
             if !entry.file_type().expect("known").is_dir() {
                 found.push(path);
-            } else if name != "target" && (!prefix.is_empty() || FOLDERS.contains(&name.as_str())) {
+            } else if !["node_modules", "target"].contains(&name.as_str())
+                && (!prefix.is_empty() || FOLDERS.contains(&name.as_str()))
+            {
                 collect(&entry.path(), &format!("{path}/"), found);
             }
         }
