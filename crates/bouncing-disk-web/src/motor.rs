@@ -1,9 +1,8 @@
 //! Motors by their data sheets.
 
-use bouncing_disk::core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk::{
-    Estimate, Motor, MotorParameters, OperatingPoint, OperatingSettings, Operation, Shortfall, System,
-    TransientSettings, ensemble,
+    Estimate, Motor, MotorParameters, OperatingPoint, OperatingSettings, Operation, Shortfall, Spread,
+    System, TransientSettings, ensemble,
 };
 use serde::Serialize;
 
@@ -87,8 +86,8 @@ pub(crate) fn transient(
     let mut numbers = Vec::with_capacity(3 * times.len());
     for (place, time) in times.iter().enumerate() {
         let speeds: Vec<f64> = runs.curves.iter().map(|curve| curve.speeds[place]).collect();
-        let error = standard_deviation(&speeds) / (speeds.len() as f64).sqrt();
-        numbers.extend([*time, mean(&speeds), error]);
+        let speed = Spread::of(&speeds)?;
+        numbers.extend([*time, speed.mean, speed.standard_error]);
     }
     let finite = |number: f64| Some(number).filter(|number| number.is_finite());
     let json = TransientJson {

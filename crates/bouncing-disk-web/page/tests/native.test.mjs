@@ -30,7 +30,7 @@ function listen() {
   };
 }
 
-/** States that have every view ask for what it shows: a system of each regime. */
+/** States that have every view ask for what it shows, of the system that the page begins with. */
 const HASHES = [
   "#view=toss",
   "#view=diagram",
