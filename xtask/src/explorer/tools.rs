@@ -60,7 +60,7 @@ fn has_target(rustc: Option<&Path>) -> bool {
 }
 
 /// The program of the version of the library that the module is built with: they fit together only then. It is compiled
-/// once, from crates.io.
+/// once, from crates.io, and without optimisation: it runs for a few seconds, and would be compiled for minutes.
 pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
     let version = locked_version("wasm-bindgen")?;
     let root = folder.join(format!("wasm-bindgen-{version}"));
@@ -69,7 +69,7 @@ pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
         return Ok(program);
     }
     let mut install = cargo();
-    install.args(["install", "wasm-bindgen-cli", "--quiet", "--version", &version, "--root"]).arg(&root);
+    install.args(["install", "wasm-bindgen-cli", "--debug", "--quiet", "--version", &version, "--root"]).arg(&root);
     let status = install.status().context("cargo cannot be run")?;
     if !status.success() {
         bail!("wasm-bindgen-cli {version} could not be installed from crates.io ({status})");
