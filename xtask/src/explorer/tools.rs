@@ -69,7 +69,9 @@ pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
         return Ok(program);
     }
     let mut install = cargo();
-    install.args(["install", "wasm-bindgen-cli", "--debug", "--quiet", "--version", &version, "--root"]).arg(&root);
+    install
+        .args(["install", "wasm-bindgen-cli", "--debug", "--quiet", "--version", &version, "--root"])
+        .arg(&root);
     let status = install.status().context("cargo cannot be run")?;
     if !status.success() {
         bail!("wasm-bindgen-cli {version} could not be installed from crates.io ({status})");
