@@ -6,10 +6,12 @@ import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
 import { element, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
 import { Layers } from "../drawing/layers";
-import { plain, quantity } from "../drawing/numbers";
+import { plain } from "../drawing/numbers";
 import type { MotionStart } from "../protocol";
 import { tellFailure } from "./failures";
 import { Controls } from "./toss/controls";
+import { describeMoment } from "./toss/description";
+import { tossLayout } from "./toss/layout";
 import { tossOffers } from "./toss/offers";
 import { Player } from "./toss/player";
 import { Portrait } from "./toss/portrait";
@@ -88,20 +90,13 @@ class TossView implements View {
     );
     host.append(
       this.controls.root,
-      element(
-        "div",
-        { class: "toss" },
-        element("div", { class: "toss-left" },
-          element("div", {}, this.scene.root, this.gains, this.alternative),
-          element("section", { "aria-label": "Time traces" }, this.heights.root, this.spins.root)),
-        element("div", { class: "toss-right" },
-          element("section", { class: "panel", "aria-label": "Readings" },
-            ...this.readings.elements, form),
-          element("section", { "aria-label": "Phase portrait" }, element("h3", {}, "Impacts"), this.portrait.layers.root,
-            element("p", { class: "remark" },
-              "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there."))),
-      ),
-    ); // prettier-ignore
+      tossLayout({
+        scene: [this.scene.root, this.gains, this.alternative],
+        traces: [this.heights.root, this.spins.root],
+        readings: [...this.readings.elements, form],
+        portrait: this.portrait.layers.root,
+      }),
+    );
     this.mounted = true;
   }
 
@@ -271,9 +266,8 @@ class TossView implements View {
   private choose(phasePeriods: number, speed: number): void {
     const start = { impact_phase: phasePeriods * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) };
     this.context.change({ start });
-    this.context.status(
-      `The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`,
-    );
+    const at = `${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}`;
+    this.context.status(`The motion starts with an impact at ${at}.`);
   }
 
   private key(event: KeyboardEvent): void {
@@ -293,10 +287,7 @@ class TossView implements View {
     const { recording, player } = this;
     if (moment === null || recording === null) return;
     const impacts = recording.impactsUntil(player.now * recording.period);
-    const gap = quantity(Math.max(moment.height - moment.platform_height, 0), "m");
-    const text =
-      `After ${player.now.toFixed(2)} periods and ${impacts} impacts the disk is in ${moment.mode}, ${gap} above the ` +
-      `platform, and turns at ${plain(moment.angular_speed, 3)} rad/s; the platform at ${plain(moment.platform_angular_speed, 3)} rad/s.`;
+    const text = describeMoment(moment, player.now, impacts);
     setText(this.alternative, player.playing ? "" : text);
   }
 }
