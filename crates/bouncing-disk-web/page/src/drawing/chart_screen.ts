@@ -104,7 +104,12 @@ export class ScreenChart {
       },
       axes: [axis(chart.xLabel, 34), axis(chart.yLabel, 56)],
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
-      legend: { show: true, live: true },
+      legend: {
+        show: true,
+        live: true,
+        // A line like that of the curve, for those who do not tell the colours apart.
+        markers: { width: 2, fill: () => "", dash: (plot, index) => (plot.series[index]?.dash ? "dashed" : "solid") },
+      },
       padding: [10, 12, 0, 0],
       hooks: {
         drawAxes: [(plot) => this.extras(plot, colour)],

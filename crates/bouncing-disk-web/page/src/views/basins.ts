@@ -60,7 +60,7 @@ class BasinsView implements View {
       context,
     );
     const hint =
-      "× one impact of a periodic attractor, + the shared start. A click runs the orbit of that start in the first view.";
+      "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
     host.append(
       element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
       element(

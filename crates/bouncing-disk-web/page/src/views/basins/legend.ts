@@ -16,7 +16,7 @@ export class Legend {
     const note = element(
       "p",
       { class: "remark" },
-      "Shares with their 95 % intervals are of the library's own sample of starts; those of the window are of its cells.",
+      "Shares with 95 % intervals are of the library's own sample of starts; those of the window are of its cells.",
     );
     this.root.append(element("h3", {}, "Attractors"), this.pointed, this.list, note);
   }

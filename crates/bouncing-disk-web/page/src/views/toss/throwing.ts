@@ -39,13 +39,30 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     const box = surface.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top, time: event.timeStamp };
   };
-  surface.addEventListener("pointerdown", (event) => {
+  const grip = (at: { x: number; y: number }): Pose | null => {
     const stage = host.stage();
     const pose = host.pose();
-    if (stage === null || pose === null || event.button > 0) return;
-    const at = place(event);
+    if (stage === null || pose === null) return null;
     const [x, y] = diskPlace(stage, pose);
-    if (Math.abs(at.x - x) > stage.pixels || Math.abs(at.y - y) > Math.max(0.6 * stage.pixels, 24)) return;
+    const within = Math.abs(at.x - x) <= stage.pixels && Math.abs(at.y - y) <= Math.max(0.6 * stage.pixels, 24);
+    return within ? pose : null;
+  };
+  // A finger on the disk drags it; beside it, the same movement scrolls the page.
+  surface.addEventListener(
+    "touchstart",
+    (event) => {
+      const [touch] = event.changedTouches;
+      if (touch === undefined) return;
+      const box = surface.getBoundingClientRect();
+      if (held !== null || grip({ x: touch.clientX - box.left, y: touch.clientY - box.top })) event.preventDefault();
+    },
+    { passive: false },
+  );
+  surface.addEventListener("pointerdown", (event) => {
+    if (event.button > 0) return;
+    const at = place(event);
+    const pose = grip(at);
+    if (pose === null) return;
     held = { x: at.x, y: at.y, pose, trail: [at] };
     surface.setPointerCapture(event.pointerId);
     event.preventDefault();
@@ -105,8 +122,8 @@ export function bounded(system: Readonly<SystemParameters>, thrown: Throw): Thro
 export function describeThrow({ gap, relative_velocity, angular_speed }: Throw): string {
   const way = relative_velocity < 0 ? "downwards" : "upwards";
   return (
-    `Thrown ${quantity(gap, "m")} above the platform, ${quantity(Math.abs(relative_velocity), "m/s")} ${way} relative to it, ` +
-    `turning at ${plain(angular_speed, 3)} rad/s.`
+    `Thrown ${quantity(gap, "m")} above the platform, ${quantity(Math.abs(relative_velocity), "m/s")} ${way} ` +
+    `relative to it, turning at ${plain(angular_speed, 3)} rad/s.`
   );
 }
 
