@@ -39,34 +39,22 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     const box = surface.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top, time: event.timeStamp };
   };
-  const grip = (at: { x: number; y: number }): Pose | null => {
+  surface.addEventListener("pointerdown", (event) => {
     const stage = host.stage();
     const pose = host.pose();
-    if (stage === null || pose === null) return null;
-    const [x, y] = diskPlace(stage, pose);
-    const within = Math.abs(at.x - x) <= stage.pixels && Math.abs(at.y - y) <= Math.max(0.6 * stage.pixels, 24);
-    return within ? pose : null;
-  };
-  // A finger on the disk drags it; beside it, the same movement scrolls the page.
-  surface.addEventListener(
-    "touchstart",
-    (event) => {
-      const [touch] = event.changedTouches;
-      if (touch === undefined) return;
-      const box = surface.getBoundingClientRect();
-      if (held !== null || grip({ x: touch.clientX - box.left, y: touch.clientY - box.top })) event.preventDefault();
-    },
-    { passive: false },
-  );
-  surface.addEventListener("pointerdown", (event) => {
-    if (event.button > 0) return;
+    if (stage === null || pose === null || event.button > 0) return;
     const at = place(event);
-    const pose = grip(at);
-    if (pose === null) return;
+    const [x, y] = diskPlace(stage, pose);
+    if (Math.abs(at.x - x) > stage.pixels || Math.abs(at.y - y) > Math.max(0.6 * stage.pixels, 24)) return;
     held = { x: at.x, y: at.y, pose, trail: [at] };
     surface.setPointerCapture(event.pointerId);
     event.preventDefault();
   });
+  // A finger on the disk drags it; beside it, the same movement scrolls the page.
+  const keep = (event: TouchEvent) => {
+    if (held !== null) event.preventDefault();
+  };
+  surface.addEventListener("touchstart", keep, { passive: false });
   surface.addEventListener("pointermove", (event) => {
     const stage = host.stage();
     if (held === null || stage === null) return;
