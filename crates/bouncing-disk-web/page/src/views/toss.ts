@@ -41,7 +41,7 @@ class TossView implements View {
   );
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
-  private readonly alternative = element("p", { class: "alternative" });
+  private readonly alternative = element("p", { class: "alternative", "aria-live": "polite" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
   private readonly spins = new ScreenChart(() => this.chartHeight());
   private portrait!: Portrait;
@@ -276,8 +276,11 @@ class TossView implements View {
     else if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
       this.player.pause();
       this.player.seek(this.player.now + (event.key === "ArrowLeft" ? -step : step));
-    } else if (event.key === "Home") this.player.seek(0);
-    else return;
+      this.describe();
+    } else if (event.key === "Home") {
+      this.player.seek(0);
+      this.describe();
+    } else return;
     event.preventDefault();
   }
 

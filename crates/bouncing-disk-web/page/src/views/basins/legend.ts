@@ -10,7 +10,7 @@ type Attractor = AttractorsJson["attractors"][number];
 export class Legend {
   readonly root = element("section", { class: "panel", "aria-label": "Attractors" });
   private readonly list = element("ol", { class: "attractors" });
-  private readonly pointed = element("p", { class: "pointed" }, "Point at a start to read where it ends.");
+  private readonly pointed = element("p", { class: "pointed", "aria-live": "polite" }, "Point at a start to read where it ends.");
 
   constructor() {
     const note = element(
