@@ -9,8 +9,10 @@ import { Layers } from "../drawing/layers";
 import { plain } from "../drawing/numbers";
 import type { MotionStart } from "../protocol";
 import { tellFailure } from "./failures";
+import { RoundingCaution } from "./rounding";
 import { Controls } from "./toss/controls";
 import { describeMoment } from "./toss/description";
+import { attachKeys } from "./toss/keys";
 import { tossLayout } from "./toss/layout";
 import { tossOffers } from "./toss/offers";
 import { Player } from "./toss/player";
@@ -41,6 +43,10 @@ class TossView implements View {
   );
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
+  private readonly rounding = new RoundingCaution(
+    "toss-rest",
+    "once this disk has come to rest, rounding decides after how many impacts it rests again.",
+  );
   private readonly alternative = element("p", { class: "alternative", "aria-live": "polite" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
   private readonly spins = new ScreenChart(() => this.chartHeight());
@@ -69,7 +75,12 @@ class TossView implements View {
       () => this.period(),
       () => this.describe(),
     );
-    this.scene.surface.addEventListener("keydown", (event) => this.key(event));
+    attachKeys(
+      this.scene.surface,
+      this.player,
+      () => this.controls.toggle(),
+      () => this.describe(),
+    );
     attachThrowing(this.scene.surface, {
       stage: () => this.stage,
       pose: () => this.moment(),
@@ -91,7 +102,7 @@ class TossView implements View {
     host.append(
       this.controls.root,
       tossLayout({
-        scene: [this.scene.root, this.gains, this.alternative],
+        scene: [this.scene.root, this.gains, this.rounding.root, this.alternative],
         traces: [this.heights.root, this.spins.root],
         readings: [...this.readings.elements, form],
         portrait: this.portrait.layers.root,
@@ -101,6 +112,7 @@ class TossView implements View {
   }
 
   show(state: State): void {
+    void this.rounding.show(this.context, state);
     const start = JSON.stringify(state.start);
     // Another start in the state takes the place of a throw.
     if (start !== this.startShown) this.thrown = null;
@@ -268,20 +280,6 @@ class TossView implements View {
     this.context.change({ start });
     const at = `${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}`;
     this.context.status(`The motion starts with an impact at ${at}.`);
-  }
-
-  private key(event: KeyboardEvent): void {
-    const step = event.shiftKey ? 1 : 1 / 16;
-    if (event.key === " ") this.controls.toggle();
-    else if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
-      this.player.pause();
-      this.player.seek(this.player.now + (event.key === "ArrowLeft" ? -step : step));
-      this.describe();
-    } else if (event.key === "Home") {
-      this.player.seek(0);
-      this.describe();
-    } else return;
-    event.preventDefault();
   }
 
   /** Not while it moves: a screen reader would never come to an end. */
