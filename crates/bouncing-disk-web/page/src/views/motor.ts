@@ -141,6 +141,12 @@ class MotorView implements View {
     this.operations = [];
     this.stall = null;
     this.reportPanel.report(report);
+    if (!this.turns) {
+      this.complete = true;
+      this.draw();
+      context.status("Without friction nothing turns the rotor: there is no run-up, and no curve.");
+      return;
+    }
     context.status("Computing the run-up", "busy");
     const transient = await transientOf(context, sheet, state.motor.rise_times);
     if (!present()) return;
@@ -216,8 +222,14 @@ class MotorView implements View {
     return names.every((name) => imported.system[name] === state.system[name]) ? imported.sheet : null;
   }
 
+  /** Whether there is a torque at all. */
+  private get turns(): boolean {
+    return this.report === null || this.report.largest_torque > 0;
+  }
+
   private paint(): void {
     const { colour } = this.context;
+    for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = !this.turns;
     if (this.transient !== null) {
       const { steady_speed, steady_speed_error } = this.transient.json;
       const steady =

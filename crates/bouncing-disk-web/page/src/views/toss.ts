@@ -22,7 +22,8 @@ import { Recording } from "./toss/recording";
 import type { Moment } from "./toss/recording";
 import { describeGains, paintScale, paintScene, stageOf } from "./toss/scene";
 import type { Stage } from "./toss/scene";
-import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
+import { ThrowForm } from "./toss/throw_form";
+import { attachThrowing, describeThrow } from "./toss/throwing";
 import type { Throw } from "./toss/throwing";
 import { traces } from "./toss/traces";
 
@@ -94,7 +95,7 @@ class TossView implements View {
       },
       start: (thrown) => this.throwDisk(thrown),
     });
-    const form = throwForm(
+    const form = new ThrowForm(
       () => context.state().system,
       () => this.phase(),
       (thrown) => this.throwDisk(thrown),
@@ -104,7 +105,7 @@ class TossView implements View {
       tossLayout({
         scene: [this.scene.root, this.gains, this.rounding.root, this.alternative],
         traces: [this.heights.root, this.spins.root],
-        readings: [...this.readings.elements, form],
+        readings: [...this.readings.elements, form.root],
         portrait: this.portrait.layers.root,
       }),
     );
