@@ -42,7 +42,7 @@ export class Refused extends Error {
 
 /** Where answers come from. Nothing here blocks the page. */
 export interface Client {
-  /** One answer from the quick worker: `check`, `motion`, `orbit` and sheets. A later one of the same slot cancels it. */
+  /** An answer from the quick worker: `check`, `motion`, `orbit` and sheets. A later one of the slot cancels it. */
   ask(slot: string, request: Request): Promise<Response>;
   /**
    * Answers from the heavy worker, one after the other, as they come. A later series of the same slot, or `cancel`,

@@ -90,9 +90,10 @@ export function helpDialog(): HTMLDialogElement {
     element("p", {}, element("label", {}, box, " Keys without Ctrl or Alt work")),
     element("h3", {}, "What this is"),
     paragraph(
-      "A disk bounces on a platform that vibrates and twists: a pizza dough on a hand, a steel ball on a chaotic table, or " +
-        "the rotor of an ultrasonic motor. Everything is computed in this page by the library of the project, with the " +
-        "same bits as on any other machine; nothing is sent anywhere, and nothing is loaded from anywhere.",
+      "A disk bounces on a platform that vibrates and twists: a pizza dough on a hand, a steel ball on a chaotic " +
+        "table, or the rotor of an ultrasonic motor. Everything is computed in this page by the library of the " +
+        "project, with the same bits as on any other machine; nothing is sent anywhere, and nothing is loaded " +
+        "from anywhere.",
     ),
     element(
       "p",

@@ -71,6 +71,8 @@ function begin(): void {
       announcer.textContent = text;
     },
     status: (text, kind = "done") => {
+      // What is under way changes too often to be read out.
+      statusLine.setAttribute("aria-live", kind === "busy" ? "off" : "polite");
       statusLine.textContent = text;
       statusLine.dataset["kind"] = kind;
     },

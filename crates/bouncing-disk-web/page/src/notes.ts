@@ -58,7 +58,7 @@ export class Notes {
         active === null ? element("span", { class: "changed" }, "changed since") : null),
       close,
       element("p", {}, ...rich(preset.text)),
-      ...(chips.length > 0 ? [element("div", { class: "chips", role: "group", "aria-label": "Panels" }, ...chips)] : []),
+      chips.length > 0 ? element("div", { class: "chips", role: "group", "aria-label": "Panels" }, ...chips) : "",
     ); // prettier-ignore
     if (focused >= 0) chips[focused]?.focus({ preventScroll: true });
   }

@@ -131,8 +131,9 @@ export const MOTION_COLUMNS = [
 /** Modes in `bytes`. */
 export const MODES = ["flight", "sticking", "sliding forward", "sliding backward"] as const;
 
-/** Time (s), phase (rad), normalised impact speed |w_A| Gamma/(A omega) of an impact (else NaN), tangential impact velocity as
- * an angular speed relative to the platform (rad/s; else NaN), angular speed after the event (rad/s), height (m). */
+/** Time (s), phase (rad), normalised impact speed |w_A| Gamma/(A omega) of an impact (else NaN), tangential impact
+ * velocity as an angular speed relative to the platform (rad/s; else NaN), angular speed after the event (rad/s),
+ * height (m). */
 export const EVENT_COLUMNS = [
   "time", "phase", "normalised_speed", "tangential_speed", "angular_speed", "height",
 ] as const; // prettier-ignore

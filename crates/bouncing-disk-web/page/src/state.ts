@@ -11,8 +11,8 @@ const MOST_POINTS = 200;
 const MOST_RISE_TIMES = 1000;
 
 /**
- * The hands and the dough of Table I, made to toss again and again at Gamma = 0.45, with the lag of Fig. 6(d): there the
- * disk can bounce once in every period, and all four views have something to show.
+ * The hands and the dough of Table I, made to toss again and again at Gamma = 0.45, with the lag of Fig. 6(d): there
+ * the disk can bounce once in every period, and all four views have something to show.
  */
 export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
   amplitude: 0.0616,

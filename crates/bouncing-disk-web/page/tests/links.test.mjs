@@ -34,14 +34,16 @@ test("states with awkward numbers come back to the bit", async () => {
     const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
     const wanted = {
       view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
-      amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15, phase_lag: -3 * random(),
+      amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
+      phase_lag: -3 * random(),
       contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
       preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
       impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
       diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
       diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
       basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
-      motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7", motor_rise_times: String(1 + 5 * random()),
+      motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
+      motor_rise_times: String(1 + 5 * random()),
     }; // prettier-ignore
     const hash = `#${Object.entries(wanted)
       .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
@@ -98,7 +100,8 @@ test("the copied link opens the same state in a fresh page", async () => {
 
 test("broken parts of a link are refused with a sentence each, and the rest is kept", async () => {
   const hash =
-    "#view=diagram&friction=0.3&restitution=1.5&amplitude=abc&nonsense=1&mass=1&mass=2&basins_speed=5,1&diagram_quantity=%E0%A4%A&gyration_radius=0x1";
+    "#view=diagram&friction=0.3&restitution=1.5&amplitude=abc&nonsense=1&mass=1&mass=2&basins_speed=5,1" +
+    "&diagram_quantity=%E0%A4%A&gyration_radius=0x1";
   const { page, context, errors } = await opened(browser, { hash });
   await settled(page);
   const state = await stateOf(page);

@@ -178,7 +178,10 @@ test("back and forward lead through the states", () =>
 
 test("from 360 to 2,560 pixels nothing sticks out, and the picture has room", () =>
   clean({}, async (page) => {
-    for (const [width, height] of [[360, 640], [480, 800], [768, 1024], [1024, 700], [1280, 800], [1920, 1080], [2560, 1440]]) {
+    const sizes = [
+      [360, 640], [480, 800], [768, 1024], [1024, 700], [1280, 800], [1920, 1080], [2560, 1440],
+    ]; // prettier-ignore
+    for (const [width, height] of sizes) {
       await page.setViewportSize({ width, height });
       for (const view of VIEWS) {
         await page.click(`#tab-${view}`);
@@ -191,7 +194,7 @@ test("from 360 to 2,560 pixels nothing sticks out, and the picture has room", ()
         assert.ok(room[0] >= 0.6 * width && room[1] >= 300, `${view} at ${width}: ${room}`);
       }
     }
-  })); // prettier-ignore
+  }));
 
 test("dark, light and automatic colours", () =>
   clean({ scheme: "dark" }, async (page) => {

@@ -27,15 +27,19 @@ export function paintChart(pen: Pen, chart: Chart, colour: Colours, width: numbe
 /** Shaded stretches, lines and marks. */
 export function paintExtras(pen: Pen, chart: Chart, plot: Plot, colour: Colours): void {
   const bottom = plot.top + plot.height;
+  const zero = pixelY(plot, 0);
   if (chart.shade !== undefined) {
     const from = pixelX(plot, chart.shade.range[0]);
     const to = pixelX(plot, chart.shade.range[1]);
     pen.rect(from, plot.top, to - from, plot.height, { fill: colour("--runaway") });
     const middle = Math.max(Math.min((from + Math.min(to, plot.left + plot.width)) / 2, to), from);
-    const style = { colour: colour("--picture-text"), size: plot.size, anchor: "middle", upwards: true } as const;
-    if (to - from > plot.size) pen.text(chart.shade.label, middle, plot.top + plot.height / 2, style);
+    // Away from the zero, where the marks of runaway loads stand.
+    const below = zero < plot.top + plot.height / 2;
+    const end = below ? bottom - plot.size * 0.5 : plot.top + plot.size * 0.5;
+    const anchor = below ? "start" : "end";
+    const style = { colour: colour("--picture-text"), size: plot.size, anchor, upwards: true } as const;
+    if (to - from > plot.size) pen.text(chart.shade.label, middle, end, style);
   }
-  const zero = pixelY(plot, 0);
   if (zero > plot.top && zero < bottom) {
     pen.path([plot.left, zero, plot.left + plot.width, zero], { stroke: colour("--picture-muted"), width: 1 });
   }

@@ -9,29 +9,33 @@ import { paintExtras } from "./chart_paint";
 import type { Colours } from "./colours";
 import { parseColour } from "./colours";
 import { element, setText } from "./elements";
-import { minus, plain } from "./numbers";
+import { minus, plain, withError } from "./numbers";
 import { SCREEN_FONT } from "./pen";
 import { plainText } from "./rich_text";
 import { linearScale } from "./scale";
 
 const SIZE = 12;
+const KEYS = "Left and right read the values one by one, Home and End the first and the last.";
 
 export class ScreenChart {
   readonly root = element("figure", { class: "chart" });
-  private readonly stage = element("div", { class: "chart-stage", role: "img" });
+  private readonly stage = element("div", { class: "chart-stage", role: "application", tabindex: 0 });
+  /** The values under the cursor, for screen readers. */
+  private readonly reading = element("p", { class: "hidden", "aria-live": "polite" });
   private readonly caption = element("figcaption", { class: "alternative" });
   private plot: uPlot | null = null;
   private made = "";
   private chart: Chart | null = null;
 
   constructor(private readonly height: () => number) {
-    this.root.append(this.stage, this.caption);
+    this.root.append(this.stage, this.caption, this.reading);
+    this.stage.addEventListener("keydown", (event) => this.key(event));
   }
 
   /** Shows a chart. The same kinds of curves are only filled anew, which is quick. */
   show(chart: Chart, colour: Colours, alternative?: string): void {
     this.chart = chart;
-    this.stage.setAttribute("aria-label", `${chart.title}. ${alternative ?? ""}`);
+    this.stage.setAttribute("aria-label", `Chart: ${chart.title}. ${alternative ?? ""} ${KEYS}`);
     if (alternative !== undefined) setText(this.caption, alternative);
     const width = Math.floor(this.root.clientWidth);
     if (width < 50) return;
@@ -48,6 +52,25 @@ export class ScreenChart {
       if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({ width, height });
       this.plot.setData(columns(chart), true);
     }
+  }
+
+  /** The cursor of the keyboard goes from value to value. */
+  private key(event: KeyboardEvent): void {
+    const { plot, chart } = this;
+    if (plot === null || chart === null || chart.x.length === 0) return;
+    const last = chart.x.length - 1;
+    const at = plot.cursor.idx ?? null;
+    const targets: Readonly<Record<string, number>> = {
+      ArrowLeft: at === null ? last : Math.max(at - 1, 0),
+      ArrowRight: at === null ? 0 : Math.min(at + 1, last),
+      Home: 0,
+      End: last,
+    };
+    const target = targets[event.key];
+    if (target === undefined) return;
+    event.preventDefault();
+    plot.setCursor({ left: plot.valToPos(chart.x[target] as number, "x"), top: plot.bbox.height / 2 });
+    setText(this.reading, readingOf(chart, target));
   }
 
   destroy(): void {
@@ -104,7 +127,12 @@ export class ScreenChart {
       },
       axes: [axis(chart.xLabel, 34), axis(chart.yLabel, 56)],
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
-      legend: { show: true, live: true },
+      legend: {
+        show: true,
+        live: true,
+        // A line like that of the curve, for those who do not tell the colours apart.
+        markers: { width: 2, fill: () => "", dash: (plot, index) => (plot.series[index]?.dash ? "dashed" : "solid") },
+      },
       padding: [10, 12, 0, 0],
       hooks: {
         drawAxes: [(plot) => this.extras(plot, colour)],
@@ -135,6 +163,15 @@ export class ScreenChart {
     pen.clipped(area.left, area.top, area.width, area.height, () => paintExtras(pen, chart, area, colour));
     ctx.restore();
   }
+}
+
+/** "time (s) 0.25: speed 1.2 ± 0.1": the values of one place with their standard errors. */
+function readingOf(chart: Chart, index: number): string {
+  const values = chart.curves.map(({ label, y, error }) => {
+    const value = y[index];
+    return `${label} ${withError(value === undefined ? null : value, error?.[index] ?? null)}`;
+  });
+  return `${plainText(chart.xLabel)} ${plain(chart.x[index])}: ${values.join(", ")}`;
 }
 
 /** The edges of bands are series to uPlot, but nothing to a reader. */

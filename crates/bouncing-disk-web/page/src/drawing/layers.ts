@@ -1,7 +1,7 @@
 import type { Colours } from "./colours";
 import { CanvasPen } from "./canvas_pen";
 
-/** Two canvases on top of each other at the screen's own pixels: data below, and the cursor, which moves often, above. */
+/** Two canvases on each other at the screen's own pixels: data below, and the cursor, which moves often, above. */
 export class Layers {
   readonly root = document.createElement("div");
   /** The upper one, which takes the keyboard and the pointer. */

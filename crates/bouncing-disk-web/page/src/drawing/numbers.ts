@@ -44,7 +44,8 @@ export function withError(value: number | null, error: number | null, factor = 1
     const power = Math.floor(Math.log10(Math.max(Math.abs(value * factor), scaled)));
     const by = 10 ** power;
     const places = Math.max(0, decimals + power);
-    return `(${minus(((value * factor) / by).toFixed(places))} ± ${(scaled / by).toFixed(places)}) × 10${superscript(power)}`;
+    const lead = minus(((value * factor) / by).toFixed(places));
+    return `(${lead} ± ${(scaled / by).toFixed(places)}) × 10${superscript(power)}`;
   }
   return `${minus(grouped((value * factor).toFixed(decimals)))} ± ${grouped(scaled.toFixed(decimals))}`;
 }

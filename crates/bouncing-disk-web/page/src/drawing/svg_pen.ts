@@ -53,8 +53,9 @@ export class SvgPen implements Pen {
       hung = drop;
       return `<tspan${step === 0 ? "" : ` dy="${short(step)}"`}${size}${slant}>${escape(run.text)}</tspan>`;
     });
+    const anchor = style.anchor ?? "start";
     this.parts.push(
-      `<text x="${short(x)}" y="${short(y + shift)}" text-anchor="${style.anchor ?? "start"}" fill="${escape(style.colour)}"` +
+      `<text x="${short(x)}" y="${short(y + shift)}" text-anchor="${anchor}" fill="${escape(style.colour)}"` +
         ` font-size="${short(style.size)}"${style.bold === true ? ' font-weight="600"' : ""}${halo}${turn}` +
         ` xml:space="preserve">${runs.join("")}</text>`,
     );
@@ -66,9 +67,8 @@ export class SvgPen implements Pen {
 
   image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number, smooth: boolean): void {
     const rendering = smooth ? "" : ' image-rendering="optimizeSpeed"';
-    this.parts.push(
-      `<image ${box(x, y, width, height)} preserveAspectRatio="none"${rendering} href="${source.toDataURL("image/png")}"/>`,
-    );
+    const form = `preserveAspectRatio="none"${rendering}`;
+    this.parts.push(`<image ${box(x, y, width, height)} ${form} href="${source.toDataURL("image/png")}"/>`);
   }
 
   clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
@@ -85,7 +85,8 @@ export class SvgPen implements Pen {
     return (
       `<svg xmlns="http://www.w3.org/2000/svg" width="${short(width)}pt" height="${short(height)}pt"` +
       ` viewBox="0 0 ${short(width)} ${short(height)}" font-family='${escape(this.family)}' role="img">` +
-      `<title>${escape(title)}</title><rect width="100%" height="100%" fill="${escape(paper)}"/>${this.parts.join("\n")}</svg>\n`
+      `<title>${escape(title)}</title><rect width="100%" height="100%" fill="${escape(paper)}"/>` +
+      `${this.parts.join("\n")}</svg>\n`
     );
   }
 }

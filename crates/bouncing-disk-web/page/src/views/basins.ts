@@ -20,6 +20,7 @@ import { computeCells, findAttractors, gridsOf } from "./basins/computation";
 import { describe, labelsOf, Legend } from "./basins/legend";
 import { tellFailure } from "./failures";
 import { axialForcing } from "./forcing";
+import { RoundingCaution } from "./rounding";
 
 const SPEEDS: Range = [0, 1000];
 const PHASES: Range = [-1, 2];
@@ -33,7 +34,11 @@ class BasinsView implements View {
     "All starts by phase and speed of their first impact, coloured by the attractor that they end on.";
   private context!: Context;
   private picture!: WindowPicture;
-  private readonly legend = new Legend();
+  private readonly rounding = new RoundingCaution(
+    "basins-rest",
+    "the cycle in which this disk comes to rest again and again was chosen by rounding.",
+  );
+  private readonly legend = new Legend(this.rounding.root);
   private readonly alternative = element("p", { class: "alternative" });
   private found: AttractorsJson | null = null;
   private layers: Cells[] = [];
@@ -60,7 +65,7 @@ class BasinsView implements View {
       context,
     );
     const hint =
-      "× one impact of a periodic attractor, + the shared start. A click runs the orbit of that start in the first view.";
+      "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
     host.append(
       element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
       element(
@@ -72,7 +77,8 @@ class BasinsView implements View {
     );
   }
 
-  show(): void {
+  show(state: State): void {
+    void this.rounding.show(this.context, state);
     this.picture.redraw();
     this.compute();
   }

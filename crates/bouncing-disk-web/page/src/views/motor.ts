@@ -8,6 +8,7 @@ import { ScreenChart } from "../drawing/chart_screen";
 import type { Chart } from "../drawing/chart";
 import { debounced, element, oncePerFrame, setText } from "../drawing/elements";
 import { withError } from "../drawing/numbers";
+import { clamp } from "../drawing/scale";
 import type { MotorSheet, Range, ReportJson, StallJson } from "../protocol";
 import { tellFailure } from "./failures";
 import { loadCharts, transientChart } from "./motor/charts";
@@ -21,6 +22,9 @@ import { describeCurves } from "./motor/words";
 
 const SLOTS = ["motor-report", "motor-transient", "motor-loads", "motor-stall"] as const;
 
+/** Two charts above each other fill a window of any height, as far as they can still be read. */
+const chartHeight = (): number => clamp(window.innerHeight / 2 - 150, 230, 560);
+
 class MotorView implements View {
   readonly name = "motor";
   readonly title = "Motor";
@@ -28,8 +32,8 @@ class MotorView implements View {
   private context!: Context;
   private sheetPanel!: SheetPanel;
   private readonly reportPanel = new ReportPanel();
-  private readonly runUpChart = new ScreenChart(() => 260);
-  private readonly curveCharts = [0, 1, 2].map(() => new ScreenChart(() => 250));
+  private readonly runUpChart = new ScreenChart(chartHeight);
+  private readonly curveCharts = [0, 1, 2].map(() => new ScreenChart(chartHeight));
   private readonly remark = element("p", { class: "remark" });
   private sheet: MotorSheet | null = null;
   private text = "";
@@ -55,7 +59,7 @@ class MotorView implements View {
       element(
         "div",
         { class: "motor" },
-        element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
+        this.reportPanel.trap,
         element(
           "section",
           { "aria-label": "Run-up and speed" },
@@ -67,6 +71,7 @@ class MotorView implements View {
           ...[power, efficiency].map((chart) => chart?.root ?? ""),
           this.remark,
         ),
+        element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
       ),
     );
     setText(
@@ -136,6 +141,12 @@ class MotorView implements View {
     this.operations = [];
     this.stall = null;
     this.reportPanel.report(report);
+    if (!this.turns) {
+      this.complete = true;
+      this.draw();
+      context.status("Without friction nothing turns the rotor: there is no run-up, and no curve.");
+      return;
+    }
     context.status("Computing the run-up", "busy");
     const transient = await transientOf(context, sheet, state.motor.rise_times);
     if (!present()) return;
@@ -211,8 +222,14 @@ class MotorView implements View {
     return names.every((name) => imported.system[name] === state.system[name]) ? imported.sheet : null;
   }
 
+  /** Whether there is a torque at all. */
+  private get turns(): boolean {
+    return this.report === null || this.report.largest_torque > 0;
+  }
+
   private paint(): void {
     const { colour } = this.context;
+    for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = !this.turns;
     if (this.transient !== null) {
       const { steady_speed, steady_speed_error } = this.transient.json;
       const steady =

@@ -6,10 +6,14 @@ import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
 import { element, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
 import { Layers } from "../drawing/layers";
-import { plain, quantity } from "../drawing/numbers";
+import { plain } from "../drawing/numbers";
 import type { MotionStart } from "../protocol";
 import { tellFailure } from "./failures";
+import { RoundingCaution } from "./rounding";
 import { Controls } from "./toss/controls";
+import { describeMoment } from "./toss/description";
+import { attachKeys } from "./toss/keys";
+import { tossLayout } from "./toss/layout";
 import { tossOffers } from "./toss/offers";
 import { Player } from "./toss/player";
 import { Portrait } from "./toss/portrait";
@@ -18,7 +22,8 @@ import { Recording } from "./toss/recording";
 import type { Moment } from "./toss/recording";
 import { describeGains, paintScale, paintScene, stageOf } from "./toss/scene";
 import type { Stage } from "./toss/scene";
-import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
+import { ThrowForm } from "./toss/throw_form";
+import { attachThrowing, describeThrow } from "./toss/throwing";
 import type { Throw } from "./toss/throwing";
 import { traces } from "./toss/traces";
 
@@ -39,7 +44,11 @@ class TossView implements View {
   );
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
-  private readonly alternative = element("p", { class: "alternative" });
+  private readonly rounding = new RoundingCaution(
+    "toss-rest",
+    "once this disk has come to rest, rounding decides after how many impacts it rests again.",
+  );
+  private readonly alternative = element("p", { class: "alternative", "aria-live": "polite" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
   private readonly spins = new ScreenChart(() => this.chartHeight());
   private portrait!: Portrait;
@@ -67,7 +76,12 @@ class TossView implements View {
       () => this.period(),
       () => this.describe(),
     );
-    this.scene.surface.addEventListener("keydown", (event) => this.key(event));
+    attachKeys(
+      this.scene.surface,
+      this.player,
+      () => this.controls.toggle(),
+      () => this.describe(),
+    );
     attachThrowing(this.scene.surface, {
       stage: () => this.stage,
       pose: () => this.moment(),
@@ -81,31 +95,25 @@ class TossView implements View {
       },
       start: (thrown) => this.throwDisk(thrown),
     });
-    const form = throwForm(
+    const form = new ThrowForm(
       () => context.state().system,
       () => this.phase(),
       (thrown) => this.throwDisk(thrown),
     );
     host.append(
       this.controls.root,
-      element(
-        "div",
-        { class: "toss" },
-        element("div", { class: "toss-left" },
-          element("div", {}, this.scene.root, this.gains, this.alternative),
-          element("section", { "aria-label": "Time traces" }, this.heights.root, this.spins.root)),
-        element("div", { class: "toss-right" },
-          element("section", { class: "panel", "aria-label": "Readings" },
-            ...this.readings.elements, form),
-          element("section", { "aria-label": "Phase portrait" }, element("h3", {}, "Impacts"), this.portrait.layers.root,
-            element("p", { class: "remark" },
-              "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there."))),
-      ),
-    ); // prettier-ignore
+      tossLayout({
+        scene: [this.scene.root, this.gains, this.rounding.root, this.alternative],
+        traces: [this.heights.root, this.spins.root],
+        readings: [...this.readings.elements, form.root],
+        portrait: this.portrait.layers.root,
+      }),
+    );
     this.mounted = true;
   }
 
   show(state: State): void {
+    void this.rounding.show(this.context, state);
     const start = JSON.stringify(state.start);
     // Another start in the state takes the place of a throw.
     if (start !== this.startShown) this.thrown = null;
@@ -271,20 +279,8 @@ class TossView implements View {
   private choose(phasePeriods: number, speed: number): void {
     const start = { impact_phase: phasePeriods * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) };
     this.context.change({ start });
-    this.context.status(
-      `The motion starts with an impact at ${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}.`,
-    );
-  }
-
-  private key(event: KeyboardEvent): void {
-    const step = event.shiftKey ? 1 : 1 / 16;
-    if (event.key === " ") this.controls.toggle();
-    else if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
-      this.player.pause();
-      this.player.seek(this.player.now + (event.key === "ArrowLeft" ? -step : step));
-    } else if (event.key === "Home") this.player.seek(0);
-    else return;
-    event.preventDefault();
+    const at = `${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}`;
+    this.context.status(`The motion starts with an impact at ${at}.`);
   }
 
   /** Not while it moves: a screen reader would never come to an end. */
@@ -293,10 +289,7 @@ class TossView implements View {
     const { recording, player } = this;
     if (moment === null || recording === null) return;
     const impacts = recording.impactsUntil(player.now * recording.period);
-    const gap = quantity(Math.max(moment.height - moment.platform_height, 0), "m");
-    const text =
-      `After ${player.now.toFixed(2)} periods and ${impacts} impacts the disk is in ${moment.mode}, ${gap} above the ` +
-      `platform, and turns at ${plain(moment.angular_speed, 3)} rad/s; the platform at ${plain(moment.platform_angular_speed, 3)} rad/s.`;
+    const text = describeMoment(moment, player.now, impacts);
     setText(this.alternative, player.playing ? "" : text);
   }
 }

@@ -10,15 +10,20 @@ type Attractor = AttractorsJson["attractors"][number];
 export class Legend {
   readonly root = element("section", { class: "panel", "aria-label": "Attractors" });
   private readonly list = element("ol", { class: "attractors" });
-  private readonly pointed = element("p", { class: "pointed" }, "Point at a start to read where it ends.");
+  private readonly pointed = element(
+    "p",
+    { class: "pointed", "aria-live": "polite" },
+    "Point at a start to read where it ends.",
+  );
 
-  constructor() {
+  /** `caution` stands below the list. */
+  constructor(caution: HTMLElement) {
     const note = element(
       "p",
       { class: "remark" },
-      "Shares with their 95 % intervals are of the library's own sample of starts; those of the window are of its cells.",
+      "Shares with 95 % intervals are of the library's own sample of starts; those of the window are of its cells.",
     );
-    this.root.append(element("h3", {}, "Attractors"), this.pointed, this.list, note);
+    this.root.append(element("h3", {}, "Attractors"), this.pointed, this.list, caution, note);
   }
 
   show(found: AttractorsJson, shares: ReadonlyMap<number, number>): void {

@@ -122,7 +122,8 @@ export function loadCharts(
       yLabel: kind.label(prefix.symbol),
       x,
       xRange: span,
-      yRange: padded(range, 0.08),
+      // Without any value but zero there is no scale to take from the numbers.
+      yRange: greatest > 0 ? padded(range, 0.08) : [0, 1],
       curves: kind.curves.map(({ name, ...curve }) => ({
         ...curve,
         y: shown.map((row) => row[name] * prefix.factor),

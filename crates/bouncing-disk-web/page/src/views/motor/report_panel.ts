@@ -12,7 +12,8 @@ const NAMES = [
 export class ReportPanel {
   readonly root = element("section", { class: "panel", "aria-label": "Report" });
   private readonly facts = new Facts(NAMES, "The motor in numbers");
-  private readonly trap = element("p", { class: "caution", hidden: true });
+  /** Stands above the curves, which a trap makes those of another motion than one would expect. */
+  readonly trap = element("p", { class: "caution trap", hidden: true });
   private readonly warnings = element("ul", { class: "warnings" });
   private readonly warned = element("summary", { class: "warned" });
   private readonly warningsBox = element("details", { hidden: true }, this.warned, this.warnings);
@@ -20,7 +21,7 @@ export class ReportPanel {
 
   constructor() {
     const full = element("details", {}, element("summary", {}, "Full report"), this.text);
-    this.root.append(element("h3", {}, "Report"), this.facts.root, this.trap, this.warningsBox, full);
+    this.root.append(element("h3", {}, "Report"), this.facts.root, this.warningsBox, full);
   }
 
   report(report: ReportJson): void {

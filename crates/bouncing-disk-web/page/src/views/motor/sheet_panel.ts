@@ -48,7 +48,8 @@ export class SheetPanel {
       element(
         "p",
         { class: "remark" },
-        "The sheet of the shared system and mass, as the command line and Python read it. Paste another one, or edit it.",
+        "The sheet of the shared system and mass, as the command line and Python read it. " +
+          "Paste another one, or edit it.",
       ),
     );
   }

@@ -1,6 +1,5 @@
-/** Throwing the disk by dragging it, or by typed numbers. */
+/** Throwing the disk by dragging it. */
 
-import { button, element } from "../../drawing/elements";
 import { quantity, plain } from "../../drawing/numbers";
 import { clamp } from "../../drawing/scale";
 import type { MotionStart, SystemParameters } from "../../protocol";
@@ -50,6 +49,11 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     surface.setPointerCapture(event.pointerId);
     event.preventDefault();
   });
+  // A finger on the disk drags it; beside it, the same movement scrolls the page.
+  const keep = (event: TouchEvent) => {
+    if (held !== null) event.preventDefault();
+  };
+  surface.addEventListener("touchstart", keep, { passive: false });
   surface.addEventListener("pointermove", (event) => {
     const stage = host.stage();
     if (held === null || stage === null) return;
@@ -105,40 +109,7 @@ export function bounded(system: Readonly<SystemParameters>, thrown: Throw): Thro
 export function describeThrow({ gap, relative_velocity, angular_speed }: Throw): string {
   const way = relative_velocity < 0 ? "downwards" : "upwards";
   return (
-    `Thrown ${quantity(gap, "m")} above the platform, ${quantity(Math.abs(relative_velocity), "m/s")} ${way} relative to it, ` +
-    `turning at ${plain(angular_speed, 3)} rad/s.`
-  );
-}
-
-/** Three numbers and a button: the same throw without a pointer. */
-export function throwForm(
-  system: () => Readonly<SystemParameters>,
-  phase: () => number,
-  start: (thrown: Throw) => void,
-): HTMLElement {
-  const field = (label: string, value: string) => {
-    const input = element("input", { type: "number", step: "any", value, inputmode: "decimal" });
-    return { input, row: element("label", {}, label, input) };
-  };
-  const gap = field("Height above the platform (mm)", "100");
-  const velocity = field("Relative velocity upwards (mm/s)", "500");
-  const spin = field("Angular speed (rad/s)", "5");
-  const read = ({ input }: { input: HTMLInputElement }) =>
-    Number.isFinite(input.valueAsNumber) ? input.valueAsNumber : 0;
-  const throwIt = () =>
-    start(
-      bounded(system(), {
-        kind: "flight",
-        phase: phase(),
-        gap: read(gap) / 1000,
-        relative_velocity: read(velocity) / 1000,
-        angular_speed: read(spin),
-      }),
-    );
-  return element(
-    "details",
-    { class: "throw" },
-    element("summary", {}, "Throw by numbers"),
-    element("div", { class: "fields" }, gap.row, velocity.row, spin.row, button("Throw", throwIt)),
+    `Thrown ${quantity(gap, "m")} above the platform, ${quantity(Math.abs(relative_velocity), "m/s")} ${way} ` +
+    `relative to it, turning at ${plain(angular_speed, 3)} rad/s.`
   );
 }

@@ -1,0 +1,190 @@
+/** What eyes and fingers need: contrast in both schemes, targets that can be hit, and the picture before the form. */
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { launch, opened, settled } from "./browser.mjs";
+
+const VIEWS = ["toss", "diagram", "basins", "motor"];
+/** What the Web Content Accessibility Guidelines ask of text, and of lines and marks that carry meaning. */
+const TEXT = 4.5;
+const GRAPHIC = 3;
+const TARGET = 40;
+
+/** Opens a view by its tab and waits for its picture; the charts of a motor are there when its run-up is. */
+async function visit(page, view, act = "click") {
+  await page[act](`#tab-${view}`);
+  await page.locator(`#view-${view} canvas`).first().waitFor();
+  await settled(page);
+}
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser.close());
+
+async function within(options, act) {
+  const { page, context, errors } = await opened(browser, options);
+  try {
+    await act(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await context.close();
+  }
+}
+
+function luminance(colour) {
+  const parts = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
+  const [red, green, blue] = parts.map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
+function contrast(one, other) {
+  const [low, high] = [luminance(one), luminance(other)].sort((first, second) => first - second);
+  return (high + 0.05) / (low + 0.05);
+}
+
+/** Every custom property with a colour that the sources name. */
+const NAMES = [
+  ...new Set(
+    ["../src/styles/theme.css", "../src/drawing/colours.css"].flatMap((path) =>
+      [...readFileSync(new URL(path, import.meta.url), "utf8").matchAll(/(--[\w-]+): #/g)].map(([, name]) => name),
+    ),
+  ),
+];
+
+const PAPER = ["--picture-paper"];
+const GROUNDS = ["--background", "--panel", "--soft", "--error-soft", "--note"];
+/** Which colours stand on which, and how much they have to differ from them. */
+const PAIRS = [
+  ...["--ink", "--muted", "--accent", "--error"].map((name) => [name, GROUNDS, TEXT]),
+  ["--on-accent", ["--accent"], TEXT],
+  ["--edge", ["--background", "--panel"], GRAPHIC],
+  ...["--picture-text", "--picture-muted", "--warning", "--stall"].map((name) => [name, PAPER, TEXT]),
+  ["--picture-text", ["--runaway"], TEXT],
+  ["--warning", ["--panel"], TEXT],
+  ...[
+    "--picture-frame", "--picture-cursor", "--picture-selection", "--disk", "--disk-side", "--platform-mark",
+    "--platform-line", "--impact", "--impact-now", "--branch-stable", "--branch-unstable", "--bifurcation",
+    "--density-0", "--density-1", "--density-2", "--density-3", "--density-4", "--curve-speed", "--curve-power",
+    "--curve-input", "--curve-efficiency",
+  ].map((name) => [name, PAPER, GRAPHIC]),
+  ["--disk-mark", ["--disk"], GRAPHIC],
+  ["--undecided-line", ["--undecided"], GRAPHIC],
+  ["--attractor-mark", ["--attractor-halo"], GRAPHIC],
+]; // prettier-ignore
+
+for (const scheme of ["light", "dark"])
+  test(`text and what pictures show stand out from their grounds: ${scheme}`, () =>
+    within({ scheme }, async (page) => {
+      const colours = await page.evaluate((names) => {
+        const style = getComputedStyle(document.documentElement);
+        return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(name).trim()]));
+      }, NAMES);
+      const weak = [];
+      for (const [name, grounds, least] of PAIRS)
+        for (const ground of grounds) {
+          const found = contrast(colours[name], colours[ground]);
+          if (!(found >= least)) weak.push(`${name} on ${ground}: ${found.toFixed(2)}, not ${least}`);
+        }
+      assert.deepEqual(weak, []);
+    }));
+
+test("the categories of basins differ from each other in lightness or hue for every kind of colour vision", () =>
+  within({}, async (page) => {
+    // Viénot's projections in linear light: without long, without middle waves.
+    const blind = {
+      protanope: [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
+      deuteranope: [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
+      all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    }; // prettier-ignore
+    const linear = (colour) =>
+      [1, 3, 5]
+        .map((at) => parseInt(colour.slice(at, at + 2), 16) / 255)
+        .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+    for (const scheme of ["light", "dark"]) {
+      const colours = await page.evaluate((wanted) => {
+        document.documentElement.dataset.scheme = wanted;
+        const style = getComputedStyle(document.documentElement);
+        return Array.from({ length: 8 }, (_, index) => style.getPropertyValue(`--category-${index}`).trim());
+      }, scheme);
+      for (const [kind, matrix] of Object.entries(blind)) {
+        const seen = colours.map((colour) => {
+          const light = linear(colour);
+          return matrix.map((row) => Math.cbrt(Math.max(0, row.reduce((sum, one, at) => sum + one * light[at], 0))));
+        });
+        for (let one = 0; one < 8; one++)
+          for (let other = 0; other < one; other++) {
+            const apart = Math.hypot(...seen[one].map((part, at) => part - seen[other][at]));
+            assert.ok(apart > 0.1, `${scheme}, ${kind}: categories ${other} and ${one} are ${apart.toFixed(3)} apart`);
+          }
+      }
+    }
+  }));
+
+test("what is tapped has 40 pixels at least", () =>
+  within({ width: 360, height: 740, touch: true }, async (page) => {
+    assert.ok(await page.evaluate(() => matchMedia("(pointer: coarse)").matches), "the page believes in fingers");
+    const small = () =>
+      page.evaluate((least) => {
+        const wanted = "button, select, summary, input:not([type=checkbox], [type=file]), label:has([type=checkbox])";
+        return [...document.querySelectorAll(wanted)]
+          .filter((one) => one.checkVisibility() && !one.disabled)
+          .map((one) => [one.getBoundingClientRect(), one])
+          .filter(([box]) => box.width < least - 0.5 || box.height < least - 0.5)
+          .map(([box, one]) => `${one.id || one.outerHTML.slice(0, 60)}: ${box.width} x ${box.height}`);
+      }, TARGET);
+    for (const group of await page.locator("aside details").all())
+      await group.evaluate((one) => {
+        one.open = true;
+      });
+    for (const view of VIEWS) {
+      await visit(page, view, "tap");
+      assert.deepEqual(await small(), [], view);
+    }
+    await page.tap("#presets-button");
+    assert.deepEqual(await small(), [], "figures");
+    await page.locator("dialog.presets .card").first().tap();
+    await settled(page);
+    assert.deepEqual(await small(), [], "note");
+    await page.tap("#tour-button");
+    assert.deepEqual(await small(), [], "tour");
+  }));
+
+test("on a telephone the picture comes first and the form is folded below it", () =>
+  within({ width: 360, height: 740, touch: true }, async (page) => {
+    for (const view of VIEWS) {
+      await visit(page, view, "tap");
+      const seen = await page.evaluate((name) => {
+        const boxOf = (element) => element.getBoundingClientRect();
+        const picture = boxOf(document.querySelector(`#view-${name} canvas`));
+        return {
+          top: picture.top + scrollY,
+          right: picture.right,
+          form: boxOf(document.getElementById("parameters")).top + scrollY,
+          open: document.querySelectorAll("aside details[open]").length,
+          tabs: [...document.querySelectorAll('[role="tab"]')].map((tab) => boxOf(tab)).map(({ right }) => right),
+        };
+      }, view);
+      assert.ok(seen.top < 250, `${view} begins at ${seen.top}`);
+      assert.ok(seen.right <= 360 && Math.max(...seen.tabs) <= 360, JSON.stringify(seen));
+      assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
+      assert.equal(seen.open, 0);
+    }
+  }));
+
+test("on a large screen the pictures take the height of the window", () =>
+  within({ width: 2560, height: 1440 }, async (page) => {
+    for (const view of VIEWS) {
+      await visit(page, view);
+      const bottom = await page.evaluate(
+        (name) =>
+          Math.max(
+            ...[...document.querySelectorAll(`#view-${name} canvas`)].map((one) => one.getBoundingClientRect().bottom),
+          ),
+        view,
+      );
+      assert.ok(bottom > 0.8 * 1440 && bottom <= 1440, `${view} ends at ${bottom}`);
+    }
+  }));

@@ -1,0 +1,149 @@
+/** Every field at and beyond its limits: refused where it is typed, or taken; the page goes on in both cases. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { launch, opened, settled, type } from "./browser.mjs";
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser.close());
+
+async function within(hash, act) {
+  const { page, context, errors } = await opened(browser, { hash });
+  try {
+    await settled(page);
+    await act(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await context.close();
+  }
+}
+
+const NO_NUMBER = /is not a number; write it like 0\.5/;
+const TAKEN = null;
+/** What each field does with what is typed. A lag and a phase are angles, of which there are all. */
+const POSITIVE = { "0": /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
+const ATLEAST0 = { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
+const ANY = { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
+const FIELDS = {
+  axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": /\[0, inf\)/, "3e7": TAKEN, "4e7": /\[0, 1e8\]/ },
+  amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
+  twist_amplitude: { ...ATLEAST0, "1e90": TAKEN, "1e300": /1e100\]/ },
+  angular_frequency: { ...POSITIVE, "1e-310": /legal range/, "1e-3": TAKEN, "1e5": TAKEN, "1e6": /\[0, 1e8\]/ },
+  phase_lag: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
+  restitution: {
+    "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "0.9999999999999999": TAKEN, "1": /\[0, 1\)/, "-1e-310": /\[0, 1\)/,
+  },
+  friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /\[0, 1e100\]/ },
+  contact_radius: { ...POSITIVE, "1e-310": /1e100\]/, "1e-12": TAKEN, "1e8": TAKEN },
+  gyration_radius: { ...POSITIVE, "1e-310": /legal range/, "1e-6": TAKEN, "1e8": TAKEN, "1e300": /1e100\]/ },
+  preload_acceleration: { ...POSITIVE, "1e-310": /\[0, 1e8\]/, "1e-6": TAKEN, "1e8": TAKEN, "1e300": /legal range/ },
+  load_acceleration: { ...ANY, "1e8": TAKEN, "1e300": /1e100\]/, "-1e300": /1e100\]/ },
+  mass: { ...POSITIVE, "1e-310": /legal range/, "1e-300": TAKEN, "1e300": TAKEN },
+  impact_phase: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
+  normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the largest duration/ },
+  angular_speed: { ...ANY, "1e8": TAKEN, "1e300": /1e100/, "-1e300": /1e100/ },
+}; // prettier-ignore
+for (const expected of Object.values(FIELDS))
+  for (const text of ["", "NaN", "inf", "1e400", "1,5", "1 5", "0x1p3"]) expected[text] = NO_NUMBER;
+
+test("the list of fields is that of the page", () =>
+  within("#view=toss", async (page) => {
+    const names = await page.evaluate(() => [...document.querySelectorAll(".field")].map((one) => one.dataset.name));
+    assert.deepEqual(names, Object.keys(FIELDS));
+  }));
+
+/** The number of the state, which a field has in its title with all digits. */
+const valueOf = (page, name) => page.getAttribute(`#field-${name}`, "title");
+
+/** What has become of what was typed: the sentence of its refusal, or null once the state has this number. */
+async function outcome(page, name, text) {
+  const answer = await page.waitForFunction(
+    ([field, wanted]) => {
+      const error = document.getElementById(`error-${field}`);
+      if (!error.hidden) return { refused: error.textContent };
+      const value = Number(document.getElementById(`field-${field}`).title);
+      // The forcing is computed back from the amplitude that it sets.
+      return Math.abs(value - wanted) <= Math.max(1e-12 * Math.abs(wanted), 1e-300) && { refused: null };
+    },
+    [name, Number(text)],
+    { timeout: 5000 },
+  );
+  return (await answer.jsonValue()).refused;
+}
+
+for (const [name, expected] of Object.entries(FIELDS))
+  test(`${name}: every limit is kept, and the field goes on after each`, () =>
+    within("#view=toss", async (page) => {
+      const first = await valueOf(page, name);
+      for (const [text, wanted] of Object.entries(expected)) {
+        const before = await valueOf(page, name);
+        await type(page, name, text);
+        const refused = await outcome(page, name, text);
+        if (wanted === TAKEN) assert.equal(refused, null, `${name} = ${text}`);
+        else {
+          assert.match(String(refused), wanted, `${name} = ${text}`);
+          assert.equal(await page.getAttribute(`#field-${name}`, "aria-invalid"), "true");
+          assert.equal(await valueOf(page, name), before, "what is refused changes nothing");
+        }
+        await page.focus(`#field-${name}`);
+        await page.keyboard.press("Escape");
+        await type(page, name, first);
+        assert.equal(await outcome(page, name, first), null, `${name} after ${text}`);
+        await settled(page);
+      }
+    }));
+
+for (const view of ["diagram", "basins", "motor"])
+  test(`extreme numbers that are taken leave the view ${view} answering`, () =>
+    within(`#view=${view}`, async (page) => {
+      const extremes = { amplitude: "1e-310", restitution: "0", friction: "0", twist_amplitude: "0", mass: "1e300" };
+      for (const [name, text] of Object.entries(extremes)) {
+        const first = await valueOf(page, name);
+        await type(page, name, text);
+        assert.equal(await outcome(page, name, text), null, `${name} = ${text}`);
+        await settled(page);
+        await type(page, name, first);
+        assert.equal(await outcome(page, name, first), null);
+        await page.waitForFunction(() => document.getElementById("status").dataset.kind !== "error");
+        await settled(page);
+        assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
+      }
+    }));
+
+test("a motor without friction is said not to turn, and keeps no curves of another", () =>
+  within("#view=motor", async (page) => {
+    const charts = page.locator("#view-motor .chart");
+    await charts.first().waitFor();
+    await type(page, "friction", "0");
+    await page.waitForFunction(() => /^Without friction/.test(document.getElementById("status").textContent));
+    await charts.first().waitFor({ state: "hidden" });
+    await type(page, "friction", "0.6");
+    await charts.first().waitFor();
+  }));
+
+test("a throw by numbers is refused with its range, too", () =>
+  within("#view=toss", async (page) => {
+    await page.click(".throw summary");
+    const problem = page.locator(".throw .error");
+    const field = (index) => page.locator(".throw input").nth(index);
+    for (const [index, good, bad] of [
+      [0, "100", ["", "1,5", "NaN", "1e400", "-1", "1e9"]],
+      [1, "500", ["", "x", "-1e9", "1e9"]],
+      [2, "5", ["", "1e7", "-1e400"]],
+    ]) {
+      for (const text of bad) {
+        await field(index).fill(text);
+        await page.click(".throw button");
+        assert.match(await problem.textContent(), /is refused, it has to be from .* to .*\d/, text);
+        assert.equal(await field(index).getAttribute("aria-invalid"), "true");
+      }
+      await field(index).fill(good);
+    }
+    assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
+    await page.click(".throw button");
+    await page.waitForFunction(() => /^Thrown 100 mm above/.test(document.getElementById("status").textContent));
+    assert.equal(await problem.isVisible(), false);
+  }));
