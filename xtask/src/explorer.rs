@@ -29,6 +29,10 @@ pub(crate) struct Options {
     /// Serve the page on this machine alone when it is built, open it, and go on until interrupted.
     #[arg(long)]
     serve: bool,
+    /// Build no page, but its module with what computes the digests of results, and compare these in Node with those of
+    /// x86-64.
+    #[arg(long, conflicts_with = "serve")]
+    digests: bool,
     /// The port of --serve; 0 takes any that is free.
     #[arg(long, value_name = "PORT", default_value_t = 8080, requires = "serve")]
     port: u16,
@@ -47,16 +51,12 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     tools::complain_of_missing(options.rustc.as_deref(), options.build_std)?;
     let out =
         if options.out.is_absolute() { options.out.clone() } else { in_workspace("").join(&options.out) };
-    let module = compiled(options)?;
-    let work = out.join("module");
-    std::fs::create_dir_all(&work).with_context(|| format!("{} cannot be made", work.display()))?;
-    let wasm_bindgen = tools::wasm_bindgen(&in_workspace("target/explorer-tools"))?;
-    succeed(
-        Command::new(wasm_bindgen)
-            .args(["--target", "no-modules", "--no-typescript", "--out-name", LIBRARY, "--out-dir"])
-            .arg(&work)
-            .arg(module),
-    )?;
+    if options.digests {
+        digests_compared(options, &out.join("digests"))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let module = out.join("module");
+    bound(&compiled(options, &[])?, &module)?;
     let page = in_workspace(PAGE);
     // What is installed is what the lock file says, and nothing of it runs: packages bring their programs ready to use.
     succeed(tools::npm().current_dir(&page).args(["ci", "--no-audit", "--no-fund", "--loglevel=error"]))?;
@@ -64,9 +64,9 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
         Command::new("node")
             .current_dir(&page)
             .args(["build.mjs", "--check", "--wasm"])
-            .arg(work.join(format!("{LIBRARY}_bg.wasm")))
+            .arg(module.join(format!("{LIBRARY}_bg.wasm")))
             .arg("--glue")
-            .arg(work.join(format!("{LIBRARY}.js")))
+            .arg(module.join(format!("{LIBRARY}.js")))
             .arg("--out")
             .arg(&out),
     )?;
@@ -77,11 +77,31 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Fails where WebAssembly gives other bits than the machine that the digests were stored on.
+fn digests_compared(options: &Options, folder: &Path) -> Result<()> {
+    bound(&compiled(options, &["digests"])?, folder)?;
+    let test = in_workspace(PAGE).join("tests").join("digests.test.mjs");
+    succeed(Command::new("node").arg("--test").arg(test).env("EXPLORER_MODULE", folder))
+}
+
+/// Writes the module and what binds it to JavaScript into a folder.
+fn bound(module: &Path, folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    let wasm_bindgen = tools::wasm_bindgen(&in_workspace("target/explorer-tools"))?;
+    succeed(
+        Command::new(wasm_bindgen)
+            .args(["--target", "no-modules", "--no-typescript", "--out-name", LIBRARY, "--out-dir"])
+            .arg(folder)
+            .arg(module),
+    )
+}
+
 /// The module as the compiler leaves it.
-fn compiled(options: &Options) -> Result<PathBuf> {
+fn compiled(options: &Options, features: &[&str]) -> Result<PathBuf> {
     let folder = in_workspace("target");
     let mut build = cargo();
     build.args(["build", "--profile", "web", "--package", PACKAGE, "--lib", "--target", TARGET, "--locked"]);
+    build.arg("--features").arg(features.join(","));
     build.arg("--target-dir").arg(&folder);
     if let Some(rustc) = &options.rustc {
         build.env("RUSTC", rustc);
