@@ -24,8 +24,15 @@ function stream(seed) {
   };
 }
 
-/** The picture, as its pixels; a view without animation shows the same ones for the same state. */
-const picture = (page, view) => page.locator(`#view-${view}`).screenshot();
+/**
+ * The pixels of a view's pictures, and what is said of them; a view without animation has the same ones for the same
+ * state. Not of buttons: their round corners are not always blended alike.
+ */
+const picture = (page, view) =>
+  page.locator(`#view-${view}`).evaluate((host) => ({
+    pixels: [...host.querySelectorAll("canvas")].map((canvas) => canvas.toDataURL()),
+    words: host.querySelector(".alternative").textContent,
+  }));
 
 /** The long tasks of one round through all views, with the view in which each happened. */
 async function longTasks() {
@@ -61,6 +68,20 @@ test("no task of the main thread takes longer than 50 ms while work goes on", { 
     rounds.push(tasks);
   }
   assert.fail(JSON.stringify(rounds));
+});
+
+test("the range that nobody chose is that of the present orbits, whatever was seen before", async () => {
+  const hash = "#view=diagram&diagram_quantity=normalised_speed&restitution=0.5";
+  const { page, context } = await opened(browser, { hash });
+  await settled(page);
+  const first = await picture(page, "diagram");
+  for (const restitution of ["0.9", "0.5"]) {
+    await type(page, "restitution", restitution);
+    await settled(page);
+  }
+  await page.evaluate(() => document.activeElement.blur());
+  assert.deepEqual(await picture(page, "diagram"), first);
+  await context.close();
 });
 
 test(
@@ -122,7 +143,13 @@ test(
     await fresh.page.waitForTimeout(300);
     await fresh.page.mouse.move(5, 795);
     assert.deepEqual(await stateOf(fresh.page), state);
-    assert.ok(last.equals(await picture(fresh.page, "diagram")), "the pictures differ");
+    const again = await picture(fresh.page, "diagram");
+    assert.equal(again.words, last.words);
+    assert.ok(last.pixels.length > 0);
+    assert.ok(
+      last.pixels.every((pixels, index) => pixels === again.pixels[index]),
+      "the pictures differ",
+    );
     await fresh.context.close();
   },
 );

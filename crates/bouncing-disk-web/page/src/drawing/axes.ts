@@ -12,6 +12,8 @@ export interface Axis {
   readonly scale: Scale;
   /** From the values of the scale to the numbers beside the ticks. */
   readonly factor?: number;
+  /** The numbers beside a vertical axis have at least the place of this one. */
+  readonly widest?: string;
 }
 
 export interface Plot {
@@ -32,7 +34,8 @@ export function layOut(pen: Pen, width: number, height: number, x: Axis, y: Axis
   const bottom = Math.round(size * 3.4);
   const plotHeight = Math.max(height - top - bottom, 20);
   const yTicks = ticks(y.scale, Math.max(Math.floor(plotHeight / (size * 3.2)), 2), y.factor);
-  const numbers = Math.max(...yTicks.major.map((tick) => pen.measure(tick.label, size)), size);
+  const labels = [y.widest ?? "", ...yTicks.major.map((tick) => tick.label)];
+  const numbers = Math.max(...labels.map((label) => pen.measure(label, size)), size);
   const left = Math.ceil(numbers + size * 2.5);
   const right = Math.ceil(size * 1.1);
   const plotWidth = Math.max(width - left - right, 20);

@@ -10,18 +10,16 @@ import { confined } from "../drawing/gestures";
 import type { Window2 } from "../drawing/gestures";
 import { plain } from "../drawing/numbers";
 import type { Pen } from "../drawing/pen";
-import { clamp, extent, linearScale, padded } from "../drawing/scale";
+import { clamp, linearScale } from "../drawing/scale";
 import { WindowPicture } from "../drawing/window_picture";
-import type { BranchesJson, Range } from "../protocol";
-import { DIAGRAM_COLUMNS } from "../protocol";
-import { describeBifurcations, paintBranches } from "./diagram/branches";
-import type { Branches } from "./diagram/branches";
+import type { Range } from "../protocol";
+import { BranchLines } from "./diagram/branch_lines";
 import { computeColumns, RECORDED, TRANSIENT } from "./diagram/computation";
-import type { Columns, Wanted } from "./diagram/computation";
+import type { Wanted } from "./diagram/computation";
 import { describeDiagram } from "./diagram/description";
+import { Dots } from "./diagram/dots";
 import { diagramOffers } from "./diagram/offers";
-import { OrbitPicture } from "./diagram/orbit_picture";
-import { columnOf, DESCRIBED, QUANTITIES } from "./diagram/quantity";
+import { DESCRIBED, QUANTITIES } from "./diagram/quantity";
 import { Verdict } from "./diagram/verdict";
 import { tellFailure } from "./failures";
 import { amplitudeOf, axialForcing } from "./forcing";
@@ -42,28 +40,26 @@ class DiagramView implements View {
   private readonly branchesBox = element("input", { type: "checkbox" });
   private readonly alternative = element("p", { class: "alternative" });
   private readonly note = element("p", { class: "remark", hidden: true });
-  private shown: OrbitPicture | null = null;
-  private previous: OrbitPicture | null = null;
-  private columns: Columns[] = [];
-  private automatic: Range = [0, 1];
-  private branches: Branches | null = null;
+  private branches!: BranchLines;
+  private readonly dots = new Dots();
   private asked = "";
   private done = "";
-  private count = 0;
-  private drawn = "";
-  private branchesAsked = "";
+  /** What was computed, when all is there. */
+  private sentence = "";
+  private told = false;
   private readonly compute = debounced(60, () => void this.fetch());
 
   mount(host: HTMLElement, context: Context): void {
     this.context = context;
     this.verdict = new Verdict(context);
+    this.branches = new BranchLines(context);
     this.picture = new WindowPicture(
       {
         className: "picture-wide",
         label: "Orbit diagram.",
         axes: () => this.axes(),
         paint: (pen, plot) => this.paint(pen, plot),
-        window: () => ({ x: this.state().diagram.axial_forcing, y: this.range() }),
+        window: () => ({ x: this.state().diagram.axial_forcing, y: this.dots.range(this.state().diagram) }),
         move: (window, settled) => this.move(window, settled),
         reset: () => context.change({ diagram: { axial_forcing: [0.3, 0.62], range: null } }),
         point: (at) => {
@@ -118,15 +114,15 @@ class DiagramView implements View {
     this.compute.stop();
     this.verdict.stop();
     this.context.client.cancel("diagram");
-    this.context.client.cancel("diagram-branches");
+    this.branches.cancel();
     // What did not come is asked for when the view is shown again.
     if (this.asked !== this.done) this.asked = "";
-    this.branchesAsked = this.branches === null ? "" : this.branchesAsked;
+    // The place for it is another view's now.
+    this.told = false;
   }
 
   redraw(): void {
-    this.shown?.recolour(this.context.colour);
-    this.previous?.recolour(this.context.colour);
+    this.dots.recolour(this.context.colour);
     this.picture.redraw();
     this.compute();
   }
@@ -134,7 +130,7 @@ class DiagramView implements View {
   offers(): Offer[] {
     return diagramOffers({
       state: this.state(),
-      columns: this.columns,
+      columns: this.dots.columns,
       plotAxes: this.axes(),
       paint: (pen, plot, colour) => this.paintPrinted(pen, plot, colour),
     });
@@ -144,16 +140,12 @@ class DiagramView implements View {
     return this.context.state();
   }
 
-  private range(): Range {
-    const { range, quantity } = this.state().diagram;
-    return range ?? (quantity === "impact_phase" ? [0, 1] : this.automatic);
-  }
-
   private axes(): { x: Axis; y: Axis } {
-    const { axial_forcing, quantity } = this.state().diagram;
+    const { diagram } = this.state();
+    const { label, widest } = DESCRIBED[diagram.quantity];
     return {
-      x: { label: "axial forcing parameter Γ = *Aω*²/(π*g*)", scale: linearScale(axial_forcing) },
-      y: { label: DESCRIBED[quantity].label, scale: linearScale(this.range()) },
+      x: { label: "axial forcing parameter Γ = *Aω*²/(π*g*)", scale: linearScale(diagram.axial_forcing) },
+      y: { label, scale: linearScale(this.dots.range(diagram)), widest },
     };
   }
 
@@ -162,7 +154,7 @@ class DiagramView implements View {
     const { widths, bounds } = DESCRIBED[quantity];
     const forcing = confined(window.x, [1e-9, 100], FORCING_BOUNDS);
     const range = confined(window.y, widths, bounds);
-    const before = this.range();
+    const before = this.dots.range(this.state().diagram);
     const same = range[0] === before[0] && range[1] === before[1];
     this.context.change(
       { diagram: { axial_forcing: forcing, range: same ? this.state().diagram.range : range } },
@@ -170,142 +162,73 @@ class DiagramView implements View {
     );
   }
 
-  /** Asks for the columns of the present window, unless they are there or on their way. */
+  /** Asks for the columns and branches of the present window, unless they are there or on their way. */
   private async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
     const { system, start, diagram } = this.state();
     const { impact_phase, normalised_speed } = start;
-    const rotation = diagram.quantity === "angular_speed";
     const wanted = {
       system: { ...system },
       start: { impact_phase, normalised_speed },
       axial_forcing: diagram.axial_forcing,
       count: clamp(laid.columns, 2, MOST_COLUMNS),
-      rotation,
+      rotation: diagram.quantity === "angular_speed",
     };
     const key = keyOf(wanted);
-    if (key === this.asked) {
-      this.arrange(laid.rows);
-      void this.fetchBranches();
-      return;
-    }
+    if (key !== this.asked) await this.fetchDots(key, wanted, laid.rows);
+    else if (this.dots.arrange(diagram, laid.rows, this.context.colour)) this.picture.redraw();
+    // Whoever asked for the columns goes on when they are there.
+    if (key !== this.done || key !== this.asked) return;
+    const lines = await this.branches.fetch(this.state());
+    if (lines === "missing") return;
+    if (lines === "came") this.picture.redraw();
+    this.describe();
+    if (lines === "came" || !this.told) this.context.status(this.sentence);
+    this.told = true;
+  }
+
+  private async fetchDots(key: string, wanted: Wanted, rows: number): Promise<void> {
     this.asked = key;
-    this.count = wanted.count;
-    this.columns = [];
-    this.drawn = "";
+    this.done = "";
+    this.told = false;
+    this.branches.cancel();
+    this.dots.begin(key, wanted.count);
     const began = performance.now();
     this.context.status("Computing the orbit diagram", "busy");
     try {
-      const resting = await computeColumns(this.context, wanted, (columns) => this.take(columns, laid.rows));
+      const resting = await computeColumns(this.context, wanted, (columns) => {
+        this.dots.take(columns, this.state().diagram, rows, this.context.colour);
+        this.picture.redraw();
+      });
       if (this.asked !== key) return;
       this.done = key;
-      this.previous = null;
-      const seconds = (performance.now() - began) / 1000;
+      this.dots.end(this.state().diagram, rows, this.context.colour);
+      this.picture.redraw();
+      const seconds = ((performance.now() - began) / 1000).toFixed(2);
       const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
-      this.context.status(
-        `${wanted.count} forcings, ${RECORDED} impacts of each after ${TRANSIENT}, in ${seconds.toFixed(2)} s.${rest}`,
-      );
-      this.arrange(laid.rows);
-      this.describe();
-      void this.fetchBranches();
+      this.sentence = `${wanted.count} forcings, ${RECORDED} impacts of each after ${TRANSIENT}, in ${seconds} s.${rest}`;
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
     }
   }
 
-  private take(columns: Columns, rows: number): void {
-    this.columns.push(columns);
-    if (!this.arrange(rows)) {
-      this.shown?.add(columns.numbers, columns.from, columns.to, columns.coarse, this.context.colour);
-    }
-    this.picture.redraw();
-  }
-
-  /** Makes the picture of the present quantity and range with all that has come, unless it is there: true if made. */
-  private arrange(rows: number): boolean {
-    const { diagram } = this.state();
-    this.findRange();
-    const range = this.range();
-    const { count } = this;
-    const key = JSON.stringify([this.asked, diagram.quantity, range, rows]);
-    if (key === this.drawn || count === 0) return false;
-    const fresh = this.drawn === "";
-    this.drawn = key;
-    if (fresh || this.shown?.quantity !== diagram.quantity) this.previous = this.shown;
-    if (this.previous !== null && this.previous.quantity !== diagram.quantity) this.previous = null;
-    this.shown = new OrbitPicture(diagram.axial_forcing, diagram.quantity, range, count, rows, RECORDED);
-    this.fill(this.shown, this.context.colour);
-    this.picture.redraw();
-    return true;
-  }
-
-  private fill(picture: OrbitPicture, colour: Colours): void {
-    for (const { numbers, from, to, coarse } of this.columns) picture.add(numbers, from, to, coarse, colour);
-  }
-
-  /** The range of the axis that nobody chose: that of the dots. */
-  private findRange(): void {
-    const { quantity } = this.state().diagram;
-    if (quantity === "impact_phase") return;
-    let low = Infinity;
-    let high = -Infinity;
-    for (const { numbers } of this.columns) {
-      const part = extent(numbers, columnOf(quantity), DIAGRAM_COLUMNS.length);
-      if (part === null) continue;
-      low = Math.min(low, part[0]);
-      high = Math.max(high, part[1]);
-    }
-    if (!(low <= high)) return;
-    const range = padded([quantity === "normalised_speed" ? 0 : low, high]);
-    const wider = range[0] < this.automatic[0] || range[1] > this.automatic[1];
-    const finer = range[1] - range[0] < 0.7 * (this.automatic[1] - this.automatic[0]);
-    if (wider || finer) this.automatic = quantity === "normalised_speed" ? [0, range[1]] : range;
-  }
-
-  private async fetchBranches(): Promise<void> {
-    const { system, diagram } = this.state();
-    if (!diagram.branches || diagram.quantity === "angular_speed") return;
-    const { restitution } = system;
-    const key = JSON.stringify([restitution, diagram.axial_forcing]);
-    if (key === this.branchesAsked) return;
-    this.branchesAsked = key;
-    try {
-      const request = { call: "branches", restitution, axial_forcing: diagram.axial_forcing } as const;
-      await this.context.client.series("diagram-branches", [request], ({ json, numbers }) => {
-        this.branches = { json: json as BranchesJson, numbers };
-        this.picture.redraw();
-        this.describe();
-      });
-    } catch (error) {
-      if (this.branchesAsked === key) this.branchesAsked = "";
-      tellFailure(this.context, error);
-    }
-  }
-
   private paint(pen: Pen, plot: Plot): void {
-    this.previous?.paint(pen, plot);
-    if (this.shown?.quantity === this.state().diagram.quantity) this.shown.paint(pen, plot);
+    this.dots.paint(pen, plot, this.state().diagram.quantity);
     this.paintLines(pen, plot, this.context.colour);
   }
 
-  /** The same dots in the colours of print, finely enough for it. */
   private paintPrinted(pen: Pen, plot: Plot, colour: Colours): void {
-    const { axial_forcing, quantity } = this.state().diagram;
-    const count = Math.max(this.count, 2);
-    const picture = new OrbitPicture(axial_forcing, quantity, this.range(), count, Math.round(count * 0.5), RECORDED);
-    this.fill(picture, colour);
-    picture.paint(pen, plot);
+    this.dots.paintPrinted(pen, plot, this.state().diagram, colour);
     this.paintLines(pen, plot, colour);
   }
 
   private paintLines(pen: Pen, plot: Plot, colour: Colours): void {
-    const { diagram, system } = this.state();
-    const here = axialForcing(system);
+    const here = axialForcing(this.state().system);
     const x = plot.left + plot.width * plot.x.scale.share(here);
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: colour("--picture-muted"), width: 1, dash: [2, 3] });
-    if (diagram.branches && this.branches !== null) paintBranches(pen, plot, this.branches, diagram.quantity, colour);
+    this.branches.paint(pen, plot, this.state(), colour);
   }
 
   /** Gives the shared system the amplitude of this forcing, if the library takes it. */
@@ -324,9 +247,8 @@ class DiagramView implements View {
 
   private describe(): void {
     const { diagram, system } = this.state();
-    const seen = describeDiagram(this.columns, diagram, system.restitution, this.count);
-    const branches = diagram.branches && this.branches !== null ? ` ${describeBifurcations(this.branches)}` : "";
-    setText(this.alternative, seen + branches);
+    const seen = describeDiagram(this.dots.columns, diagram, system.restitution, this.dots.count);
+    setText(this.alternative, seen + this.branches.describe(this.state()));
   }
 }
 

@@ -10,6 +10,8 @@ export interface Described {
   /** With markup and unit. */
   readonly label: string;
   readonly unit: string;
+  /** A number as wide as those of usual ranges: the width of the plot, and so the columns, must not depend on the range. */
+  readonly widest: string;
   /** How wide a window may be, and between which values it lies. */
   readonly widths: Range;
   readonly bounds: Range;
@@ -20,6 +22,7 @@ export const DESCRIBED: Readonly<Record<Quantity, Described>> = {
     name: "phase of impact",
     label: "phase of impact *τ*_{imp}/2π (periods)",
     unit: "periods",
+    widest: "0.0",
     widths: [1e-9, 1],
     bounds: [-1, 2],
   },
@@ -27,6 +30,7 @@ export const DESCRIBED: Readonly<Record<Quantity, Described>> = {
     name: "normalised impact speed",
     label: "normalised impact speed |*w*_{A}Γ/(*ωA*)|",
     unit: "",
+    widest: "00.0",
     widths: [1e-9, 1000],
     bounds: [0, 1000],
   },
@@ -34,6 +38,7 @@ export const DESCRIBED: Readonly<Record<Quantity, Described>> = {
     name: "angular speed after the impact",
     label: "angular speed after the impact / *ω*Φ",
     unit: "ωΦ",
+    widest: "\u221200.0",
     widths: [1e-9, 100],
     bounds: [-100, 100],
   },
