@@ -71,7 +71,8 @@ function motion(request: Extract<Request, { call: "motion" }>): Answer {
     const tau = (turn * index) / samples_per_period;
     const spin = omega * twist_amplitude * (1 - Math.exp(-tau / 20));
     numbers.push(
-      tau / omega, amplitude * (1 + Math.abs(Math.sin(tau / 2))), spin * (tau / omega), 0, spin, amplitude * Math.sin(tau),
+      tau / omega, amplitude * (1 + Math.abs(Math.sin(tau / 2))), spin * (tau / omega), 0, spin,
+      amplitude * Math.sin(tau),
       twist_amplitude * Math.sin(tau + phase_lag), amplitude * omega * Math.cos(tau),
       omega * twist_amplitude * Math.cos(tau + phase_lag),
     ); // prettier-ignore
@@ -222,7 +223,17 @@ export function answer(request: Request): Answer {
     case "branches":
       return { json: { branches: [], bifurcations: [] } };
     case "attractors":
-      return { json: { attractors: [{ label: 1, kind: "periodic", text: "One impact in each period", share: 0.4, interval: [0.38, 0.42], lasts: true, leads_to: null, impact: { impact_phase: 0.7, normalised_speed: 1.33 } }, { label: 2, kind: "rest", text: "Chatters", share: 0.6, interval: [0.58, 0.62], lasts: true, leads_to: null, impact: null }], undecided: 0 } }; // prettier-ignore
+      return {
+        json: {
+          attractors: [
+            { label: 1, kind: "periodic", text: "One impact in each period", share: 0.4, interval: [0.38, 0.42], lasts: true,
+              leads_to: null, impact: { impact_phase: 0.7, normalised_speed: 1.33 } },
+            { label: 2, kind: "rest", text: "Chatters", share: 0.6, interval: [0.58, 0.62], lasts: true, leads_to: null,
+              impact: null },
+          ],
+          undecided: 0,
+        },
+      }; // prettier-ignore
     case "basins": {
       const [from, to] = request.rows;
       const bytes = Array.from(

@@ -147,7 +147,8 @@ function begin(): void {
       return;
     const view = VIEW_NAMES[Number(event.key) - 1];
     const keys: Readonly<Record<string, () => void>> = {
-      p: actions.presets, t: actions.tour, e: () => exportButton.click(), l: actions.copy, d: actions.theme, "?": actions.help,
+      p: actions.presets, t: actions.tour, e: () => exportButton.click(), l: actions.copy, d: actions.theme,
+      "?": actions.help,
     }; // prettier-ignore
     const act = view === undefined ? keys[event.key] : () => store.change({ view });
     if (act === undefined) return;

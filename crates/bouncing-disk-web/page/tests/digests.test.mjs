@@ -1,4 +1,4 @@
-/** The module of the page has the bits of every other machine: the digests that x86-64 stores, computed here in Node. */
+/** The module has the bits of every other machine: the digests that x86-64 stores, computed here in Node. */
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";

@@ -207,7 +207,8 @@ class DiagramView implements View {
       this.picture.redraw();
       const seconds = ((performance.now() - began) / 1000).toFixed(2);
       const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
-      this.sentence = `${wanted.count} forcings, ${RECORDED} impacts of each after ${TRANSIENT}, in ${seconds} s.${rest}`;
+      const impacts = `${RECORDED} impacts of each after ${TRANSIENT}`;
+      this.sentence = `${wanted.count} forcings, ${impacts}, in ${seconds} s.${rest}`;
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);

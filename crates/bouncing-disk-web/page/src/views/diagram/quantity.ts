@@ -10,7 +10,7 @@ export interface Described {
   /** With markup and unit. */
   readonly label: string;
   readonly unit: string;
-  /** A number as wide as those of usual ranges: the width of the plot, and so the columns, must not depend on the range. */
+  /** A number as wide as those of usual ranges: the plot's width, and with it the columns, must not depend on these. */
   readonly widest: string;
   /** How wide a window may be, and between which values it lies. */
   readonly widths: Range;

@@ -62,7 +62,8 @@ export class Verdict {
     setText(
       this.caution,
       verdict.rounding_dependent
-        ? "Rounding-dependent: after a rest the orbit is in the same state again, and the cycle shown was chosen by rounding."
+        ? "Rounding-dependent: after a rest the orbit is in the same state again, and the cycle shown was chosen by " +
+            "rounding."
         : "",
     );
     const words = verdict.rounding_dependent ? ", rounding-dependent" : "";

@@ -1,0 +1,234 @@
+/** What the notes of the presets say, computed by the module of the page. */
+
+import assert from "node:assert/strict";
+import { before, test } from "node:test";
+import { moduleOf } from "./module.mjs";
+import { sourceOf } from "./sources.mjs";
+
+const file = process.env.EXPLORER_HTML;
+const options = { skip: file ? false : "the fake module of a page without EXPLORER_HTML computes nothing" };
+
+let ask, presets, stateOf, MOTION, EVENT;
+before(async () => {
+  if (!file) return;
+  const source = await sourceOf("presets.ts");
+  ({ MOTION_COLUMNS: MOTION, EVENT_COLUMNS: EVENT } = await sourceOf("protocol.ts"));
+  ({ stateOf } = source);
+  presets = new Map(source.PRESETS.map((preset) => [preset.id, preset]));
+  ({ ask } = await moduleOf(file));
+});
+
+/** The note of a preset, and the states of its panels by the beginnings of their labels. */
+function preset(id) {
+  const { text, panels } = presets.get(id);
+  const state = (label) => {
+    const panel = panels.find((one) => one.label.startsWith(label));
+    assert.ok(panel, `${id} has no panel ${label}`);
+    return stateOf(panel);
+  };
+  const says = (words) => assert.ok(text.includes(words), `${words}: ${text}`);
+  return { state, states: () => panels.map(stateOf), says };
+}
+
+/** A motion: its samples by the names of their columns, and its events. */
+async function motion({ system, start }, periods = 20) {
+  const request = { call: "motion", system, start: { kind: "impact", ...start }, periods, samples_per_period: 64 };
+  const { json, numbers, bytes } = await ask(request);
+  const rows = (columns, count, first) =>
+    Array.from({ length: count }, (_, row) =>
+      Object.fromEntries(columns.map((name, column) => [name, numbers[first + row * columns.length + column]])),
+    );
+  const samples = rows(MOTION, json.samples, 0);
+  const events = rows(EVENT, json.events, json.samples * MOTION.length).map((event, index) => ({
+    ...event,
+    kind: json.event_kinds[bytes[json.samples + index]],
+  }));
+  return { samples, events, separation: events.find(({ kind }) => /separation/i.test(kind)) };
+}
+
+/** The angular speed with which the disk leaves the platform first. */
+const thrown = async (state) => (await motion(state)).separation.angular_speed;
+
+/** The number of the sample with the largest size of a quantity. */
+const fastest = (samples, column) => {
+  const sizes = samples.map((sample) => Math.abs(sample[column]));
+  return sizes.indexOf(Math.max(...sizes));
+};
+
+const largest = (samples, column) => Math.max(...samples.map((sample) => sample[column]));
+
+test("Fig. 2: the lag parts turning from rising, and (f) does not throw", options, async () => {
+  const { state } = preset("fig02");
+  const apart = async (label) => {
+    const { samples } = await motion(state(label), 1);
+    // Both are fastest twice in a period of 64 samples.
+    const steps = Math.abs(fastest(samples, "platform_angular_speed") - fastest(samples, "platform_velocity")) % 32;
+    return Math.min(steps, 32 - steps);
+  };
+  assert.ok((await apart("(c)")) <= 1);
+  assert.ok((await apart("(a)")) >= 15);
+  const { separation } = await motion(state("(f)"));
+  assert.equal(separation, undefined);
+  for (const label of ["(a)", "(b)", "(c)", "(d)"]) assert.ok((await motion(state(label))).separation, label);
+});
+
+test("Fig. 3: the events of the inset, in this order", options, async () => {
+  const { events } = await motion(preset("fig03").state("chattering"));
+  const kinds = events.map(({ kind }) => kind).join(" ");
+  assert.match(kinds, /separation( impact)+ .*attach.*separation/i, kinds.slice(0, 300));
+});
+
+test("Fig. 4: the fastest toss, and θ = 0 is best", options, async () => {
+  const { state, says } = preset("fig04");
+  const best = await thrown(state("φ_L = 0.301π"));
+  says(`printed ${best.toFixed(0)} rad/s`);
+  const printed = await thrown(state("φ_L = 0.323π"));
+  says(`${printed.toFixed(1)} rad/s`);
+  for (const label of ["θ = π/4", "θ = π/2"]) assert.ok((await thrown(state(label))) < printed, label);
+  for (const angle of [0.29, 0.296, 0.306, 0.312]) {
+    const { system, start } = state("φ_L = 0.301π");
+    // The stroke is that of the panel, c = 2 sqrt(A^2 + (a_e Phi)^2).
+    const half = Math.hypot(system.amplitude, system.contact_radius * system.twist_amplitude);
+    const other = {
+      ...system,
+      amplitude: half * Math.cos(angle * Math.PI),
+      twist_amplitude: (half * Math.sin(angle * Math.PI)) / system.contact_radius,
+    };
+    assert.ok((await thrown({ system: other, start })) < best, `${angle}`);
+  }
+});
+
+test("Fig. 5: high and hardly turning, low and fast, turned back", options, async () => {
+  const { state } = preset("fig05");
+  const tosses = {};
+  for (const panel of ["(a)", "(b)", "(c)"]) {
+    for (const lag of ["0", "π/2"]) tosses[panel + lag] = await motion(state(`${panel} θ = ${lag}`));
+  }
+  const height = (name) => largest(tosses[name].samples, "height");
+  const twist = (name) => largest(tosses[name].samples, "platform_angle");
+  assert.ok(height("(a)0") > height("(b)0") && height("(b)0") > height("(c)0"));
+  assert.ok(twist("(a)0") < twist("(b)0") && twist("(b)0") < twist("(c)0"));
+  // With the lag of a quarter period the hand is past the end of its turn when the dough leaves it.
+  for (const panel of ["(a)", "(b)", "(c)"]) {
+    const { separation, samples } = tosses[`${panel}π/2`];
+    if (separation === undefined) continue;
+    const at = samples.findIndex(({ time }) => time >= separation.time);
+    assert.ok(samples[at].platform_angular_speed < 0, panel);
+  }
+});
+
+test("Fig. 6: doublings and the crisis", options, async () => {
+  const { says } = preset("fig06");
+  const { json } = await ask({ call: "branches", restitution: 0.5, axial_forcing: [0.3, 0.65] });
+  const doublings = json.bifurcations.filter(({ kind }) => kind === "doubling").slice(0, 3);
+  says(doublings.map(({ axial_forcing }) => axial_forcing.toFixed(3)).join(", "));
+  // The last attractor beside rest, chaotic by then, is lost between these.
+  const lasting = async (axial_forcing) => {
+    const found = await ask({ call: "attractors", axial_forcing, restitution: 0.5 });
+    return found.json.attractors.filter(({ lasts, kind }) => lasts && kind === "chaotic").length;
+  };
+  says("near 0.561");
+  assert.deepEqual([await lasting(0.5605), await lasting(0.5615)], [1, 0]);
+});
+
+test("Fig. 7: the basin grows to the doubling, and is gone beyond the crisis", options, async () => {
+  const { states } = preset("fig07");
+  const shares = [];
+  for (const { system } of states()) {
+    const forcing = (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
+    const { json } = await ask({ call: "attractors", axial_forcing: forcing, restitution: system.restitution });
+    const resting = json.attractors.filter(({ kind, lasts }) => kind === "rest" && lasts);
+    shares.push(1 - resting.reduce((sum, { share }) => sum + share, 0));
+  }
+  const [first, doubling, , , last] = shares;
+  assert.ok(first < doubling, `${shares}`);
+  assert.ok(Math.abs(last) < 1e-12, `${shares}`);
+});
+
+test("Fig. 9: how long the rotor takes to stop", options, async () => {
+  const { states, says } = preset("fig09");
+  const times = [];
+  for (const state of states()) {
+    const { samples } = await motion(state, 60);
+    const stopped = samples.find(({ angular_speed }) => Math.abs(angular_speed) < 1e-3);
+    times.push(stopped.time.toFixed(1));
+  }
+  says(`${times[0]}, ${times[1]} and ${times[2]} s`);
+});
+
+const sheetOf = async ({ system, mass }) => (await ask({ call: "sheet_of_system", system, mass })).json.sheet;
+
+const report = async (state) => (await ask({ call: "motor_report", sheet: await sheetOf(state) })).json;
+
+/** Stall torque and speed without load of a motor, to some percent; several notes speak of the same motor. */
+const stalls = new Map();
+async function stall(state) {
+  const sheet = await sheetOf(state);
+  const request = { call: "motor_stall", sheet, relative_error: 0.05, seed: 1 };
+  const key = JSON.stringify(request);
+  if (!stalls.has(key)) stalls.set(key, (await ask(request)).json);
+  return stalls.get(key);
+}
+
+test("Fig. 10: (a) is caught, the others are not", options, async () => {
+  const { state } = preset("fig10");
+  const caught = async (label) => (await report(state(label))).trap?.caught ?? false;
+  assert.deepEqual([await caught("(a)"), await caught("(b)"), await caught("(c)")], [true, false, false]);
+});
+
+test("Fig. 11: the torque follows the preload, the speed does not", options, async () => {
+  const { state, says } = preset("fig11");
+  const ratios = [];
+  for (const frequency of ["184 kHz", "70 kHz"]) {
+    const high = await stall(state(`280 mN, ${frequency}`));
+    const low = await stall(state(`80 mN, ${frequency}`));
+    ratios.push((high.torque / low.torque).toFixed(1));
+    for (const { no_load_speed } of [high, low]) says(`some ${no_load_speed.toFixed(0)} rad/s`);
+  }
+  says(`${(280 / 80).toFixed(1)} times`);
+  says(`${ratios[0]} to ${ratios[1]} times`);
+});
+
+test("Fig. 12: the printed amplitude is not caught, but a trap is near", options, async () => {
+  const { state } = preset("fig12");
+  const { trap } = await report(state("(d)"));
+  const preload = state("(d)").system.preload_acceleration;
+  assert.equal(trap.caught, false);
+  assert.ok(Math.abs(trap.preload_acceleration / preload - 1) < 1e-3, trap.text);
+});
+
+test("Fig. 13: what moves the torque and what the speed", options, async () => {
+  const { state } = preset("fig13");
+  const of = (label) => stall(state(label));
+  const base = await of("default");
+  const same = (a, b, error) => Math.abs(a / b - 1) < Math.max(0.03, (3 * error) / b);
+  const friction = await of("(a)");
+  assert.ok(friction.torque > 1.8 * base.torque, "friction sets the torque");
+  assert.ok(same(friction.no_load_speed, base.no_load_speed, base.no_load_speed_error), "and not the speed");
+  const speed = await of("(e)");
+  assert.ok(speed.no_load_speed < 0.55 * base.no_load_speed, "the platform's speed sets the rotor's");
+  assert.ok(same(speed.torque, base.torque, base.torque_error), "and not the torque");
+  for (const label of ["(b) ε = 0.7", "(c)"]) {
+    const { torque, no_load_speed } = await of(label);
+    assert.ok(!same(torque, base.torque, base.torque_error), `${label}: torque`);
+    assert.ok(!same(no_load_speed, base.no_load_speed, base.no_load_speed_error), `${label}: speed`);
+  }
+});
+
+test("Tables I and II: the speed of the toss, and what it depends on", options, async () => {
+  const base = await thrown(preset("table1").state("Table I"));
+  preset("table1").says(`${base.toFixed(0)} rad/s`);
+  const { state } = preset("table2");
+  const change = async (label) => Math.abs((await thrown(state(label))) - base);
+  const large = [await change("c +"), await change("ω +"), await change("φ_L +")];
+  const little = await change("a_e +");
+  const hardly = [await change("a_g +"), await change("μ +")];
+  assert.ok(Math.min(...large) > 1.5 * little, `${large} ${little}`);
+  assert.ok(Math.max(...hardly) < 0.05 * little, `${hardly} ${little}`);
+});
+
+test("Table III: both readings", options, async () => {
+  const { state, says } = preset("table3");
+  const [gravity, printed] = [await stall(state("70 kHz")), await stall(state("g ="))];
+  says(`${(100 * (printed.no_load_speed / gravity.no_load_speed - 1)).toFixed(0)} %`);
+});
