@@ -67,6 +67,7 @@ impl Reply {
 
 /// The digests of results as JSON, for the tests; an error is a text that is none.
 #[cfg(feature = "digests")]
+#[allow(unreachable_pub, reason = "wasm-bindgen takes public functions alone")]
 #[wasm_bindgen]
 #[must_use]
 pub fn digests() -> String {
@@ -75,8 +76,35 @@ pub fn digests() -> String {
 
 /// What differs from the golden digests of the core.
 #[cfg(feature = "digests")]
+#[allow(unreachable_pub, reason = "wasm-bindgen takes public functions alone")]
 #[wasm_bindgen]
 #[must_use]
 pub fn golden_differences() -> Vec<String> {
     crate::golden_differences()
+}
+
+/// What is timed beside the native library.
+#[cfg(feature = "digests")]
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Workloads(crate::Workloads);
+
+#[cfg(feature = "digests")]
+#[wasm_bindgen]
+impl Workloads {
+    /// Both, ready to be run.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Result<Self, String> {
+        crate::Workloads::new().map(Self).ok_or_else(|| "a parameter is refused".to_owned())
+    }
+
+    /// Impacts in lockstep (W1): how many.
+    pub fn impacts(&mut self, times: u32) -> Result<f64, String> {
+        self.0.impacts(times).map_err(|error| error.to_string())
+    }
+
+    /// The basin W3: how many cells.
+    pub fn cells(&self, side: u32) -> Result<f64, String> {
+        self.0.cells(side as usize).map_err(|error| error.to_string())
+    }
 }
