@@ -33,6 +33,8 @@ fn told(verdict: &Verdict) -> VerdictJson {
             impacts: Some(*impacts),
             platform_periods: Some(*platform_periods),
             multipliers: Some(pairs(*multipliers)),
+            // JSON has no infinity: that of a superstable orbit is left out.
+            exponent: Some(multipliers.lyapunov_exponent(*impacts)).filter(|exponent| exponent.is_finite()),
             text,
             ..VerdictJson::default()
         },

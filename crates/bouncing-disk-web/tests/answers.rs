@@ -1,5 +1,6 @@
 //! Answers to requests: what a page relies on, and every seam of what it may ask.
 
+use bouncing_disk::core::elementary::ln;
 use bouncing_disk_web::{Explorer, Reply};
 use serde_json::{Value, json};
 
@@ -250,6 +251,13 @@ fn an_orbit_is_judged_as_by_the_library() {
         answered(&request).0
     };
     assert_eq!((&judged(0.45)["kind"], &judged(0.45)["impacts"]), (&json!("periodic"), &json!(1)));
+    // Two impacts: each has half of the logarithm.
+    let two = judged(0.5);
+    let multiplier = |part: usize| two["multipliers"][0][part].as_f64().expect("a number");
+    let logarithm = 0.5 * ln(multiplier(0) * multiplier(0) + multiplier(1) * multiplier(1));
+    let exponent = two["exponent"].as_f64().expect("an exponent");
+    assert!((exponent - logarithm / 2.0).abs() < 1e-12 && exponent < 0.0, "{two}");
+    assert_eq!((&two["impacts"], &two["exponent_error"]), (&json!(2), &Value::Null));
     assert_eq!(judged(0.553)["kind"], "chaotic");
     assert_eq!(judged(0.62)["kind"], "chattering");
     assert_eq!(judged(0.2)["kind"], "at-rest");

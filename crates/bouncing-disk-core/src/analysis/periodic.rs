@@ -8,7 +8,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
-use crate::numerics::elementary::acos;
+use crate::numerics::elementary::{acos, ln};
 use crate::observer::{Observer, Tick, Unobserved, Watch};
 use crate::platform::phase::Phase;
 use crate::read_checked;
@@ -96,6 +96,21 @@ impl Multipliers {
             Self::Real(large, _) => large.abs(),
             Self::Complex { real, imaginary } => (real * real + imaginary * imaginary).sqrt(),
         }
+    }
+
+    /// The largest Lyapunov exponent per impact of an orbit of so many impacts that has these multipliers: the logarithm of
+    /// [`Self::spectral_radius`] over their number; minus infinity where both multipliers are zero.
+    ///
+    /// ```
+    /// use bouncing_disk_core::Multipliers;
+    ///
+    /// // Two impacts that together keep a quarter of a perturbation: each keeps a half.
+    /// let multipliers = Multipliers::Real(-0.25, 0.25);
+    /// assert_eq!(multipliers.lyapunov_exponent(2), bouncing_disk_core::elementary::ln(0.5));
+    /// ```
+    #[must_use]
+    pub fn lyapunov_exponent(&self, impacts: u64) -> f64 {
+        ln(self.spectral_radius()) / impacts as f64
     }
 }
 

@@ -215,7 +215,7 @@ export function answer(request: Request): Answer {
           kind: "periodic",
           ...PERIODIC,
           exponent: -0.5,
-          exponent_error: 0.01,
+          exponent_error: null,
           rounding_dependent: false,
           text: "Period 1",
         },

@@ -204,7 +204,7 @@ export interface VerdictJson {
   platform_periods: number | null;
   /** Real and imaginary parts of the two Floquet multipliers. */
   multipliers: [number, number][] | null;
-  /** Growth per impact and its standard error. */
+  /** Growth per impact and its standard error; that of a periodic orbit follows from its multipliers and has none. */
   exponent: number | null;
   exponent_error: number | null;
   /** True where the cycle after a rest was chosen by rounding. */

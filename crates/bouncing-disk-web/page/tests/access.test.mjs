@@ -140,6 +140,8 @@ test("the orbit diagram by keyboard: zoom, shift, cross with its orbit, choice",
     assert.ok(Math.abs((await width()) - before / 2) < 1e-9);
     for (let step = 0; step < 4; step++) await page.keyboard.press("Shift+ArrowRight");
     await page.waitForFunction(() => /^Γ 0\.\d+: /.test(document.getElementById("announcer").textContent));
+    const facts = page.locator("#view-diagram .panel .facts");
+    assert.match(await facts.textContent(), /Multipliers.*Exponent per impact−0\.\d+$/, "that of a periodic orbit");
     const { amplitude } = await stateOf(page);
     await page.keyboard.press("Enter");
     await page.waitForFunction((old) => !location.hash.includes(`amplitude=${old}&`), amplitude);

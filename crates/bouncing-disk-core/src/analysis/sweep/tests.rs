@@ -4,6 +4,8 @@ use core::f64::consts::TAU;
 
 use super::*;
 use crate::analysis::lyapunov::lyapunov_exponents;
+use crate::analysis::periodic::Multipliers;
+use crate::analysis::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::launch::Launch;
 use crate::lockstep::lanes::InstructionSet;
@@ -162,12 +164,35 @@ fn the_exponent_of_a_periodic_orbit_is_that_of_its_multipliers() {
     let exponents = lyapunov_exponents(&starts, 100, 20_000).expect("no failure");
     for ((map, start), exponent) in starts.iter().zip(exponents) {
         let orbit = map.refine(&[*start]).expect("refines");
-        let expected = crate::numerics::elementary::ln(orbit.multipliers().spectral_radius());
+        let expected = orbit.multipliers().lyapunov_exponent(1);
         assert!(
             (exponent.expect("neither rest nor graze") - expected).abs() < 1.0e-3,
             "{exponent:?} {expected}"
         );
     }
+}
+
+#[test]
+fn the_exponent_of_a_longer_orbit_is_that_of_one_of_its_impacts() {
+    let start = ImpactState::from_normalised(1.2, 1.3).expect("legal");
+    // Two, four and eight impacts: around the doublings of Fig. 6.
+    let settled: Vec<_> = [0.50, 0.51, 0.535, 0.541]
+        .map(|forcing| {
+            let map =
+                ImpactMap::new(Vibration::from_axial_forcing(forcing).expect("legal"), 0.5).expect("legal");
+            let verdict = map.verdict(start, VerdictSettings::default()).expect("no failure");
+            let Verdict::Periodic { impacts, multipliers, state, .. } = verdict else { panic!("{verdict}") };
+            assert!(impacts > 1, "{verdict}");
+            ((map, state), multipliers.lyapunov_exponent(impacts))
+        })
+        .into();
+    let starts: Vec<_> = settled.iter().map(|(start, _)| *start).collect();
+    let exponents = lyapunov_exponents(&starts, 100, 20_000).expect("no failure");
+    for ((start, expected), exponent) in settled.iter().zip(exponents) {
+        let exponent = exponent.expect("neither rest nor graze");
+        assert!((exponent - expected).abs() < 1.0e-3, "{start:?} {exponent} {expected}");
+    }
+    assert_eq!(Multipliers::Real(0.0, 0.0).lyapunov_exponent(1), f64::NEG_INFINITY);
 }
 
 #[test]
