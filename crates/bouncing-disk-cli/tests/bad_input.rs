@@ -71,6 +71,27 @@ fn values_of_files_that_are_not_legal() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_told_with_the_commands_that_read_it() {
+    let folder = Folder::new();
+    folder.write("motor.toml", &folder.done("motor report --template"));
+    folder.write("toss.toml", &folder.done("toss --template"));
+    folder.write("motor.json", "{\"mass\": 1e-3,\n\"friction\": 0.1}");
+    let motor = "this is the data sheet of a motor, which motor and fit --motor read";
+    let system = "this is the parameters of a disk and its platform, which toss, orbits, diagram, verdicts, basins, \
+                  doublings and design read";
+    for (line, place, told) in [
+        ("toss motor.toml", "motor.toml: line 3: by its key \"drive_frequency\"", motor),
+        ("toss motor.json", "motor.json: line 1: by its key \"mass\"", motor),
+        ("basins motor.toml", "motor.toml: line 3: by its key \"drive_frequency\"", motor),
+        ("motor report toss.toml", "toss.toml: line 3: by its key \"platform\"", system),
+        ("motor curve toss.toml --loads 0:1e-6:2", "toss.toml: line 3: by its key \"platform\"", system),
+    ] {
+        let text = folder.refused(line, 2);
+        assert!(text.starts_with(&format!("error: {place}")) && text.contains(told), "{line}: {text}");
+    }
+}
+
+#[test]
 fn words_of_the_line_that_are_not_legal() {
     let folder = Folder::new();
     for (line, told) in [
@@ -125,7 +146,10 @@ fn words_of_the_line_that_are_not_legal() {
         ("orbits --template --out no/a.toml", "there is no folder no"),
         ("doublings -G 0.5", "unexpected argument '-G'"),
         ("doublings --axial-forcing 0.5", "unexpected argument '--axial-forcing'"),
-        ("toss --many --periods 1073741825 --transient 1", "periods = 1073741825.0 is outside"),
+        (
+            "toss --many --periods 1073741825 --transient 1",
+            "periods = 1073741825.0 is outside",
+        ),
         ("toss --many --periods 18446744073709551615", "periods"),
         ("toss --many --periods 18446744073709551616", "--periods"),
         ("diagram -G 0.3:0.30000000000000004:1000", "nearer than numbers can be"),

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use bouncing_disk::{Motor, MotorField, MotorFileError};
 use clap::{Args, ValueEnum};
 
-use super::Format;
 use super::setting::Setting;
+use super::{Format, Kind};
 use crate::failure::Failure;
 use crate::output::lines::complain;
 
@@ -81,7 +81,7 @@ impl MotorArgs {
             let built = sheet.build().map_err(Failure::from);
             return built.map_err(|failure| failure.in_context("--set"));
         };
-        let (text, format) = super::read(path)?;
+        let (text, format) = super::read(path, Kind::Motor)?;
         let read = match format {
             Format::Json => Motor::from_json_with(&text, &changes),
             Format::Toml => Motor::from_toml_with(&text, &changes),

@@ -73,7 +73,7 @@ impl From<&System> for Sheet {
 }
 
 /// The key without its table.
-fn name(path: &str) -> &str {
+pub(super) fn name(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use bouncing_disk::System;
 use clap::{Args, ValueEnum};
 
+use super::Kind;
 use super::document::entries;
 use super::setting::Setting;
 use super::sheet::{FIELDS, Sheet};
@@ -68,7 +69,7 @@ impl SystemArgs {
             sheet.set(&self.set)?;
             return sheet.build();
         };
-        let (text, format) = super::read(path)?;
+        let (text, format) = super::read(path, Kind::System)?;
         let read = || {
             let mut sheet = Sheet::of_entries(entries(&text, format).map_err(Failure::usage)?)?;
             sheet.set(&self.set)?;
