@@ -2,12 +2,13 @@
 
 /// What can go wrong in the math core. Every variant carries the numbers that are needed to see why.
 ///
-/// The texts print numbers with all their digits, and very small or large ones in scientific notation.
+/// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
+/// ones of a range, such as counts, without a fraction.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// An argument lies outside its legal range.
-    #[error("{field} = {value:?} is outside its legal range {legal}")]
+    #[error("{field} = {} is outside its legal range {legal}", without_fraction(*value))]
     OutOfRange {
         /// The name of the argument.
         field: &'static str,
@@ -161,6 +162,12 @@ pub enum Error {
     },
 }
 
+/// A number as it is written: 1 for a whole one, and not 1.0, because counts are numbers here, too.
+fn without_fraction(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+}
+
 /// Checks that `value` lies in [`low`, `high`]; NaN does not.
 pub(crate) fn within(
     field: &'static str,
@@ -215,6 +222,24 @@ mod tests {
                 let text = error.to_string();
                 assert!(text.contains(&format!("{number:e}")) && text.len() < 160, "{text}");
             }
+        }
+    }
+
+    /// A count that was too large was told as 1073741825.0.
+    #[test]
+    fn whole_numbers_outside_of_their_range_have_no_fraction() {
+        for (value, told) in [
+            (1_073_741_825.0, "1073741825"),
+            (f64::from(u32::MAX), "4294967295"),
+            (0.0, "0"),
+            (-1.0, "-1"),
+            (0.1, "0.1"),
+            (1e17, "1e17"),
+            (f64::INFINITY, "inf"),
+            (f64::NAN, "NaN"),
+        ] {
+            let error = Error::OutOfRange { field: "count", value, legal: "[1, 10]" };
+            assert_eq!(error.to_string(), format!("count = {told} is outside its legal range [1, 10]"));
         }
     }
 

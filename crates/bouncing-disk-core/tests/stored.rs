@@ -221,7 +221,7 @@ fn basins_and_runs() {
             ("/columns", json!(0), "columns of basins"),
             ("/columns", json!(4), "labels of basins: 6 where 8 would be legal"),
             ("/labels", json!([]), "labels of basins: 0 where 3 would be legal"),
-            ("/labels/5", json!(252), "label of basins = 252.0"),
+            ("/labels/5", json!(252), "label of basins = 252"),
         ],
     );
     let mut run = SweepRun::new(2);

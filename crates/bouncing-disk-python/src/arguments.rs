@@ -56,17 +56,17 @@ impl Count {
 
     /// A number of 64 bits.
     pub(crate) fn u64(self, py: Python<'_>, field: &'static str) -> PyResult<u64> {
-        self.at_most(py, field, u64::MAX, "[0, 2^64 - 1]")
+        self.at_most(py, field, u64::MAX, "[0, 18446744073709551615]")
     }
 
     /// A number of 32 bits.
     pub(crate) fn u32(self, py: Python<'_>, field: &'static str) -> PyResult<u32> {
-        self.at_most(py, field, u32::MAX.into(), "[0, 2^32 - 1]").map(|count| count as u32)
+        self.at_most(py, field, u32::MAX.into(), "[0, 4294967295]").map(|count| count as u32)
     }
 
     /// A number of items.
     pub(crate) fn usize(self, py: Python<'_>, field: &'static str) -> PyResult<usize> {
-        self.at_most(py, field, u32::MAX.into(), "[0, 2^32 - 1]").map(|count| count as usize)
+        self.at_most(py, field, u32::MAX.into(), "[0, 4294967295]").map(|count| count as usize)
     }
 }
 

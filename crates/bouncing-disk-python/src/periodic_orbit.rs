@@ -102,7 +102,7 @@ impl PeriodicOrbit {
         samples: Count,
         progress: ProgressCallable,
     ) -> PyResult<Option<f64>> {
-        let samples = samples.at_most(py, "samples", 1 << 20, "[1, 2^20]")? as u32;
+        let samples = samples.at_most(py, "samples", 1 << 20, "[1, 1048576]")? as u32;
         let map = impact_map.get().map;
         long_call::run(py, progress.0, |observer| {
             Ok(self.0.trapping_radius_observed(&map, samples, observer)?)

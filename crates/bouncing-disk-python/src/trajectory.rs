@@ -109,7 +109,7 @@ impl Trajectory {
     /// 0.54
     #[pyo3(signature = (*, count), text_signature = "($self, /, *, count)")]
     fn samples<'py>(&self, py: Python<'py>, count: Count) -> PyResult<Bound<'py, PyAny>> {
-        let range = "[2, 2^24]";
+        let range = "[2, 16777216]";
         let count = count.at_most(py, "count", MOST_SAMPLES, range)?;
         if count < 2 {
             return Err(errors::out_of_range(py, "count", count as f64, range));

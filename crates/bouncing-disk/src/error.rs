@@ -6,12 +6,13 @@ use crate::motor::fit_refusal::FitRefusal;
 
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 ///
-/// The texts print numbers with all their digits, and very small or large ones in scientific notation.
+/// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
+/// ones of a range, such as counts, without a fraction.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A parameter or an argument lies outside its legal range.
-    #[error("{field} = {value:?} is outside its legal range {legal}")]
+    #[error("{}", bouncing_disk_core::Error::OutOfRange { field, value: *value, legal })]
     OutOfRange {
         /// The name of the parameter.
         field: &'static str,

@@ -167,7 +167,7 @@ mod tests {
         assert!((motor.preload_force() - 0.4).abs() < 1e-15);
         for (setting, told) in [
             ("frction=0.2", "did you mean \"friction\"?"),
-            ("friction=-1", "--set: friction = -1.0 is outside"),
+            ("friction=-1", "--set: friction = -1 is outside"),
             ("friction=nan", "friction = NaN"),
         ] {
             let Err(Failure::Usage(text)) = args(&[setting]).motor(true) else { panic!("{setting}") };

@@ -225,7 +225,7 @@ mod tests {
         let line = 1 + text.lines().position(|line| line.starts_with("friction")).unwrap();
         for (from, to, expected) in [
             ("friction = 0.6", "fricton = 0.6", "the key \"fricton\" is unknown; did you mean \"friction\"?"),
-            ("friction = 0.6", "friction = -1", "friction = -1.0 is outside its legal range"),
+            ("friction = 0.6", "friction = -1", "friction = -1 is outside its legal range"),
             ("friction = 0.6", "friction = nan", "friction = NaN is outside"),
             ("friction = 0.6", "friction = inf", "friction = inf is outside"),
             ("friction = 0.6", "friction = '0.6'", "\"disk.friction\" must be a number, and is a text"),

@@ -86,7 +86,7 @@ impl Continuation {
         )?;
         within("largest step", self.largest_step, 1.0e-9, 1.0, "[1e-9, 1]")?;
         within("first step", self.first_step, 1.0e-9, self.largest_step, "[1e-9, largest step]")?;
-        within("points of a branch", self.max_points as f64, 2.0, Self::MAX_POINTS as f64, "[2, 1e6]")?;
+        within("points of a branch", self.max_points as f64, 2.0, Self::MAX_POINTS as f64, "[2, 1000000]")?;
         Ok(())
     }
 
@@ -279,7 +279,7 @@ impl Branch {
     /// # Errors
     /// Those of [`Self::extended`]; [`Error::Stopped`] if the observer breaks.
     pub fn extended_observed(&self, points: usize, observer: &dyn Observer) -> Result<Self, Error> {
-        within("points of a branch", points as f64, 2.0, Continuation::MAX_POINTS as f64, "[2, 1e6]")?;
+        within("points of a branch", points as f64, 2.0, Continuation::MAX_POINTS as f64, "[2, 1000000]")?;
         let Some(tip) = &self.tip else { return Ok(self.clone()) };
         if points <= self.points.len() {
             return Ok(self.clone());

@@ -72,8 +72,8 @@ impl CrisisSearch {
         )?;
         within("forcing below a crisis", self.low, 0.0, most, "[0, 3.18e7]")?;
         within("forcing beyond a crisis", self.high, self.low.next_up(), most, "(low end, 3.18e7]")?;
-        within("samples of a crisis", f64::from(self.samples), 64.0, 1.0e6, "[64, 1e6]")?;
-        within("impacts of a crisis", f64::from(self.impacts), 10.0, 1.0e5, "[10, 1e5]")?;
+        within("samples of a crisis", f64::from(self.samples), 64.0, 1.0e6, "[64, 1000000]")?;
+        within("impacts of a crisis", f64::from(self.impacts), 10.0, 1.0e5, "[10, 100000]")?;
         Ok(())
     }
 

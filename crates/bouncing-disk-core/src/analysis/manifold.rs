@@ -109,10 +109,10 @@ impl ManifoldSettings {
     fn check(&self) -> Result<(), Error> {
         within("arclength of a manifold", self.arclength, f64::MIN_POSITIVE, 1.0e6, "(0, 1e6]")?;
         let most = Self::MAX_POINTS as f64;
-        within("points of a manifold", self.max_points as f64, 16.0, most, "[16, 1e7]")?;
+        within("points of a manifold", self.max_points as f64, 16.0, most, "[16, 10000000]")?;
         within("chord of a manifold", self.chord, 1.0e-6, 1.0, "[1e-6, 1]")?;
         within("turn of a manifold", self.turn, 1.0e-3, 1.0, "[1e-3, 1] rad")?;
-        within("generations of a manifold", f64::from(self.max_generations), 1.0, 1.0e4, "[1, 1e4]")?;
+        within("generations of a manifold", f64::from(self.max_generations), 1.0, 1.0e4, "[1, 10000]")?;
         if let Some(speed) = self.launch_speed {
             not_negative("launch speed of a manifold", speed)?;
         }

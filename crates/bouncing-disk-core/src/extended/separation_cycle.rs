@@ -40,8 +40,8 @@ read_checked!(CycleBudget as UncheckedBudget { max_impacts: u64, max_digits: usi
 impl CycleBudget {
     /// Checks what is read or given.
     fn check(&self) -> Result<(), Error> {
-        within("impacts of a cycle", self.max_impacts as f64, 1.0, 1.0e7, "[1, 1e7]")?;
-        within("digits of a cycle", self.max_digits as f64, 20.0, 1.0e5, "[20, 1e5]")?;
+        within("impacts of a cycle", self.max_impacts as f64, 1.0, 1.0e7, "[1, 10000000]")?;
+        within("digits of a cycle", self.max_digits as f64, 20.0, 1.0e5, "[20, 100000]")?;
         Ok(())
     }
 }

@@ -110,9 +110,9 @@ impl AttractorSearch {
     /// Checks what is read.
     fn check(&self) -> Result<(), Error> {
         let most = Self::MAX_IMPACTS as f64;
-        within("starts", self.starts.into(), 0.0, Self::MAX_STARTS.into(), "[0, 2^18]")?;
-        within("transient", self.transient as f64, 1.0, most, "[1, 2^40] impacts")?;
-        within("impacts", self.impacts as f64, 64.0, most, "[64, 2^40]")?;
+        within("starts", self.starts.into(), 0.0, Self::MAX_STARTS.into(), "[0, 262144]")?;
+        within("transient", self.transient as f64, 1.0, most, "[1, 1099511627776] impacts")?;
+        within("impacts", self.impacts as f64, 64.0, most, "[64, 1099511627776]")?;
         let longest = self.longest_period as f64;
         within("longest period", longest, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let (least, most) = VisitedCells::SIDES;

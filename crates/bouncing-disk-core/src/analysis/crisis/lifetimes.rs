@@ -93,7 +93,7 @@ impl Crisis {
         impacts: usize,
         observer: &dyn Observer,
     ) -> Result<CrisisLives, Error> {
-        within("orbits beyond a crisis", orbits as f64, 1.0, 1.0e6, "[1, 1e6]")?;
+        within("orbits beyond a crisis", orbits as f64, 1.0, 1.0e6, "[1, 1000000]")?;
         within("impacts beyond a crisis", impacts as f64, 1.0, f64::MAX, "1 at least")?;
         let search = CrisisSearch::new(self.restitution, (0.0, self.forcing))?;
         let search = CrisisSearch { side: self.side, ..search };

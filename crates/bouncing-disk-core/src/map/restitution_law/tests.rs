@@ -162,7 +162,7 @@ fn laws_are_stored() {
 fn a_law_that_is_read_is_legal() {
     for (text, told) in [
         (r#"{"reference_restitution":1.5,"reference_speed":1.0}"#, "reference_restitution = 1.5"),
-        (r#"{"reference_restitution":0.5,"reference_speed":0.0}"#, "reference_speed = 0.0"),
+        (r#"{"reference_restitution":0.5,"reference_speed":0.0}"#, "reference_speed = 0"),
         (r#"{"reference_restitution":0.5,"speed":1.0}"#, "speed"),
     ] {
         let refusal = serde_json::from_str::<KuwabaraKono>(text).expect_err("illegal").to_string();

@@ -59,7 +59,7 @@ impl<L: RestitutionLaw> Engine<L> {
     ) -> Result<Vec<Snapshot>, Error> {
         let span = span.normalised();
         check(count >= 2, "instants of a motion", count as f64, "at least 2")?;
-        check(span.periods <= MAX_SAMPLED_PERIODS, "periods", span.periods as f64, "[0, 2^30]")?;
+        check(span.periods <= MAX_SAMPLED_PERIODS, "periods", span.periods as f64, "[0, 1073741824]")?;
         let mut states: Vec<Snapshot> = room_for("instants of a motion", count, MAX_SAMPLES)?;
         let (start, total, last) = (self.now, span.radians(), count - 1);
         let end = start.after(span);

@@ -48,7 +48,12 @@ impl OperatingSettings {
         check((1e-6..=0.5).contains(&relative_error), "relative_error", relative_error, "[1e-6, 0.5]")?;
         check(MEMBERS.contains(&members), "members", members as f64, "[4, 4096]")?;
         let impacts = most_impacts as f64;
-        check((1..=1_000_000_000_000_000).contains(&most_impacts), "most_impacts", impacts, "[1, 1e15]")?;
+        check(
+            (1..=1_000_000_000_000_000).contains(&most_impacts),
+            "most_impacts",
+            impacts,
+            "[1, 1000000000000000]",
+        )?;
         let perturbs = relaunch_perturbation > 0.0 && relaunch_perturbation <= 1.0;
         check(perturbs, "relaunch_perturbation", relaunch_perturbation, "(0, 1] (g/omega)")?;
         Ok(())

@@ -278,7 +278,7 @@ fn what_is_stored_comes_back_and_what_is_not_legal_does_not() {
     let text = serde_json::to_string(&sweep).expect("writes");
     assert_eq!(serde_json::from_str::<MotorSweep>(&text).expect("legal"), sweep);
     for (good, bad, complaint) in [
-        ("[1e-8,0.0,", "[1e-8,-1.0,", "amplitude = -1.0"),
+        ("[1e-8,0.0,", "[1e-8,-1.0,", "amplitude = -1 is"),
         ("\"load_torque\",", "\"amplitude\",", "two axes vary amplitude"),
         ("\"parameter\":\"load_torque\"", "\"parameter\":\"load\"", "did you mean \"load_torque\"?"),
         ("\"axes\"", "\"axis\"", "axis"),
