@@ -1,5 +1,7 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
+use std::borrow::Cow;
+
 use bouncing_disk::core::{Error as CoreError, NoCrisis};
 use bouncing_disk::{Error, MotorFileError};
 use pyo3::exceptions::PyRuntimeError;
@@ -48,7 +50,7 @@ impl From<&str> for Detail {
 
 /// A class of `bouncing_disk._errors` and what it is called with after its message.
 enum Raised {
-    OutOfRange(&'static str, f64, &'static str),
+    OutOfRange(&'static str, f64, Cow<'static, str>),
     TooLarge(&'static str, u64, u64),
     /// Arguments that do not fit together.
     Invalid(&'static str, Vec<(&'static str, Detail)>),
@@ -64,7 +66,7 @@ macro_rules! details {
 fn of_core(error: CoreError) -> Raised {
     use Raised::{Computation, Invalid, OutOfRange, TooLarge};
     match error {
-        CoreError::OutOfRange { field, value, legal } => OutOfRange(field, value, legal),
+        CoreError::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
         CoreError::TooLarge { what, count, limit } => TooLarge(what, count, limit),
         CoreError::NoLiftOff { phase, peak_acceleration } => {
             Computation("no-lift-off", details![phase, peak_acceleration])
@@ -108,7 +110,7 @@ fn of_model(error: Error) -> Raised {
     use Raised::{Computation, FitRefused, Invalid, OutOfRange};
     match error {
         Error::Core(error) => of_core(error),
-        Error::OutOfRange { field, value, legal } => OutOfRange(field, value, legal),
+        Error::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
         Error::NeverLeaves { peak_acceleration } => Computation("never-leaves", details![peak_acceleration]),
         Error::SlipTooLong { duration, limit } => Computation("slip-too-long", details![duration, limit]),
         Error::NotShared { field, one, other } => Invalid("not-shared", details![field, one, other]),
@@ -187,8 +189,9 @@ pub(crate) fn of_named(py: Python<'_>, error: impl Into<Error>, names: &[Name]) 
     let error = error.into();
     match names::told(&error, names) {
         Some(Told::Argument(field, value, legal)) => {
-            let error = Error::OutOfRange { field, value, legal };
-            raise(py, error.to_string(), of_model(error))
+            // The words of the library for a value and its range, which here need not be its own.
+            let message = Error::OutOfRange { field, value, legal: "" }.to_string() + &legal;
+            raise(py, message, Raised::OutOfRange(field, value, legal))
         }
         Some(Told::Derived { quantity, value, legal: range, of }) => {
             let arguments = of.join(", ");

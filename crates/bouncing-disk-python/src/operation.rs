@@ -151,7 +151,9 @@ pub(crate) fn operating_point<'py>(
         Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor = motor.get().0;
     let load = optional(load_torque).unwrap_or_else(|| motor.load_torque());
-    let names = LOAD.map(|quantity| name(quantity, &["load_torque"]).given(load));
+    // The unit of a load, m g a_e (N m); of its acceleration there is no range to be told.
+    let unit = motor.preload_force() * motor.system().disk().contact_radius();
+    let names = LOAD.map(|quantity| name(quantity, &["load_torque"]).given(load).unit(unit, "N m"));
     let operation = long_call::run_named(py, progress.0, &names, |observer| {
         motor.operating_point_observed(load, &settings, observer)
     })?;

@@ -1,7 +1,7 @@
 //! How a motion starts, in SI units.
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::{Error, InitialCondition, System};
+use bouncing_disk::{Error, InitialCondition, Scales, System};
 
 use crate::names::{Name, name};
 use crate::real::{Real, optional};
@@ -36,14 +36,17 @@ impl Start {
     }
 
     /// What the library, which has other units, calls them.
-    pub(crate) fn names(&self) -> [Name; 4] {
+    pub(crate) fn names(&self, system: &System) -> [Name; 4] {
+        let Scales { angular_speed, length, velocity: speed, .. } = system.scales();
         let given = |number: Option<f64>| number.unwrap_or(f64::NAN);
         let velocity = given(self.relative_velocity);
         [
-            name("angular_speed", &["angular_speed"]).given(given(self.angular_speed)),
-            name("gap", &["gap"]).given(given(self.gap)),
-            name("relative_velocity", &["relative_velocity"]).given(velocity),
-            name("relative_speed", &["relative_velocity"]).given(velocity),
+            name("angular_speed", &["angular_speed"])
+                .given(given(self.angular_speed))
+                .unit(angular_speed, "rad/s"),
+            name("gap", &["gap"]).given(given(self.gap)).unit(length, "m"),
+            name("relative_velocity", &["relative_velocity"]).given(velocity).unit(speed, "m/s"),
+            name("relative_speed", &["relative_velocity"]).given(velocity).unit(speed, "m/s"),
         ]
     }
 

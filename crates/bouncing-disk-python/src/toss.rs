@@ -172,7 +172,7 @@ pub(crate) fn multi_toss<'py>(
         tolerance: tolerance.0,
     };
     let start = Start::new(phase, angular_speed, gap, relative_velocity);
-    let orbit: TossOrbit = long_call::run_named(py, progress.0, &start.names(), |observer| {
+    let orbit: TossOrbit = long_call::run_named(py, progress.0, &start.names(&model), |observer| {
         multi_toss_observed(model, start.condition(&model)?, settings, observer)
     })?;
     let (kind, period, platform_periods, long_flights, multipliers, exponent) = class(&orbit.class);

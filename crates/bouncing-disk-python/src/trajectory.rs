@@ -351,7 +351,7 @@ pub(crate) fn simulate(
     let system = system.get().0;
     let start = Start::new(phase, angular_speed, gap, relative_velocity);
     let policy = policy(chatter);
-    let motion = long_call::run_named(py, progress.0, &start.names(), |observer| {
+    let motion = long_call::run_named(py, progress.0, &start.names(&system), |observer| {
         let mut engine = Engine::new(system, start.condition(&system)?, policy)?;
         let (scales, begun) = (system.scales(), engine.time());
         let watch = Watch::begin(observer, 0, most)?;

@@ -1,9 +1,11 @@
 //! Speed transients of motors: one, many, ensembles.
 
+use std::f64::consts::TAU;
+
 use bouncing_disk::core::Phase;
 use bouncing_disk::{
-    Error, ExponentialFit, SpeedCurve, Spread, TransientMember, TransientSettings, ensemble_observed,
-    transient_observed, transients_observed,
+    Error, ExponentialFit, SpeedCurve, Spread, System as Model, TransientMember, TransientSettings,
+    ensemble_observed, transient_observed, transients_observed,
 };
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
@@ -45,13 +47,18 @@ impl Matrices {
     }
 }
 
-/// What the library makes of a duration (s).
-fn names(duration: f64) -> [Name; 2] {
-    let periods = name("duration in periods of the platform", &["duration"]).given(duration);
+/// What the library makes of a duration (s), which it counts in periods of a platform; this is the shortest
+/// (s).
+fn names(duration: f64, period: f64) -> [Name; 2] {
     [
-        periods.legal("(0, 2^53] (periods of the platform)"),
+        name("duration in periods of the platform", &["duration"]).given(duration).unit(period, "s"),
         derived("duration of an interval", &["duration", "intervals"]),
     ]
+}
+
+/// The period of a platform (s).
+fn period(system: &Model) -> f64 {
+    TAU / system.platform().angular_frequency()
 }
 
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
@@ -122,7 +129,7 @@ pub(crate) fn transient<'py>(
         policy: policy(chatter),
     };
     let system = system.get().0;
-    let curve = long_call::run_named(py, progress.0, &names(duration.0), |observer| {
+    let curve = long_call::run_named(py, progress.0, &names(duration.0, period(&system)), |observer| {
         transient_observed(&system, Phase::new(phase.0)?, &settings, observer)
     })?;
     let (times, speeds) = (results::array(py, curve.times), results::array(py, curve.speeds));
@@ -209,7 +216,9 @@ pub(crate) fn transients<'py>(
         common_length(&[("systems", many_systems), ("phases", phases.len()), ("seeds", many_seeds)])?;
     let (duration, relaunch_perturbation) = (duration.0, relaunch_perturbation.0);
     let policy = policy(chatter);
-    let names = [&names(duration)[..], &[name("phase", &["phases"])]].concat();
+    let periods = systems.iter().map(period);
+    let shortest = periods.fold(f64::INFINITY, f64::min);
+    let names = [&names(duration, shortest)[..], &[name("phase", &["phases"])]].concat();
     let matrices = long_call::run_named(py, progress.0, &names, |observer| {
         let mut all = room_for(members)?;
         for member in 0..members {
@@ -278,11 +287,12 @@ pub(crate) fn ensemble<'py>(
         policy: policy(chatter),
     };
     let system = system.get().0;
-    let (runs, matrices) = long_call::run_named(py, progress.0, &names(duration.0), |observer| {
-        let runs = ensemble_observed(&system, &settings, members, observer)?;
-        let matrices = Matrices::of(&runs.curves, intervals)?;
-        Ok((runs, matrices))
-    })?;
+    let (runs, matrices) =
+        long_call::run_named(py, progress.0, &names(duration.0, period(&system)), |observer| {
+            let runs = ensemble_observed(&system, &settings, members, observer)?;
+            let matrices = Matrices::of(&runs.curves, intervals)?;
+            Ok((runs, matrices))
+        })?;
     let fits = |of: fn(&ExponentialFit) -> f64| results::array(py, runs.fits.iter().map(of).collect());
     let shape = matrices.shape;
     let fields = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -138,6 +139,53 @@ def test_the_names_and_numbers_of_some(field: str, value: float, call: Callable[
     with pytest.raises(bd.OutOfRangeError) as refused:
         call()
     assert (refused.value.field, refused.value.value) == (field, value)
+
+
+@pytest.mark.parametrize(
+    ("value", "told", "call"),
+    [
+        (-1.0, r"\[[0-9.e-]+, [0-9.e+]+\] m", lambda: bd.simulate(TOSS, gap=-1.0)),
+        (1e300, r"\[-[0-9.e+]+, [0-9.e+]+\] m/s", lambda: bd.multi_toss(TOSS, gap=1.0, relative_velocity=1e300)),
+        (-1.0, r"\[0, inf\) m/s", lambda: bd.simulate(TOSS, relative_velocity=-1.0)),
+        (1e308, r"\[-[0-9.e+]+, [0-9.e+]+\] rad/s", lambda: bd.simulate(TOSS, angular_speed=1e308)),
+        (1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.transient(TOSS, duration=1e300)),
+        (1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.transients([TOSS, bd.System.motor()], duration=1e300)),
+        (1e200, r"\[-[0-9.e+]+, [0-9.e+]+\] N m", lambda: bd.operating_point(MOTOR, load_torque=1e200)),
+    ],
+)  # fmt: skip
+def test_a_value_and_its_range_have_the_unit_of_the_argument(
+    value: float, told: str, call: Callable[[], Any]
+) -> None:
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        call()
+    assert refused.value.value == value and re.fullmatch(told, refused.value.range), str(refused.value)
+    assert str(refused.value).endswith(f" is outside its legal range {refused.value.range}")
+
+
+def test_the_end_of_a_range_in_si_is_that_of_the_library() -> None:
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.multi_toss(TOSS, gap=1.0, relative_velocity=-1e300)
+    unit = TOSS.preload_acceleration / TOSS.angular_frequency
+    ends = [float(end) for end in refused.value.range.strip("[] m/s").split(", ")]
+    assert ends == pytest.approx([-1e9 * unit, 1e9 * unit], rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("told", "call"),
+    [
+        ("recorded = -1 is outside its legal range [0, 4294967295]",
+         lambda: bd.orbit_diagram(axial_forcing=0.5, **STARTS, recorded=-1)),
+        ("starts = 300000 is outside its legal range [0, 262144]", lambda: bd.attractors(MAP, starts=300_000)),
+        ("max_points = 20000000 is outside its legal range [2, 1000000]",
+         lambda: bd.continued(MAP, MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3),  # type: ignore[arg-type]
+                              parameter_range=(0.4, 0.5), max_points=20_000_000)),
+        ("restitution = 1 is outside its legal range [0, 1)", lambda: MAP.__class__(axial_forcing=0.5, restitution=1.0)),
+    ],
+)  # fmt: skip
+def test_whole_numbers_are_told_without_a_fraction(told: str, call: Callable[[], Any]) -> None:
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        call()
+    assert str(refused.value) == told
 
 
 def test_what_follows_from_several_arguments_names_them_all() -> None:

@@ -33,7 +33,7 @@ class OutOfRangeError(BouncingDiskError, ValueError):
     value : float
         The value that was given; of a list that is too short or too long its length.
     range : str
-        The legal range, in words; where it is in other units than the value, they stand there.
+        The legal range, in words and in the unit of the value.
 
     Examples
     --------

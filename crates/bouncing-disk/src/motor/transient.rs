@@ -74,7 +74,12 @@ impl TransientSettings {
         self.check()?;
         let radians = self.duration / unit.time;
         let (periods, interval) = (radians / TAU, radians / self.intervals as f64);
-        check(periods <= MAX_PERIODS, "duration in periods of the platform", periods, "(0, 2^53]")?;
+        check(
+            periods <= MAX_PERIODS,
+            "duration in periods of the platform",
+            periods,
+            "(0, 9007199254740992]",
+        )?;
         // The first holds in seconds, too, unless they are denormal.
         let lasts =
             interval >= SHORTEST_INTERVAL && self.duration / self.intervals as f64 >= f64::MIN_POSITIVE;

@@ -118,7 +118,8 @@ impl TossConstraints {
             "[phase_lag (least), phase_lag (least) + 2 pi]",
         )?;
         self.highest_flight.map(|height| positive("highest_flight", height)).transpose()?;
-        check(peak_acceleration.is_finite(), "stroke", self.stroke, "c omega^2/g up to 1.7e308")?;
+        let legal = "(0, inf), with a finite peak acceleration c omega^2/g";
+        check(peak_acceleration.is_finite(), "stroke", self.stroke, legal)?;
         if peak_acceleration <= 1.0 { Err(Error::NeverLeaves { peak_acceleration }) } else { Ok(()) }
     }
 
