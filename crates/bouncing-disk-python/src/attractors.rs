@@ -19,7 +19,7 @@ use crate::{errors, long_call, results, text};
 /// Made by :func:`attractors`.
 #[pyclass(frozen, eq, module = "bouncing_disk")]
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Attractors(Found);
+pub(crate) struct Attractors(pub(crate) Found);
 
 #[pymethods]
 impl Attractors {
@@ -157,6 +157,31 @@ impl Attractors {
     }
 }
 
+/// How attractors are looked for, as Python says it.
+pub(crate) struct SearchArguments {
+    pub(crate) starts: Count,
+    pub(crate) transient: Count,
+    pub(crate) impacts: Count,
+    pub(crate) longest_period: Count,
+    pub(crate) cells: Count,
+}
+
+impl SearchArguments {
+    /// The search, if it is legal.
+    pub(crate) fn search(self, py: Python<'_>) -> PyResult<AttractorSearch> {
+        let (starts, cells) = (self.starts.u32(py, "starts")?, self.cells.u32(py, "cells")?);
+        let (transient, impacts) = (self.transient.u64(py, "transient")?, self.impacts.u64(py, "impacts")?);
+        let longest = self.longest_period.usize(py, "longest_period")?;
+        AttractorSearch::default()
+            .with_starts(starts)
+            .and_then(|search| {
+                search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
+            })
+            .named(&[name("longest period", &["longest_period"]), name("cells along an axis", &["cells"])])
+            .map_err(|error| errors::of(py, error))
+    }
+}
+
 /// The attractors of a map, without being told.
 ///
 /// Parameters
@@ -202,16 +227,7 @@ pub(crate) fn attractors(
     cells: Count,
     progress: ProgressCallable,
 ) -> PyResult<Attractors> {
-    let (starts, cells) = (starts.u32(py, "starts")?, cells.u32(py, "cells")?);
-    let (transient, impacts) = (transient.u64(py, "transient")?, impacts.u64(py, "impacts")?);
-    let longest = longest_period.usize(py, "longest_period")?;
-    let search = AttractorSearch::default()
-        .with_starts(starts)
-        .and_then(|search| {
-            search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
-        })
-        .named(&[name("longest period", &["longest_period"]), name("cells along an axis", &["cells"])])
-        .map_err(|error| errors::of(py, error))?;
+    let search = SearchArguments { starts, transient, impacts, longest_period, cells }.search(py)?;
     let map = impact_map.get().map;
     long_call::run(py, progress.0, |observer| Ok(map.attractors_observed(&search, observer)?)).map(Attractors)
 }

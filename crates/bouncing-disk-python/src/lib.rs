@@ -6,6 +6,8 @@
 
 mod arguments;
 mod attractors;
+mod basin_fractions;
+mod basin_measures;
 mod basins;
 mod braking;
 mod branch;
@@ -29,6 +31,7 @@ mod periodic_orbit;
 mod real;
 mod regime;
 mod results;
+mod rotary;
 mod sensitivity;
 mod spectra;
 mod start;
@@ -40,6 +43,7 @@ mod threads;
 mod toss;
 mod trajectory;
 mod transients;
+mod traps;
 mod verdicts;
 
 use pyo3::prelude::*;
@@ -49,6 +53,10 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::attractors::{Attractors, attractors};
+    #[pymodule_export]
+    use crate::basin_fractions::{BasinFractions, basin_fractions_over};
+    #[pymodule_export]
+    use crate::basin_measures::{basin_entropy, boundary_scaling};
     #[pymodule_export]
     use crate::basins::basins;
     #[pymodule_export]
@@ -82,6 +90,8 @@ mod _native {
     #[pymodule_export]
     use crate::periodic_orbit::{PeriodicOrbit, periodic_orbits};
     #[pymodule_export]
+    use crate::rotary::rotary_response;
+    #[pymodule_export]
     use crate::sensitivity::{elementary_effects, local_sensitivities, sobol_indices};
     #[pymodule_export]
     use crate::spectra::lyapunov_spectra;
@@ -95,6 +105,8 @@ mod _native {
     use crate::trajectory::{Trajectory, simulate, toss_trajectory};
     #[pymodule_export]
     use crate::transients::{ensemble, transient, transients};
+    #[pymodule_export]
+    use crate::traps::{low_period_traps, nearest_trap};
     #[pymodule_export]
     use crate::verdicts::verdicts;
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.

@@ -39,6 +39,11 @@ pub(crate) const fn derived(library: &'static str, arguments: &'static [&'static
 }
 
 impl Name {
+    /// As the library says it.
+    pub(crate) const fn library(&self) -> &'static str {
+        self.library
+    }
+
     /// The number that the caller gave.
     pub(crate) const fn given(self, value: f64) -> Self {
         Self { given: Some(value), ..self }

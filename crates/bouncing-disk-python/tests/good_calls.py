@@ -31,6 +31,17 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
     assert orbit is not None
     branch = bd.continued(MAP, orbit, parameter_range=(0.4, 0.5), max_points=20)
     found = bd.attractors(MAP, starts=4, impacts=64)
+    rows = found.basins(phases=9, speeds=9)
+    search: dict[str, Any] = {
+        "reach": 0.3,
+        "starts": 4,
+        "transient": 10,
+        "impacts": 64,
+        "longest_period": 8,
+        "cells": 8,
+        "progress": None,
+    }
+    followed = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.34], **search)
     saddle = next(
         one
         for one in bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)
@@ -44,6 +55,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
     )
     crisis = bd.crisis(edge, restitution=0.5, axial_forcing=(0.559, 0.562))
     trajectory = bd.toss_trajectory(TOSS)
+    toss_orbit = bd.periodic_orbits(bd.ImpactMap.of_system(TOSS), max_impacts=1, max_platform_periods=1)[0]
     impact = {"impact_phase": 1.0, "axial_impact_velocity": -4.0}
     quick: dict[str, Any] = {"relative_error": 0.5, "members": 4, "most_impacts": 100}
     run: dict[str, Any] = {"duration": 1e-4, "intervals": 3, "relaunch_perturbation": 1e-3}
@@ -119,6 +131,11 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
             {"starts": 4, "transient": 10, "impacts": 64, "longest_period": 8, "cells": 8},
         ),
         (found.basins, [], grid),
+        (bd.basin_entropy, [rows], {"box_side": 3}),
+        (bd.boundary_scaling, [rows], {"distances": [1, 2, 3], "progress": None}),
+        (bd.basin_fractions_over, [], search | {"restitution": 0.5, "axial_forcing": [0.34, 0.36]}),
+        (followed.extended, [], search | {"axial_forcing": [0.38]}),
+        (bd.BasinFractions.from_json, [followed.to_json()], {}),
         (
             bd.continued,
             [MAP, orbit],
@@ -139,6 +156,9 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.torque_speed_curve, [MOTOR], quick | {"load_torques": [0.0, 1e-9]}),
         (bd.stall_load, [MOTOR], quick),
         (bd.best_phase_lag, [MOTOR], quick),
+        (bd.low_period_traps, [MOTOR], {"preload_accelerations": [9.8, 10.0], "progress": None}),
+        (bd.nearest_trap, [MOTOR], {"relative_range": 1e-4, "progress": None}),
+        (bd.rotary_response, [TOSS, toss_orbit], {}),
         (bd.fit_exponential, [], {"times": times, "speeds": speeds, "progress": None}),
         (bd.fit_transients, [], {"times": times, "speeds": speeds, "resamples": 200, "seed": 1}),
         (

@@ -82,8 +82,8 @@ def test_an_error_names_an_argument_and_its_value(
         except (bd.BouncingDiskError, ValueError):
             pass
         except TypeError as error:
-            # Seeds are counts, which floats are not.
-            assert name == "seeds", str(error)
+            # These are counts, which floats are not.
+            assert name in ("seeds", "distances"), str(error)
 
 
 def surface() -> set[str]:

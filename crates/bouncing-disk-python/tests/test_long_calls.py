@@ -28,6 +28,9 @@ ENDLESS = {
     "basins": "bd.basins(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), phases=2000, speeds=2000,"
     " max_impacts=2**31)",
     "attractors": "bd.attractors(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), impacts=10**12)",
+    "fractions": "bd.basin_fractions_over(restitution=0.5, axial_forcing=np.full(1000, 0.56), impacts=10**12)",
+    "boundary": "bd.boundary_scaling(BASINS, distances=[900])",
+    "traps": "bd.low_period_traps(MOTOR, preload_accelerations=np.linspace(1.0, 20.0, 10**6))",
     "periodic orbits": "bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.8, restitution=0.7), max_impacts=64,"
     " max_platform_periods=10000, phases=4096, speeds=4096)",
     "multi_toss": "bd.multi_toss(bd.System.pizza_toss(), phase=4.7, transient_impacts=4 * 10**9)",
@@ -69,6 +72,7 @@ TIMES = np.linspace(0.01, 4.0, 80)
 RISE = 22.0 * (1.0 - np.exp(-TIMES / 0.9)) + 0.3 * np.sin(40.0 * TIMES)
 SADDLE = bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=1,
                             max_platform_periods=1)[-1]
+BASINS = bd.basins(bd.ImpactMap(axial_forcing=0.2, restitution=0.5), phases=10_000, speeds=2000, max_impacts=1)
 sent = []
 
 def send():

@@ -28,6 +28,10 @@ MOTOR = bd.Motor(
 )
 
 
+FORCED = bd.System.pizza_toss().replace(angular_frequency=8.5)
+SADDLE = bd.periodic_orbits(bd.ImpactMap.of_system(FORCED), max_impacts=1, max_platform_periods=1)[0]
+
+
 def orbit() -> bd.PeriodicOrbit:
     found = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
     assert found is not None
@@ -70,6 +74,14 @@ def everything() -> dict[str, Any]:
         "Attractor": found.all[1],
         "Branch": branch,
         "Bifurcation": branch.bifurcations[0],
+        "BasinEntropy": bd.basin_entropy(found.basins(phases=20, speeds=20)),
+        "BoundaryScaling": bd.boundary_scaling(found.basins(phases=20, speeds=20), distances=[1, 2, 4]),
+        "BasinFractions": bd.basin_fractions_over(
+            restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], starts=64, impacts=1000
+        ),
+        "LowPeriodTraps": bd.low_period_traps(MOTOR, preload_accelerations=[9.0, 9.8]),
+        "NearestTrap": bd.nearest_trap(MOTOR, relative_range=0.1),
+        "RotaryResponse": bd.rotary_response(FORCED, SADDLE),
         "DoublingCascade": bd.doubling_cascade(restitution=0.5, count=3),
         "TossPerformance": bd.single_toss(bd.System.pizza_toss()),
         "Trajectory": bd.simulate(bd.System.pizza_toss(), events=50),
@@ -141,7 +153,7 @@ def test_parameters_survive_dictionaries_and_json(one: Any) -> None:
     assert type(one).from_dict(json.loads(one.to_json())) == one
 
 
-@pytest.mark.parametrize("name", ["PeriodicOrbit", "Attractors", "Branch", "Trajectory", "Crisis"])
+@pytest.mark.parametrize("name", ["PeriodicOrbit", "Attractors", "BasinFractions", "Branch", "Trajectory", "Crisis"])
 def test_stored_objects_survive_json(name: str) -> None:
     one = EVERYTHING[name]
     assert type(one).from_json(one.to_json()) == one

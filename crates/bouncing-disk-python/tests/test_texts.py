@@ -19,6 +19,7 @@ OBJECTS: list[Any] = [
     ORBIT,
     bd.toss_trajectory(TOSS),
     bd.attractors(MAP, starts=16, impacts=64),
+    bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.34, 0.36], starts=16, impacts=64),
     bd.continued(MAP, ORBIT, parameter_range=(0.4, 0.5), max_points=5),
 ]
 

@@ -267,8 +267,21 @@ impl Basins {
         Ok(())
     }
 
-    /// The labels of whole rows that were found in another way, one row at least.
-    pub(crate) fn of_labels(labels: Vec<Label>, columns: usize) -> Result<Self, Error> {
+    /// The labels of whole rows, one row at least, that were found in another way or come back from a program
+    /// that has them as an array: what measures a boundary asks for nothing else.
+    ///
+    /// ```
+    /// use bouncing_disk_core::{ATTACHED, Basins, FIRST_ORBIT};
+    ///
+    /// let basins = Basins::of_labels(vec![ATTACHED, ATTACHED, ATTACHED, FIRST_ORBIT], 2)?;
+    /// assert_eq!(basins.entropy(2)?.boundary_boxes, 1);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a number of columns outside [1, 100000] and for a label that no orbit has;
+    /// [`Error::Unfitting`] for rows that are not whole.
+    pub fn of_labels(labels: Vec<Label>, columns: usize) -> Result<Self, Error> {
         let basins = Self { labels, columns };
         basins.check().map(|()| basins)
     }

@@ -8,9 +8,11 @@ import numpy.typing as npt
 
 from bouncing_disk._results import (
     Attractor,
+    BasinEntropy,
     Basins,
     BestPhaseLag,
     Bifurcation,
+    BoundaryScaling,
     CrisisLives,
     DoublingCascade,
     ElementaryEffects,
@@ -19,13 +21,16 @@ from bouncing_disk._results import (
     BrakingFit,
     ExponentialFit,
     LocalSensitivities,
+    LowPeriodTraps,
     LyapunovSpectra,
     Manifold,
     MotorMap,
     MotorReport,
+    NearestTrap,
     OperatingPoint,
     OrbitDiagram,
     ParameterFit,
+    RotaryResponse,
     SobolIndices,
     SpeedCurve,
     SpeedCurves,
@@ -45,6 +50,7 @@ __all__ = [
     "FIRST_ORBIT",
     "UNDECIDED",
     "Attractors",
+    "BasinFractions",
     "Branch",
     "ChatterCut",
     "Crisis",
@@ -54,9 +60,12 @@ __all__ = [
     "System",
     "Trajectory",
     "attractors",
+    "basin_entropy",
+    "basin_fractions_over",
     "basins",
     "best_phase_lag",
     "best_toss",
+    "boundary_scaling",
     "continued",
     "crisis",
     "doubling_cascade",
@@ -68,14 +77,17 @@ __all__ = [
     "fit_transients",
     "iterate_orbits",
     "local_sensitivities",
+    "low_period_traps",
     "lyapunov_exponents",
     "lyapunov_spectra",
     "manifold",
     "motor_map",
     "multi_toss",
+    "nearest_trap",
     "operating_point",
     "orbit_diagram",
     "periodic_orbits",
+    "rotary_response",
     "set_threads",
     "simulate",
     "single_toss",
@@ -121,6 +133,48 @@ class Attractors:
     def to_json(self) -> str: ...
     @staticmethod
     def from_json(json: str) -> Attractors: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple[Callable[[Any, str], Any], tuple[type[Any], str]]: ...
+
+@final
+class BasinFractions:
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def axial_forcing(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def attractors(self) -> tuple[Attractors, ...]: ...
+    @property
+    def followed(self) -> tuple[npt.NDArray[np.int64], ...]: ...
+    @property
+    def appears(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def vanishes(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def share(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def share_low(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def share_high(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def moved(self) -> npt.NDArray[np.float64]: ...
+    def extended(
+        self,
+        *,
+        axial_forcing: npt.ArrayLike,
+        reach: _Float = 0.3,
+        starts: _Int = 1024,
+        transient: _Int = 2000,
+        impacts: _Int = 100000,
+        longest_period: _Int = 256,
+        cells: _Int = 256,
+        progress: _Progress = None,
+    ) -> BasinFractions: ...
+    def to_json(self) -> str: ...
+    @staticmethod
+    def from_json(json: str) -> BasinFractions: ...
     def __eq__(self, value: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
     def __len__(self) -> int: ...
@@ -855,3 +909,35 @@ def sobol_indices(
     seed: _Int = 1,
     progress: _Progress = None,
 ) -> SobolIndices: ...
+def basin_entropy(basins: Basins, *, box_side: _Int = 5) -> BasinEntropy: ...
+def basin_fractions_over(
+    *,
+    restitution: _Float,
+    axial_forcing: npt.ArrayLike,
+    reach: _Float = 0.3,
+    starts: _Int = 1024,
+    transient: _Int = 2000,
+    impacts: _Int = 100000,
+    longest_period: _Int = 256,
+    cells: _Int = 256,
+    progress: _Progress = None,
+) -> BasinFractions: ...
+def boundary_scaling(
+    basins: Basins,
+    *,
+    distances: Iterable[_Int] = (1, 2, 4, 8),
+    progress: _Progress = None,
+) -> BoundaryScaling: ...
+def low_period_traps(
+    motor: Motor,
+    *,
+    preload_accelerations: npt.ArrayLike,
+    progress: _Progress = None,
+) -> LowPeriodTraps: ...
+def nearest_trap(
+    motor: Motor,
+    *,
+    relative_range: _Float = 0.1,
+    progress: _Progress = None,
+) -> NearestTrap | None: ...
+def rotary_response(system: System, orbit: PeriodicOrbit) -> RotaryResponse: ...

@@ -7,10 +7,14 @@ use super::{Basins, Label};
 use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
 use crate::numerics::fraction::Fraction;
+use crate::observer::{Observer, Unobserved, Watch};
 use crate::read_checked;
 
 /// The fewest distances that a power law is fitted to.
 const FEWEST: usize = 3;
+
+/// Labels that are looked at in the time of a flight, roughly.
+const CELLS_OF_FLIGHT: usize = 16;
 
 /// How far the slopes from one distance to the next may differ from each other along a power law: this much, and
 /// this share of their mean. Near saturation, where most cells are uncertain, they fall to zero and differ by more.
@@ -125,6 +129,19 @@ impl Basins {
     /// [`Error::OutOfRange`] for distances that do not rise from 1 at least, and where no cell is far enough
     /// from the edges.
     pub fn boundary_scaling(&self, distances: &[usize]) -> Result<BoundaryScaling, Error> {
+        self.boundary_scaling_observed(distances, &Unobserved)
+    }
+
+    /// [`Self::boundary_scaling`] with an observer; the items are the rows of cells that count, once for each
+    /// distance.
+    ///
+    /// # Errors
+    /// Those of [`Self::boundary_scaling`]; [`Error::Stopped`] if the observer breaks.
+    pub fn boundary_scaling_observed(
+        &self,
+        distances: &[usize],
+        observer: &dyn Observer,
+    ) -> Result<BoundaryScaling, Error> {
         let mut least = 1;
         let most = (self.columns().min(self.rows()) - 1) / 2;
         for distance in distances {
@@ -133,11 +150,14 @@ impl Basins {
             least = distance + 1;
         }
         let margin = distances.last().copied().unwrap_or(0);
+        let rows = (self.rows() - 2 * margin) as u64;
+        let watch = Watch::begin(observer, 0, distances.len() as u64 * rows)?;
         let shares = distances.iter().map(|distance| {
-            let uncertain = self.uncertain(*distance, margin)?;
+            let uncertain = self.uncertain(*distance, margin, &watch)?;
             Ok(UncertainShare { distance: *distance, uncertain })
         });
         let shares = shares.collect::<Result<Vec<_>, Error>>()?;
+        watch.end();
         let points = shares.iter().filter(|share| share.uncertain.count() > 0);
         let points: Vec<_> =
             points.map(|share| (ln(share.distance as f64), ln(share.uncertain.value()))).collect();
@@ -146,22 +166,26 @@ impl Basins {
 
     /// The cells farther than `margin` from the edges with another label than their own in the square of cells
     /// up to this distance along both axes.
-    fn uncertain(&self, distance: usize, margin: usize) -> Result<Fraction, Error> {
+    fn uncertain(&self, distance: usize, margin: usize, watch: &Watch<'_>) -> Result<Fraction, Error> {
         let inner = margin..self.columns() - margin;
+        let mut work = watch.work();
+        let spent = (inner.len() * distance / CELLS_OF_FLIGHT) as u64 + 1;
         // The least and the largest label along each row first: the square has one label where both agree.
         let extent = |labels: &[Label]| {
             labels
                 .iter()
                 .fold((Label::MAX, Label::MIN), |(least, most), own| (least.min(*own), most.max(*own)))
         };
-        let along = |row: usize| -> Vec<(Label, Label)> {
+        let mut along = |row: usize| -> Result<Vec<(Label, Label)>, Error> {
+            work.spend(spent)?;
             let row = self.row(row);
-            inner.clone().map(|column| extent(&row[column - distance..=column + distance])).collect()
+            Ok(inner.clone().map(|column| extent(&row[column - distance..=column + distance])).collect())
         };
         let (mut uncertain, mut all) = (0, 0);
-        let mut rows: VecDeque<_> = (margin - distance..margin + distance).map(along).collect();
+        let mut rows =
+            (margin - distance..margin + distance).map(&mut along).collect::<Result<VecDeque<_>, _>>()?;
         for row in margin..self.rows() - margin {
-            rows.push_back(along(row + distance));
+            rows.push_back(along(row + distance)?);
             for column in 0..inner.len() {
                 let (least, most) = rows.iter().fold((Label::MAX, Label::MIN), |(least, most), own| {
                     (least.min(own[column].0), most.max(own[column].1))
@@ -170,6 +194,7 @@ impl Basins {
                 uncertain += u64::from(least != most);
             }
             rows.pop_front();
+            watch.finish(1);
         }
         Fraction::new(uncertain, all)
     }
@@ -216,6 +241,31 @@ mod tests {
             BoundaryFit::PowerLaw { dimension, standard_error, .. } => (dimension, standard_error),
             other => panic!("{other:?}"),
         }
+    }
+
+    #[test]
+    fn a_scaling_tells_its_rows_and_can_be_stopped() {
+        use core::ops::ControlFlow;
+        use core::sync::atomic::{AtomicU64, Ordering};
+
+        use crate::observer::Progress;
+
+        let halves = basins(3_000, 100, |row, _| if row < 50 { 1 } else { 2 });
+        let last = AtomicU64::new(0);
+        let told = |progress: Progress| {
+            assert_eq!(progress.total, 3 * 92);
+            last.store(progress.done, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        };
+        let found = halves.boundary_scaling_observed(&[1, 2, 4], &told);
+        assert_eq!((found, last.load(Ordering::Relaxed)), (halves.boundary_scaling(&[1, 2, 4]), 3 * 92));
+        let calls = AtomicU64::new(0);
+        let impatient = |_: Progress| match calls.fetch_add(1, Ordering::Relaxed) {
+            0 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        let stopped = halves.boundary_scaling_observed(&[1, 2, 4], &impatient);
+        assert!(matches!(stopped, Err(Error::Stopped { done: 0..=275, total: 276 })), "{stopped:?}");
     }
 
     #[test]

@@ -5,8 +5,10 @@ from __future__ import annotations
 from bouncing_disk._results._base import Result, _restored
 from bouncing_disk._results._dynamics import (
     Attractor,
+    BasinEntropy,
     Basins,
     Bifurcation,
+    BoundaryScaling,
     DoublingCascade,
     OrbitDiagram,
     Verdicts,
@@ -14,8 +16,10 @@ from bouncing_disk._results._dynamics import (
 from bouncing_disk._results._invariant import CrisisLives, LyapunovSpectra, Manifold
 from bouncing_disk._results._motors import (
     BestPhaseLag,
+    LowPeriodTraps,
     MotorMap,
     MotorReport,
+    NearestTrap,
     OperatingPoint,
     StallLoad,
     TorqueSpeedCurve,
@@ -28,6 +32,7 @@ from bouncing_disk._results._sensitivities import (
 from bouncing_disk._results._tosses import (
     Energy,
     EventTable,
+    RotaryResponse,
     TossDesign,
     TossOrbit,
     TossPerformance,
@@ -48,9 +53,11 @@ from bouncing_disk._results._transients import (
 
 __all__ = [
     "Attractor",
+    "BasinEntropy",
     "Basins",
     "BestPhaseLag",
     "Bifurcation",
+    "BoundaryScaling",
     "CrisisLives",
     "DoublingCascade",
     "ElementaryEffects",
@@ -60,15 +67,18 @@ __all__ = [
     "ExponentialFit",
     "IntervalEstimate",
     "LocalSensitivities",
+    "LowPeriodTraps",
     "LyapunovSpectra",
     "Manifold",
     "MotorMap",
     "MotorReport",
+    "NearestTrap",
     "OperatingPoint",
     "OrbitDiagram",
     "ParameterFit",
     "Result",
     "RiseEstimate",
+    "RotaryResponse",
     "SobolIndices",
     "SpeedCurve",
     "SpeedCurves",

@@ -107,6 +107,78 @@ class Basins(Result):
         return int(np.count_nonzero(self.labels == label)) / self.labels.size
 
 
+@dataclass(frozen=True, eq=False)
+class BasinEntropy(Result):
+    """How uncertain the end of a start is that is known up to a box of cells; in natural units.
+
+    Attributes
+    ----------
+    box_side : int
+        Cells along each side of a box.
+    boxes : int
+        Boxes that fit into the grid whole.
+    boundary_boxes : int
+        Boxes with more than one label.
+    undecided_cells : int
+        Cells of the boxes that are undecided, which counts as a label of its own.
+    labels : int
+        Labels that occur in the boxes.
+    entropy : float
+        The mean over the boxes of -sum p ln p, p being the shares of the labels in a box: at most the
+        logarithm of the number of labels.
+    boundary_entropy : float or None
+        The same mean over the boxes with more than one label; None if there is none.
+    """
+
+    box_side: int
+    boxes: int
+    boundary_boxes: int
+    undecided_cells: int
+    labels: int
+    entropy: float
+    boundary_entropy: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BoundaryScaling(Result):
+    """How the share of uncertain cells grows with their distance, at n distances.
+
+    Attributes
+    ----------
+    distance : (n,) int64 array
+        The distances, in cells.
+    uncertain : (n,) int64 array
+        Cells with another label than their own in the square up to this distance along both axes.
+    cells : int
+        Cells that were looked at, the same at each distance.
+    fit : str
+        ``"power-law"``; ``"no-power-law"``, where the slopes from one distance to the next differ by more
+        than 0.05 and a fifth of their mean, as on a grid that is too coarse; or ``"too-few"``, where cells
+        are uncertain at fewer than three distances.
+    exponent, exponent_error : float
+        The share grows as ``distance**exponent``, and the standard error; NaN without a power law.
+    dimension : float
+        The boundary's dimension, 2 less the exponent: 1 of a smooth curve, up to 2; NaN without a power law.
+    slopes : (float, float)
+        The smallest and the largest slope from one distance to the next, in the logarithms; NaN of too few.
+    """
+
+    distance: IntArray
+    uncertain: IntArray
+    cells: int
+    fit: str
+    exponent: float
+    exponent_error: float
+    dimension: float
+    slopes: tuple[float, float]
+
+    @property
+    def share(self) -> FloatArray:
+        """The share of the cells that are uncertain at each distance, in [0, 1], shape (n,)."""
+        share: FloatArray = self.uncertain / max(self.cells, 1)
+        return share
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Verdicts(Result):
     """What many orbits do for good, and the evidence; numbers that a verdict does not have are 0 or NaN.

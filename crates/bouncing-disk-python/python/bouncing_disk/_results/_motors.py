@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from bouncing_disk._native import Motor
-from bouncing_disk._results._base import ByteArray, FloatArray, IntArray, Result
+from bouncing_disk._results._base import BoolArray, ByteArray, FloatArray, IntArray, Result
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -213,6 +213,71 @@ class BestPhaseLag:
     speed: float
     speed_error: float
     good_from_to: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LowPeriodTraps(Result):
+    """Whether a motor is in a low-period trap under n preloads, with the evidence.
+
+    Attributes
+    ----------
+    preload_acceleration : (n,) float64 array
+        Preload as an acceleration (m/s^2).
+    axial_forcing : (n,) float64 array
+        Axial forcing parameter Gamma: with the restitution all that decides.
+    is_trap : (n,) bool array
+        Whether the perturbed motor repeats the short round.
+    impacts, platform_periods, long_flights : (n,) int64 array
+        What the round from one separation to the next has without perturbation, if it has at most eight long
+        flights; 0 where there is none.
+    relaunches, returns : (n,) int64 array
+        Perturbed relaunches that were tried, and how many of them led through such a round.
+    mean_platform_periods : (n,) float64 array
+        Mean number of the stator's periods from one perturbed relaunch to the next; NaN without a round.
+    """
+
+    preload_acceleration: FloatArray
+    axial_forcing: FloatArray
+    is_trap: BoolArray
+    impacts: IntArray
+    platform_periods: IntArray
+    long_flights: IntArray
+    relaunches: IntArray
+    returns: IntArray
+    mean_platform_periods: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class NearestTrap(Result):
+    """The low-period trap that is nearest to a motor.
+
+    Attributes
+    ----------
+    relative_distance : float
+        The relative change of amplitude or preload, the smaller of the two, that reaches its near edge; 0 for
+        a motor in the trap.
+    preload_acceleration, amplitude, drive_frequency : float
+        Each of these (m/s^2, m, Hz) at the near edge, if the others are kept.
+    forcing_from_to : (float, float)
+        From where to where in Gamma the trap reaches, as far as it was scanned.
+    forcing_step : float
+        Step of the scan in Gamma: traps that are narrower may have been missed.
+    impacts, platform_periods, long_flights : int
+        What the round in the middle of the trap has.
+    return_share : float
+        The share of perturbed relaunches there that return to the round, in [0, 1].
+    """
+
+    relative_distance: float
+    preload_acceleration: float
+    amplitude: float
+    drive_frequency: float
+    forcing_from_to: tuple[float, float]
+    forcing_step: float
+    impacts: int
+    platform_periods: int
+    long_flights: int
+    return_share: float
 
 
 @dataclass(frozen=True, eq=False)

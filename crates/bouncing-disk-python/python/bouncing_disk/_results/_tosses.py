@@ -247,3 +247,47 @@ class TossDesign:
     grid_points: int
     best_on_grid: float
     hidden_gain: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RotaryResponse(Result):
+    """What becomes of the spin of a disk on a periodic orbit of n impacts.
+
+    Attributes
+    ----------
+    outcome : str
+        ``"steady"``: from every spin the disk comes to the one below; ``"kept"``: the load is as large as
+        friction, and every spin repeats itself for which all impacts slide in its direction; ``"runaway"``:
+        the load exceeds friction, and no spin repeats itself.
+    multiplier : float
+        That of the spin around the orbit: 0 of a steady one, 1 of one that is kept, NaN of a runaway.
+    angular_speed : (n,) float64 array
+        A steady disk's angular speed just before each impact (rad/s); empty of all others, as are those
+        below.
+    slip : (n,) float64 array
+        That speed less the platform's (rad/s).
+    sliding : (n,) int64 array
+        The slip that an impact leaves: 1 where the disk still turns faster, -1 where slower, 0 where the slip
+        ends.
+    stick_margin : float
+        The largest margin (rad/s) by which friction ends a slip: a smaller disturbance of the spin is
+        forgotten within one period of the orbit. NaN of all but a steady one, as is the next.
+    mean_angular_speed : float
+        Mean angular speed (rad/s).
+    limit : float
+        The end of the spins that are kept (rad/s): those below it for a positive load, above it for a
+        negative one; NaN where every spin is, and of all others.
+    change : float
+        How much a runaway disk's angular speed changes in one period of the orbit in the end (rad/s), else
+        NaN.
+    """
+
+    outcome: str
+    multiplier: float
+    angular_speed: FloatArray
+    slip: FloatArray
+    sliding: IntArray
+    stick_margin: float
+    mean_angular_speed: float
+    limit: float
+    change: float
