@@ -18,7 +18,8 @@ use crate::range::Range;
 /// What stands at the end of the help.
 const AFTER: &str = "\
 All loads ride on one vertical motion: a curve costs little more than a point. Errors are standard errors. A load beyond \
-the largest torque mu m g a_e overpowers the motor, which then has no mean speed. See docs/designing-a-motor.md.
+the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \
+speed changes its sign, on a straight line between two loads; `motor stall` computes it. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor curve
