@@ -140,7 +140,7 @@ pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
         text: list(&design, &system).to_text(),
         table: write_table(&samples),
         data: vec![("design", stored(&design)?), ("motion", motion(&samples))],
-        figure: Some(Box::new(move || pictures::toss::draw(&samples))),
+        figure: Some(Box::new(move || pictures::toss::draw(&samples, None))),
     };
     report.deliver(&args.output, context.quiet)
 }

@@ -1,5 +1,6 @@
 //! `bouncing-disk toss`: a single toss, or many on end.
 
+use std::f64::consts::TAU;
 use std::rc::Rc;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -23,7 +24,8 @@ use crate::pictures;
 /// What stands at the end of the help.
 const AFTER: &str = "\
 The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
-after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers. Units are SI; energies \
+after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
+than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
 
 Examples:
@@ -213,7 +215,7 @@ fn described(system: &System, orbit: &TossOrbit) -> Quantities {
 }
 
 /// Disk and platform at an instant, in SI units.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize)]
 pub(crate) struct Sample {
     pub(crate) time_s: f64,
     pub(crate) disk_height_m: f64,
@@ -252,6 +254,7 @@ fn report(
     found: Vec<(&'static str, Data)>,
 ) -> Result<Report, Failure> {
     let samples: Rc<[Sample]> = samples.into();
+    let period = args.many.then(|| TAU / system.platform().angular_frequency());
     let mut data = found;
     data.push(("motion", motion(&samples)));
     Ok(Report {
@@ -259,7 +262,7 @@ fn report(
         text,
         table: write_table(&samples),
         data,
-        figure: Some(Box::new(move || pictures::toss::draw(&samples))),
+        figure: Some(Box::new(move || pictures::toss::draw(&samples, period))),
     })
 }
 
