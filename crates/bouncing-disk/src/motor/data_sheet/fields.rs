@@ -78,6 +78,8 @@ pub(super) const FIELDS: [Field; 17] = [
     field!(amplitude: needed, "m", Some(AMPLITUDES), &[
         Reading { meant: "an amplitude in um", factor: 1.0e-6, usual: AMPLITUDES },
         Reading { meant: "an amplitude in nm", factor: 1.0e-9, usual: AMPLITUDES },
+        // Above those of the others, which are nearer to what is meant where both fit.
+        Reading { meant: "an amplitude in mm", factor: 1.0e-3, usual: AMPLITUDES },
     ], &["A", "axial_amplitude"]),
     field!(peak_angular_speed: optional, "rad/s", Some((0.1, 1.0e3)), &[
         Reading { meant: "a speed in rpm", factor: TAU / 60.0, usual: (0.1, 1.0e3) },
@@ -97,7 +99,9 @@ pub(super) const FIELDS: [Field; 17] = [
     field!(contact_radius: needed, "m", Some(LENGTHS), MILLIMETRES, &["a_e"]),
     field!(gyration_radius: optional, "m", Some(LENGTHS), MILLIMETRES, &["a_g"]),
     field!(preload_force: optional, "N", Some(FORCES), &[
-        Reading { meant: "an acceleration in m/s^2", factor: 1.0, usual: ACCELERATIONS },
+        // Nearly all of these are usual as mN, too.
+        Reading { meant: "a force in mN, or an acceleration in m/s^2", factor: 1.0, usual: ACCELERATIONS },
+        Reading { meant: "a force in mN", factor: 1.0e-3, usual: FORCES },
     ], &["F", "N", "preload"]),
     field!(preload_acceleration: optional, "m/s^2", Some(ACCELERATIONS), &[
         Reading { meant: "a force in N", factor: 1.0, usual: FORCES },

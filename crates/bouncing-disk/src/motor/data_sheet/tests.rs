@@ -225,7 +225,7 @@ fn told(sheet: MotorParameters) -> Vec<String> {
 fn the_traps_of_units_are_told() {
     assert_eq!(told(designers()), [""; 0]);
     type Change = fn(&mut MotorParameters);
-    let traps: [(&str, Change, &str); 12] = [
+    let traps: [(&str, Change, &str); 15] = [
         ("drive_frequency", |sheet| sheet.drive_frequency = 40e3 * TAU, "an angular frequency in rad/s"),
         ("drive_frequency", |sheet| sheet.drive_frequency = 40e3 / TAU, "divided by 2 pi"),
         ("drive_frequency", |sheet| sheet.drive_frequency = 40.0, "in kHz"),
@@ -241,6 +241,9 @@ fn the_traps_of_units_are_told() {
         ("gyration_radius", |sheet| sheet.gyration_radius = Some(13.5), "in mm"),
         ("rotor_radius", |sheet| sheet.rotor_radius = Some(13.5), "in mm"),
         ("amplitude", |sheet| sheet.amplitude = 0.05, "in um"),
+        ("amplitude", |sheet| sheet.amplitude = 5e-4, "in mm"),
+        ("preload_force", |sheet| sheet.preload_force = Some(5e3), "in mN, or an acceleration"),
+        ("preload_force", |sheet| sheet.preload_force = Some(3e5), "in mN"),
         ("mass", |sheet| sheet.mass = Some(20.0), "in g"),
         ("phase_lag", |sheet| sheet.phase_lag = -30.0, "in degrees"),
         ("peak_angular_speed", |sheet| sheet.peak_angular_speed = Some(3_000.0), "in rpm"),
