@@ -84,9 +84,11 @@ export function paintGrid(pen: Pen, plot: Plot, colour: Colours): void {
 
 /** Frame, ticks inwards on all four sides, numbers and labels. */
 export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
-  const { left, top, width, height, size } = plot;
-  const right = left + width;
-  const bottom = top + height;
+  const { size } = plot;
+  // Ticks begin on the frame and not a pixel beside it.
+  const [left, right] = [crisp(plot.left), crisp(plot.left + plot.width)];
+  const [top, bottom] = [crisp(plot.top), crisp(plot.top + plot.height)];
+  const [width, height] = [right - left, bottom - top];
   const long = Math.round(size * 0.45);
   const short = Math.round(size * 0.25);
   const points: number[] = [];
@@ -104,7 +106,7 @@ export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
   for (const value of plot.yTicks.minor) tickY(value, short);
   const frame = colour("--picture-frame");
   pen.path(points, { stroke: frame, width: 1 });
-  pen.rect(crisp(left), crisp(top), Math.round(width), Math.round(height), { stroke: frame, width: 1 });
+  pen.rect(left, top, width, height, { stroke: frame, width: 1 });
   const ink = colour("--picture-text");
   for (const { value, label } of plot.xTicks.major) {
     pen.text(label, pixelX(plot, value), bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
