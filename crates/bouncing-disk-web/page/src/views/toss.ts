@@ -189,7 +189,7 @@ class TossView implements View {
         samples_per_period: SAMPLES_PER_PERIOD,
       });
       if (this.asked !== key) return;
-      this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods), same);
+      this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods, system), same);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
@@ -236,7 +236,7 @@ class TossView implements View {
     paintPathInset(pen, recording, moment, context.colour, this.scene.width);
     this.controls.show(recording.periods);
     const impacts = recording.impactsUntil(player.now * recording.period);
-    this.readings.show(moment, player.now, impacts, context.state().system, recording);
+    this.readings.show(moment, player.now, impacts, recording);
     this.showTraces(recording);
     this.portrait.show(recording, context.state().start, impacts, this.anew);
     this.anew = false;
@@ -261,7 +261,7 @@ class TossView implements View {
     this.stage = stageOf(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
     setText(
       this.gains,
-      `${describeGains(this.stage)} ${describePath(recording)} Drag the disk upwards or sideways to throw it.`,
+      `${describeGains(this.stage)} ${describePath(recording.system)} Drag the disk upwards or sideways to throw it.`,
     );
   }
 

@@ -61,7 +61,7 @@ export class Legend {
         element(
           "span",
           {},
-          "Undecided: not on any of these after the allowed number of impacts ",
+          "Undecided: not on any of these after the allowed number of impacts. ",
           ...sharesOf(undecidedShare(found, shares), percent(found.undecided)),
         ),
       ),

@@ -56,7 +56,7 @@ export function tossOffers(
       width: ONE_COLUMN,
       height: ONE_COLUMN * 0.8,
       paint(pen, colour, width, height) {
-        const { x, y } = pathAxes(recording);
+        const { x, y } = pathAxes(recording.system);
         const plot = layOut(pen, width, height, x, y, PRINT_SIZE);
         paintPath(pen, plot, recording, colour);
         paintAxes(pen, plot, colour);

@@ -3,42 +3,61 @@
 import { layOut, paintAxes, pixelX, pixelY } from "../../drawing/axes";
 import type { Axis, Plot } from "../../drawing/axes";
 import type { Colours } from "../../drawing/colours";
-import { prefixOf, quantity } from "../../drawing/numbers";
+import { plain, prefixOf, quantity } from "../../drawing/numbers";
+import { shifted } from "../../drawing/pen";
 import type { Pen } from "../../drawing/pen";
 import { linearScale, padded } from "../../drawing/scale";
-import type { Range } from "../../protocol";
+import type { SystemParameters } from "../../protocol";
 import type { Moment, Recording } from "./recording";
+
+type Platform = Pick<SystemParameters, "amplitude" | "twist_amplitude">;
 
 /** On a narrower scene the inset is a frame without numbers. */
 const NARROW = 480;
 
-export function pathAxes(recording: Recording): { x: Axis; y: Axis } {
-  const angles = recording.extent("platform_angle");
-  const heights = recording.extent("platform_height");
-  const [radian, metre] = [prefixOf(largest(angles)), prefixOf(largest(heights))];
+/** Angles from this on are told in radians and not in thousandths of them (rad). */
+const LARGE = 0.05;
+
+export function pathAxes({ amplitude, twist_amplitude }: Platform): { x: Axis; y: Axis } {
+  const radian = twist_amplitude >= LARGE ? { factor: 1, symbol: "" } : prefixOf(twist_amplitude);
+  const metre = prefixOf(amplitude);
+  const around = (size: number) => linearScale(padded([-size, size]));
   return {
-    x: { label: `angle (${radian.symbol}rad)`, scale: linearScale(padded(angles)), factor: radian.factor },
-    y: { label: `height (${metre.symbol}m)`, scale: linearScale(padded(heights)), factor: metre.factor },
+    x: { label: `angle (${radian.symbol}rad)`, scale: around(twist_amplitude), factor: radian.factor },
+    y: { label: `height (${metre.symbol}m)`, scale: around(amplitude), factor: metre.factor },
   };
 }
 
 /** In the upper right corner of the scene, with a dot where the point is now. */
-export function paintPathInset(pen: Pen, recording: Recording, now: Moment, colour: Colours, width: number): void {
+export function paintPathInset(
+  scene: Pen,
+  recording: Recording,
+  now: Moment,
+  colour: Colours,
+  width: number,
+): void {
+  const platform = recording.system;
   const narrow = width < NARROW;
-  const [wide, high] = narrow ? [84, 84] : [190, 150];
-  const { x, y } = pathAxes(recording);
-  const left = width - wide - 4;
-  const plot: Plot = narrow
-    ? { left: left + 4, top: 6, width: wide - 8, height: high - 12, x, y, xTicks: NONE, yTicks: NONE, size: 10 }
-    : moved(layOut(pen, wide, high, x, y, 11), left, 2);
-  const paper = { fill: colour("--picture-paper"), opacity: 0.8 };
-  if (narrow) pen.rect(plot.left, plot.top, plot.width, plot.height, paper);
-  else pen.rect(left, 2, wide, high, paper);
+  const [wide, high] = narrow ? [84, 84] : [200, 150];
+  const pen = shifted(scene, 2, width - wide - 2);
+  const { x, y } = pathAxes(platform);
+  const bare = { left: 4, top: 4, width: wide - 8, height: high - 8, x, y, xTicks: NONE, yTicks: NONE, size: 10 };
+  const plot = narrow ? bare : withAmplitudes(layOut(pen, wide, high, x, { ...y, widest: "−0000" }, 11), platform);
+  pen.rect(0, 0, wide, high, { fill: colour("--picture-paper"), opacity: 0.8 });
   paintPath(pen, plot, recording, colour);
   const at = [pixelX(plot, now.platform_angle), pixelY(plot, now.platform_height)] as const;
   pen.circle(at[0], at[1], 4, { fill: colour("--platform-mark"), stroke: colour("--picture-paper"), width: 1 });
   if (narrow) pen.rect(plot.left, plot.top, plot.width, plot.height, { stroke: colour("--picture-frame"), width: 1 });
   else paintAxes(pen, plot, colour);
+}
+
+/** Few numbers have room: those of the amplitudes say most. */
+function withAmplitudes(plot: Plot, { amplitude, twist_amplitude }: Platform): Plot {
+  const numbers = (size: number, factor = 1) => ({
+    major: (size > 0 ? [-size, 0, size] : [0]).map((value) => ({ value, label: plain(value * factor, 3) })),
+    minor: [],
+  });
+  return { ...plot, xTicks: numbers(twist_amplitude, plot.x.factor), yTicks: numbers(amplitude, plot.y.factor) };
 }
 
 const NONE = { major: [], minor: [] };
@@ -52,19 +71,10 @@ export function paintPath(pen: Pen, plot: Plot, recording: Recording, colour: Co
 }
 
 /** The picture in words. */
-export function describePath(recording: Recording): string {
-  const size = ([low, high]: Range, unit: string): string => quantity(high - low, unit, 2);
-  const [wide, high] = [recording.extent("platform_angle"), recording.extent("platform_height")];
+export function describePath({ amplitude, twist_amplitude }: Platform): string {
+  const wide = twist_amplitude >= LARGE ? `${plain(twist_amplitude, 3)} rad` : quantity(twist_amplitude, "rad");
   return (
     "In the corner: the path of a point of the platform, its height over its angle, " +
-    `${size(wide, "rad")} wide and ${size(high, "m")} high.`
+    `to ${wide} and ${quantity(amplitude, "m")} on both sides.`
   );
-}
-
-function moved(plot: Plot, right: number, down: number): Plot {
-  return { ...plot, left: plot.left + right, top: plot.top + down };
-}
-
-function largest([low, high]: Range): number {
-  return Math.max(Math.abs(low), Math.abs(high));
 }

@@ -2,7 +2,6 @@
 
 import { element, Facts, setText } from "../../drawing/elements";
 import { plain, quantity } from "../../drawing/numbers";
-import type { SystemParameters } from "../../protocol";
 import { ROUNDING } from "./recording";
 import type { Moment, Recording } from "./recording";
 
@@ -20,15 +19,9 @@ export class Readings {
   private readonly ledgerTitle = element("h3", {}, "Energy balance");
   readonly elements = [element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root];
 
-  show(
-    moment: Moment,
-    periods: number,
-    impacts: number,
-    system: Readonly<SystemParameters>,
-    recording: Recording,
-  ): void {
+  show(moment: Moment, periods: number, impacts: number, recording: Recording): void {
     const { facts } = this;
-    const { preload_acceleration: g, gyration_radius } = system;
+    const { preload_acceleration: g, gyration_radius } = recording.system;
     const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
     const spin = recording.settled(moment.angular_speed, "angular_speed", "platform_angular_speed");
     const velocity = recording.settled(moment.axial_velocity, "axial_velocity", "platform_velocity");

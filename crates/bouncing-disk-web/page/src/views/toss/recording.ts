@@ -1,7 +1,7 @@
 /** A motion that the library computed: states at equal times, and what happened in between. */
 
 import { EVENT_COLUMNS, MODES, MOTION_COLUMNS } from "../../protocol";
-import type { MotionJson, Response } from "../../protocol";
+import type { MotionJson, Response, SystemParameters } from "../../protocol";
 
 const WIDTH = MOTION_COLUMNS.length;
 const EVENT_WIDTH = EVENT_COLUMNS.length;
@@ -31,6 +31,8 @@ export class Recording {
     { json, numbers, bytes }: Response,
     readonly period: number,
     readonly periods: number,
+    /** What moves. */
+    readonly system: Readonly<SystemParameters>,
   ) {
     const told = json as MotionJson;
     this.count = told.samples;
