@@ -3,8 +3,8 @@
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::Phase;
 use bouncing_disk::{
-    CollisionState, DiskState, Engine, Event, EventKind, EventRecord, InitialCondition, MAX_SAMPLES, Mode,
-    PhaseSpan, PlatformState, Scales, SlipDirection, System, Trajectory,
+    CollisionState, DiskState, EnergyLedger, Engine, Event, EventKind, EventRecord, InitialCondition,
+    MAX_SAMPLES, Mode, PhaseSpan, PlatformState, Scales, SlipDirection, System,
 };
 use serde::Serialize;
 
@@ -31,6 +31,7 @@ struct EnergyJson {
     platform_work: f64,
     restitution_loss: f64,
     friction_loss: f64,
+    load_work: f64,
     stored: f64,
 }
 
@@ -52,13 +53,23 @@ pub(crate) fn answer(
     let span = PhaseSpan { periods, remainder: 0.0 };
     let end = begun.after(span);
     let snapshots = engine.clone().sample(span, samples as usize)?;
-    let mut events = 0;
-    let motion = Trajectory::record(&mut engine, |record| {
-        events += 1;
-        record.time.order(&end).is_ge() || events == MOST_EVENTS
-    })?;
-    // The event that ends the recording is mostly after the last sample.
-    let records: Vec<_> = motion.records().iter().filter(|record| record.time.order(&end).is_le()).collect();
+    let mut records = Vec::new();
+    let mut ledger = EnergyLedger::default();
+    // The event after the end, and what follows the last one where nothing more happens, are not finished then.
+    let unfinished = loop {
+        match engine.advance()? {
+            Some(record) if record.time.order(&end).is_gt() => {
+                break record.segment.ledger_after(engine.system(), end.since(&record.segment.start));
+            }
+            Some(record) => {
+                ledger += record.ledger;
+                if records.len() < MOST_EVENTS {
+                    records.push(record);
+                }
+            }
+            None => break engine.ledger_after(end.since(&engine.time())),
+        }
+    };
 
     let mut numbers = Vec::with_capacity(9 * snapshots.len() + 6 * records.len());
     let mut bytes = Vec::with_capacity(snapshots.len() + records.len());
@@ -83,7 +94,7 @@ pub(crate) fn answer(
         numbers.extend(event(&scales, record));
         bytes.push(kind(&record.event));
     }
-    let ledger = scales.energy(&records.iter().map(|record| record.ledger).sum());
+    let ledger = scales.energy(&(ledger + unfinished));
     let json = MotionJson {
         samples: snapshots.len(),
         events: records.len(),
@@ -92,6 +103,7 @@ pub(crate) fn answer(
             platform_work: ledger.normal_work + ledger.friction_work,
             restitution_loss: ledger.restitution_loss,
             friction_loss: ledger.friction_loss,
+            load_work: ledger.load_work,
             stored: ledger.axial_kinetic_change + ledger.potential_change + ledger.rotary_kinetic_change,
         },
     };

@@ -15,6 +15,9 @@ pub(crate) struct SharedAttractors(Option<Attractors>);
 struct AttractorsJson {
     attractors: Vec<AttractorJson>,
     undecided: f64,
+    /// The sample of starts that the shares are of: how many, over all phases, and the largest normalised speed among them.
+    starts: u32,
+    fastest_start: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -44,7 +47,12 @@ impl SharedAttractors {
         let found = self.of(axial_forcing, restitution)?;
         let attractors = found.all().iter().enumerate();
         let attractors = attractors.map(|(number, attractor)| told(found.label(number), attractor)).collect();
-        Reply::short(&AttractorsJson { attractors, undecided: found.undecided().value() })
+        Reply::short(&AttractorsJson {
+            attractors,
+            undecided: found.undecided().value(),
+            starts: found.search().starts(),
+            fastest_start: found.map().impact_speed_bound() / std::f64::consts::PI,
+        })
     }
 
     pub(crate) fn rows(&mut self, request: &BasinsRequest) -> Result<Reply, Refusal> {

@@ -128,6 +128,59 @@ fn a_longer_motion_begins_like_a_shorter_one() {
     }
 }
 
+/// The rotor of Fig. 9 slides through all of it, and its kinetic energy goes where its speed says.
+#[test]
+fn energy_is_balanced_in_a_contact_that_does_not_end() {
+    let rotor = with(
+        pizza(),
+        json!({
+            "amplitude": 1e-6, "twist_amplitude": 0.0, "angular_frequency": 62.83185307179586, "contact_radius": 1.25e-3,
+            "gyration_radius": 6.3e-3, "friction": 0.1, "preload_acceleration": 2.4
+        }),
+    );
+    let start = json!({ "kind": "contact", "phase": 0.0, "angular_speed": 30.0 });
+    for (periods, load) in [(20_u64, 0.0), (20, 1.0), (60, 0.0)] {
+        let mut request = motion(start.clone(), periods);
+        request["system"] = with(rotor.clone(), json!({ "load_acceleration": load }));
+        let (json, reply) = answered(&request);
+        let energy = |name: &str| json["energy"][name].as_f64().expect("a number");
+        let samples = 60 * periods as usize;
+        let last = reply.numbers()[9 * samples + 4];
+        let lost = 0.5 * 6.3e-3 * 6.3e-3 * (900.0 - last * last);
+        let (friction, work) = (energy("friction_loss"), energy("load_work"));
+        assert!((friction + work - lost).abs() < 1e-9 * lost, "{lost} of {json}");
+        assert!((work > 0.0) == (load > 0.0), "{json}");
+        let gone = energy("restitution_loss") + friction + work + energy("stored");
+        assert!((energy("platform_work") - gone).abs() < 1e-12 * lost, "{json}");
+    }
+}
+
+/// However a motion is cut off: the balance is that of the instant.
+#[test]
+fn energy_is_balanced_at_the_end_of_any_motion() {
+    for periods in 1..30 {
+        for (impact_phase, speed) in [(0.4, 1.4), (4.7, 0.0)] {
+            let start = json!({ "kind": "impact", "impact_phase": impact_phase, "normalised_speed": speed, "angular_speed": 3.0 });
+            let mut request = motion(start, periods);
+            request["system"] = with(pizza(), json!({ "amplitude": 0.06, "load_acceleration": 0.5 }));
+            let (json, reply) = answered(&request);
+            let energy = |name: &str| json["energy"][name].as_f64().expect("a number");
+            let gone =
+                energy("restitution_loss") + energy("friction_loss") + energy("load_work") + energy("stored");
+            let size = energy("platform_work").abs() + energy("restitution_loss") + energy("friction_loss");
+            assert!((energy("platform_work") - gone).abs() < 1e-12 * (1.0 + size), "{periods} {json}");
+            // The impact at the start is before it.
+            let held = |row: &[f64]| 0.5 * (row[3] * row[3] + 0.11 * 0.11 * row[4] * row[4]) + 9.8 * row[1];
+            let samples = json["samples"].as_u64().expect("a count") as usize;
+            let row = |index: usize| held(&reply.numbers()[9 * index..9 * (index + 1)]);
+            assert!(
+                (row(samples - 1) - row(0) - energy("stored")).abs() < 1e-9 * (1.0 + size),
+                "{periods} {json}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_disk_that_is_never_thrown_lies_on_the_platform() {
     let still = with(pizza(), json!({ "amplitude": 0.0 }));

@@ -64,6 +64,7 @@ function motion(request: Extract<Request, { call: "motion" }>): Answer {
   const { system, start, periods, samples_per_period } = request;
   const { amplitude, twist_amplitude, angular_frequency: omega, phase_lag } = system;
   if (start.kind === "impact") bounce(1, start);
+  if (start.kind === "flight") demand(start.gap >= 0, "gap", start.gap, "[0, inf)");
   const samples = periods * samples_per_period + 1;
   const numbers: number[] = [];
   const bytes: number[] = [];
@@ -82,7 +83,7 @@ function motion(request: Extract<Request, { call: "motion" }>): Answer {
     numbers.push((turn * index) / omega, 0.74, 4 / 3, 0, 1, amplitude);
     bytes.push(0);
   }
-  const energy = { platform_work: 1, restitution_loss: 0.6, friction_loss: 0.2, stored: 0.2 };
+  const energy = { platform_work: 1, restitution_loss: 0.6, friction_loss: 0.2, load_work: 0, stored: 0.2 };
   return { json: { samples, events: periods, event_kinds: ["impact"], energy }, numbers, bytes };
 }
 
@@ -232,6 +233,8 @@ export function answer(request: Request): Answer {
               impact: null },
           ],
           undecided: 0,
+          starts: 1024,
+          fastest_start: 3.2,
         },
       }; // prettier-ignore
     case "basins": {

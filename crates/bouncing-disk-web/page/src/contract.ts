@@ -1,11 +1,14 @@
 /** What the parts of the page have in common: the state that a link reproduces, and what a view is. */
 
-import type { ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
+import type { ImpactStart, MotionStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
 
 export type ViewName = "toss" | "diagram" | "basins" | "motor";
 
 /** What is drawn over the forcing. */
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
+
+/** A throw of the disk from the air. */
+export type Throw = Omit<Extract<MotionStart, { kind: "flight" }>, "kind">;
 
 /**
  * All that the pictures depend on. It is frozen: a change makes another one. In the hash of the address numbers stand
@@ -19,6 +22,8 @@ export interface State {
   readonly mass: number;
   /** How the motion of the first view and the orbits of the others begin. */
   readonly start: Readonly<ImpactStart & { angular_speed: number }>;
+  /** How the motion of the first view begins where the disk was thrown; another start takes its place. */
+  readonly thrown: Readonly<Throw> | null;
   /** The window of the orbit diagram: the forcing, and the quantity with the range of its axis (null: all of it). */
   readonly diagram: Readonly<{ axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean }>;
   /** The window of the basins: phases in periods and normalised speeds. */

@@ -86,7 +86,7 @@ function begin(): void {
   side.append(derived);
   const readout = new Readout(derived);
   const choose = (preset: Preset, panel: Panel): void => {
-    notes.choose(preset);
+    notes.choose(preset, panel);
     open(stateOf(panel));
   };
   const notes = new Notes(byId("note"), choose);

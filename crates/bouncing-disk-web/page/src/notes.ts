@@ -10,8 +10,17 @@ const BY_HASH = new Map<string, { preset: Preset; panel: Panel }>(
   [...PRESETS].reverse().flatMap((preset) => preset.panels.map((panel) => [toHash(stateOf(panel)), { preset, panel }])),
 );
 
+/** Whether a note still speaks of this state: the same view, with no more of the system changed than is left of it. */
+function isNear(state: State, shown: State): boolean {
+  const names = Object.keys(shown.system) as (keyof State["system"])[];
+  const changes = names.filter((name) => state.system[name] !== shown.system[name]).length;
+  return state.view === shown.view && 2 * changes <= names.length;
+}
+
 export class Notes {
   private preset: Preset | null = null;
+  /** The panel that was shown last. */
+  private panel: Panel | null = null;
 
   constructor(
     private readonly host: HTMLElement,
@@ -19,8 +28,9 @@ export class Notes {
   ) {}
 
   /** Two panels may show the same state: the one that was asked for counts. */
-  choose(preset: Preset): void {
+  choose(preset: Preset, panel: Panel): void {
     this.preset = preset;
+    this.panel = panel;
   }
 
   /** Nothing while the tour explains the same states in its own way. */
@@ -34,9 +44,12 @@ export class Notes {
     const found = this.preset && own ? { preset: this.preset, panel: own } : BY_HASH.get(hash);
     if (found !== undefined) {
       this.preset = found.preset;
+      this.panel = found.panel;
       this.draw(found.preset, found.panel);
-    } else if (this.preset !== null) {
+    } else if (this.preset !== null && this.panel !== null && isNear(state, stateOf(this.panel))) {
       this.draw(this.preset, null);
+    } else {
+      this.close();
     }
   }
 
@@ -65,6 +78,7 @@ export class Notes {
 
   close(): void {
     this.preset = null;
+    this.panel = null;
     this.host.hidden = true;
     this.host.replaceChildren();
   }

@@ -188,8 +188,15 @@ export interface MotionJson {
   samples: number;
   events: number;
   event_kinds: string[];
-  /** Energy per mass at the end (J/kg): what came in by the platform, what impacts and friction took. */
-  energy: { platform_work: number; restitution_loss: number; friction_loss: number; stored: number };
+  /** Energy per mass from the start to the end (J/kg): what came in by the platform, what impacts, friction and the load
+   * took, and what the disk has more than at the start. */
+  energy: {
+    platform_work: number;
+    restitution_loss: number;
+    friction_loss: number;
+    load_work: number;
+    stored: number;
+  };
 }
 
 export interface DiagramJson {
@@ -236,6 +243,10 @@ export interface AttractorsJson {
   }[];
   /** Share of the starts that are undecided. */
   undecided: number;
+  /** The sample that these shares are of: so many starts, evenly over all phases and the speeds up to the bound that no
+   * attractor exceeds at that phase; the largest normalised speed of that bound. */
+  starts: number;
+  fastest_start: number;
 }
 
 export interface ReportJson {

@@ -1,6 +1,6 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import type { Change, Quantity, State, ViewName } from "./contract";
+import type { Change, Quantity, State, Throw, ViewName } from "./contract";
 import type { Range, SystemParameters } from "./protocol";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
@@ -32,6 +32,7 @@ export const DEFAULT_STATE: State = frozen({
   system: DEFAULT_SYSTEM,
   mass: 0.4,
   start: { impact_phase: 0.4, normalised_speed: 1.4, angular_speed: 0 },
+  thrown: null,
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { loads: [0, 1], points: 9, rise_times: 6 },
@@ -39,21 +40,22 @@ export const DEFAULT_STATE: State = frozen({
 
 /** The same state, of which nothing can be changed. */
 export function frozen(state: State): State {
-  const { system, start, diagram, basins, motor } = state;
-  for (const part of [system, start, diagram, basins, motor]) {
+  const { system, start, thrown, diagram, basins, motor } = state;
+  for (const part of [system, start, thrown ?? {}, diagram, basins, motor]) {
     for (const value of Object.values(part) as unknown[]) if (Array.isArray(value)) Object.freeze(value);
     Object.freeze(part);
   }
   return Object.freeze(state);
 }
 
-/** A state with this change. */
+/** A state with this change. A start that is chosen takes the place of a throw. */
 export function changed(state: State, change: Change): State {
   return frozen({
     view: change.view ?? state.view,
     system: { ...state.system, ...change.system },
     mass: change.mass ?? state.mass,
     start: { ...state.start, ...change.start },
+    thrown: change.thrown !== undefined ? change.thrown : change.start === undefined ? state.thrown : null,
     diagram: { ...state.diagram, ...change.diagram },
     basins: { ...state.basins, ...change.basins },
     motor: { ...state.motor, ...change.motor },
@@ -64,9 +66,11 @@ export function changed(state: State, change: Change): State {
 export function merged(first: Change, second: Change): Change {
   const names = ["system", "start", "diagram", "basins", "motor"] as const;
   const both = names.filter((name) => first[name] !== undefined && second[name] !== undefined);
+  const replaced = second.start !== undefined && second.thrown === undefined;
   return {
     ...first,
     ...second,
+    ...(replaced ? { thrown: null } : {}),
     ...Object.fromEntries(both.map((name) => [name, { ...first[name], ...second[name] }])),
   };
 }
@@ -119,6 +123,22 @@ function range(lowest: number): (text: string) => Range {
   };
 }
 
+/** A throw that the library may still refuse, such as one that starts on the platform and goes downwards. */
+function throwOf(text: string): Throw | null {
+  if (text === "none") return null;
+  const [phase, gap, relative_velocity, angular_speed, more] = text.split(",").map(readNumber);
+  if (phase == null || gap == null || relative_velocity == null || angular_speed == null || more !== undefined || gap < 0)
+    throw new Unreadable(
+      "none, or four numbers with commas between them: phase, gap from 0 up, relative velocity, angular speed",
+    );
+  return { phase, gap, relative_velocity, angular_speed };
+}
+
+function printedThrow(thrown: Throw | null): string {
+  if (thrown === null) return "none";
+  return [thrown.phase, thrown.gap, thrown.relative_velocity, thrown.angular_speed].map(printed).join(",");
+}
+
 const printedRange = ([low, high]: Range): string => `${printed(low)},${printed(high)}`;
 
 interface Key {
@@ -148,6 +168,10 @@ const KEYS: Readonly<Record<string, Key>> = {
   angular_speed: {
     print: (state) => printed(state.start.angular_speed),
     read: (text) => ({ start: { angular_speed: number(text) } }),
+  },
+  throw: {
+    print: (state) => printedThrow(state.thrown),
+    read: (text) => ({ thrown: throwOf(text) }),
   },
   diagram_forcing: {
     print: (state) => printedRange(state.diagram.axial_forcing),
@@ -198,6 +222,8 @@ export function toHash(state: State): string {
 export function fromHash(hash: string): { state: State; problems: string[] } {
   const problems: string[] = [];
   let state = DEFAULT_STATE;
+  // The start that an address has beside a throw does not take the place of it, wherever it stands.
+  let thrown = state.thrown;
   const seen = new Set<string>();
   for (const part of hash.replace(/^#/, "").split("&")) {
     if (part === "") continue;
@@ -210,7 +236,9 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
     } else {
       seen.add(name);
       try {
-        state = changed(state, key.read(text));
+        const change = key.read(text);
+        if (change.thrown !== undefined) thrown = change.thrown;
+        else state = changed(state, change);
       } catch (error) {
         if (!(error instanceof Unreadable)) throw error;
         problems.push(
@@ -220,7 +248,7 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
       }
     }
   }
-  return { state, problems };
+  return { state: changed(state, { thrown }), problems };
 }
 
 function unescaped(text: string): string {

@@ -78,7 +78,12 @@ export class Store {
   async open(state: State, fromAddress: boolean): Promise<void> {
     let candidate = state;
     for (let tries = 0; tries < MOST_MENDINGS; tries++) {
-      const refusal = await this.refusalOf(candidate, { system: {}, start: {}, mass: candidate.mass });
+      const refusal = await this.refusalOf(candidate, {
+        system: {},
+        start: {},
+        thrown: candidate.thrown,
+        mass: candidate.mass,
+      });
       if (refusal === null) break;
       if (refusal.kind === BROKEN) {
         this.listener.refused(refusal.message);
@@ -88,7 +93,7 @@ export class Store {
       this.listener.refused(
         `The address asks for what is not possible (${refusal.message}); a default is taken instead.`,
       );
-      candidate = changed(candidate, change);
+      candidate = changed(candidate, { thrown: candidate.thrown, ...change });
     }
     this.queue = [];
     this.commit(candidate, [{ change: {}, options: { fromAddress } }]);
@@ -136,7 +141,7 @@ export class Store {
 
   /** What the library says against a state, of which this change is new; `null` where it has nothing to say. */
   private async refusalOf(state: State, change: Change): Promise<Refusal | null> {
-    const { system, mass, start } = state;
+    const { system, mass, start, thrown } = state;
     this.summary = null;
     try {
       if (change.system) {
@@ -147,6 +152,11 @@ export class Store {
         const motion = { call: "motion", system, start: { kind: "impact", ...start } } as const;
         const ask = this.client.ask("check start", { ...motion, periods: 1, samples_per_period: 2 });
         await only(ask, (refusal) => ofStart(refusal, change));
+      }
+      if (change.thrown && thrown !== null) {
+        const motion = { call: "motion", system, start: { kind: "flight", ...thrown } } as const;
+        const ask = this.client.ask("check throw", { ...motion, periods: 1, samples_per_period: 2 });
+        await only(ask, (refusal) => ({ ...refusal, quantity: "thrown" }));
       }
       if (change.mass !== undefined) {
         const ask = this.client.ask("check mass", { call: "sheet_of_system", system, mass });
@@ -183,7 +193,7 @@ function ofStart(refusal: Refusal, change: Change): Refusal | null {
 }
 
 const needsCheck = (change: Change): boolean =>
-  change.system !== undefined || change.start !== undefined || change.mass !== undefined;
+  change.system !== undefined || change.start !== undefined || change.mass !== undefined || Boolean(change.thrown);
 
 /** The change that takes a refused quantity back to its default; after some tries, all that can be refused. */
 function mended(refusal: Refusal, tries: number): Change {
@@ -192,7 +202,8 @@ function mended(refusal: Refusal, tries: number): Change {
   if (tries < MOST_MENDINGS / 2) {
     if (Object.hasOwn(system, name)) return { system: { [name]: system[name as keyof typeof system] } };
     if (Object.hasOwn(start, name)) return { start: { [name]: start[name as keyof typeof start] } };
+    if (name === "thrown") return { thrown: null };
     if (name === "mass") return { mass };
   }
-  return { system, mass, start };
+  return { system, mass, start, thrown: null };
 }

@@ -62,6 +62,28 @@ test("the note goes with its state: back, and a change of a parameter", async ()
   await context.close();
 });
 
+test("a note goes where another view or another system has come", async () => {
+  const { page, context } = await opened(browser);
+  const open = async (id) => {
+    await page.click("#presets-button");
+    await page.click(`[data-preset="${id}"]`);
+    await page.waitForSelector("#note:not([hidden])");
+    await settled(page);
+  };
+  await open("fig10");
+  await page.click("#tab-toss");
+  await page.waitForSelector("#note", { state: "hidden" });
+  await open("fig03");
+  // The motor's sheet in the same view.
+  await page.evaluate(() => {
+    location.hash =
+      "#view=toss&amplitude=1e-8&twist_amplitude=7e-5&angular_frequency=439823&phase_lag=0&contact_radius=0.00125" +
+      "&gyration_radius=0.0063&friction=0.1";
+  });
+  await page.waitForSelector("#note", { state: "hidden" });
+  await context.close();
+});
+
 test("the tour has eight steps, each a state and two or three sentences", async () => {
   const { page, context, errors } = await opened(browser);
   await page.click("#tour-button");

@@ -194,6 +194,27 @@ impl<L: RestitutionLaw> Engine<L> {
         self.segment(None).state_after(&self.system, span)
     }
 
+    /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next event does
+    /// not come before: that of a segment which is not finished, or never will be. With the ledgers of the events before it is
+    /// the balance up to any instant.
+    ///
+    /// ```
+    /// use bouncing_disk::core::{ChatterPolicy, Phase};
+    /// use bouncing_disk::{Engine, InitialCondition, PhaseSpan, System};
+    ///
+    /// // A disk that turns on a platform at rest brakes, and nothing happens before it stops.
+    /// let still = System::pizza_toss().with_platform(|hand| (hand.amplitude, hand.twist_amplitude) = (0.0, 0.0))?;
+    /// let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 20.0 };
+    /// let engine = Engine::new(still, start, ChatterPolicy::Complete)?;
+    /// let ledger = engine.ledger_after(PhaseSpan { periods: 1, remainder: 0.0 });
+    /// assert!(ledger.friction_loss > 0.0 && ledger.relative_closure() < 1e-12);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    #[must_use]
+    pub fn ledger_after(&self, span: PhaseSpan) -> EnergyLedger {
+        self.segment(None).ledger_after(&self.system, span)
+    }
+
     /// Whether the next event is the impact of a flight that starts now: just after a separation or an impact that
     /// does not end in an attachment, or at a start by launch.
     #[must_use]

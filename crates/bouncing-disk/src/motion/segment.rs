@@ -4,8 +4,10 @@ use bouncing_disk_core::{Launch, read_checked};
 
 use crate::error::{Error, not_negative};
 use crate::motion::chatter::Chatter;
+use crate::motion::energy::EnergyLedger;
+use crate::motion::friction::Friction;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::{change_in_contact, change_in_flight};
+use crate::motion::rotary_change::{change_in_contact, change_in_flight, contact_ledger, record_flight_load};
 use crate::motion::state::{DiskState, Mode, PlatformState, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -50,13 +52,7 @@ impl Segment {
         let span = span.normalised();
         let time = self.start.after(span);
         let platform = PlatformState::at(system, time.phase);
-        // Any other sequence might never end.
-        let chatters = |speed: &f64| {
-            let launch = Launch::new(self.start.phase, *speed);
-            let at = launch.ok().and_then(|launch| system.map().accumulation(launch));
-            at.is_some_and(|at| at.duration > 0.0)
-        };
-        let disk = match (self.state.mode, self.chatter_speed.filter(chatters)) {
+        let disk = match (self.state.mode, self.chatter_of(system)) {
             (Mode::Flight, None) => self.flown(system, span),
             (Mode::Flight, Some(speed)) => self.chattered(system, speed, span),
             (Mode::Sticking | Mode::Sliding(_), _) => {
@@ -77,6 +73,52 @@ impl Segment {
             }
         };
         Snapshot { time, disk, platform }
+    }
+
+    /// The energy balance from the start to `span` later, on the assumption that no event comes before: what
+    /// [`EventRecord::ledger`](crate::EventRecord) has for a whole segment, without the impact that ends it. A chatter speed
+    /// counts as in [`Self::state_after`].
+    #[must_use]
+    pub fn ledger_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> EnergyLedger {
+        let span = span.normalised();
+        let end = self.state_after(system, span);
+        let mut ledger = EnergyLedger::default();
+        match (self.state.mode, self.chatter_of(system)) {
+            (Mode::Sticking | Mode::Sliding(_), _) => {
+                let phases = (self.start.phase, end.time.phase);
+                let change =
+                    change_in_contact(system, self.state.mode, self.state.angular_speed, phases, span);
+                return contact_ledger(system, &Friction::new(system), &self.state, phases, span, &change);
+            }
+            (Mode::Flight, None) => {
+                let change = change_in_flight(system.load(), self.state.angular_speed, span.radians());
+                record_flight_load(&mut ledger, system, self.state.angular_speed, &change);
+            }
+            (Mode::Flight, Some(speed)) => {
+                let duration = span.radians();
+                let chatter =
+                    Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
+                let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
+                ledger = chatter.ledger;
+                record_flight_load(&mut ledger, system, chatter.angular_speed, &change);
+                // The platform's velocity at the last impact is that of a rounded phase.
+                ledger.record_rounding(system.peak_acceleration(), chatter.launch_velocity(system));
+            }
+        }
+        ledger.record_axial_change(
+            [self.state.axial_velocity, end.disk.axial_velocity],
+            [self.state.height, end.disk.height],
+        );
+        ledger
+    }
+
+    /// The chatter speed, where it starts a chattering sequence: any other sequence might never end.
+    fn chatter_of(&self, system: &DimensionlessSystem) -> Option<f64> {
+        self.chatter_speed.filter(|speed| {
+            let launch = Launch::new(self.start.phase, *speed);
+            let at = launch.ok().and_then(|launch| system.map().accumulation(launch));
+            at.is_some_and(|at| at.duration > 0.0)
+        })
     }
 
     fn flown(&self, system: &DimensionlessSystem, span: PhaseSpan) -> DiskState {
@@ -112,11 +154,16 @@ mod tests {
     use std::f64::consts::TAU;
 
     use bouncing_disk_core::{ChatterPolicy, Phase};
+    use proptest::prelude::*;
 
     use super::*;
     use crate::motion::engine::Engine;
     use crate::motion::initial_condition::InitialCondition;
-    use crate::parameters::dimensionless::ForcingParameters;
+    use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
+    use crate::testing;
+
+    /// What rounding leaves of a balance, relative to the sizes of what is added up.
+    const CLOSURE: f64 = 1e-12;
 
     fn system() -> DimensionlessSystem {
         ForcingParameters { axial_forcing: 0.48, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 }
@@ -173,6 +220,57 @@ mod tests {
         for speed in [f64::NAN, f64::INFINITY, -1.0, 1.0, 1e300] {
             let segment = Segment { chatter_speed: Some(speed), ..flight };
             assert_eq!(segment.state_after(&system(), span), flight.state_after(&system(), span), "{speed}");
+        }
+    }
+
+    proptest! {
+        /// In the middle of a flight, of a chatter and of contact, and from the last event on.
+        #[test]
+        fn energy_is_balanced_at_any_instant(
+            (system, start, policy) in testing::motion(), fraction in 0.0..=1.0_f64,
+        ) {
+            let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(()) };
+            for _ in 0..30 {
+                let rest = engine.ledger_after(PhaseSpan::from_radians(0.0));
+                prop_assert!(rest.relative_closure() <= CLOSURE, "{rest:?}");
+                let Ok(Some(record)) = engine.advance() else { break };
+                let span = PhaseSpan::from_radians(fraction * record.span.radians());
+                let (segment, ledger) = (record.segment, record.segment.ledger_after(&system, span));
+                prop_assert!(
+                    ledger.relative_closure() <= CLOSURE,
+                    "{:e} {segment:?} {span:?} {ledger:?}",
+                    ledger.relative_closure(),
+                );
+                // What is balanced is what the disk has then.
+                let (now, then) = (segment.state_after(&system, span).disk, segment.state);
+                let gained = 0.5 * (now.angular_speed * now.angular_speed - then.angular_speed * then.angular_speed);
+                let size = 1.0 + now.angular_speed * now.angular_speed + then.angular_speed * then.angular_speed;
+                let error = (ledger.rotary_kinetic_change - gained).abs();
+                prop_assert!(error <= 1e-9 * size.max(ledger.rotary_magnitude), "{error:e} {ledger:?}");
+            }
+        }
+    }
+
+    /// A rotor that brakes on a platform at rest: the contact never ends, and friction takes all that is lost.
+    #[test]
+    fn a_contact_without_end_loses_what_its_disk_loses() {
+        let still = DimensionlessParameters {
+            peak_acceleration: 1e-4,
+            twist_speed: 0.0,
+            phase_lag: 0.0,
+            friction: 0.1,
+            restitution: 0.5,
+            load: 0.0,
+        };
+        let system = still.build().expect("legal");
+        let start =
+            InitialCondition::Contact { phase: Phase::new(0.0).expect("finite"), angular_speed: 50.0 };
+        let engine = Engine::new(system, start, ChatterPolicy::Complete).expect("legal");
+        for periods in [1, 20, 50] {
+            let span = PhaseSpan { periods, remainder: 0.0 };
+            let (ledger, now) = (engine.ledger_after(span), engine.state_after(span).disk.angular_speed);
+            let lost = 0.5 * (50.0 - now) * (50.0 + now);
+            assert!(now < 50.0 && (ledger.friction_loss - lost).abs() < 1e-12 * lost, "{ledger:?}");
         }
     }
 }

@@ -72,11 +72,11 @@ export function inside(plot: Plot, x: number, y: number): boolean {
 export function paintGrid(pen: Pen, plot: Plot, colour: Colours): void {
   const points: number[] = [];
   for (const { value } of plot.xTicks.major) {
-    const x = crisp(pixelX(plot, value));
+    const x = placed(pen, pixelX(plot, value));
     points.push(x, plot.top, x, plot.top + plot.height, NaN, NaN);
   }
   for (const { value } of plot.yTicks.major) {
-    const y = crisp(pixelY(plot, value));
+    const y = placed(pen, pixelY(plot, value));
     points.push(plot.left, y, plot.left + plot.width, y, NaN, NaN);
   }
   pen.path(points, { stroke: colour("--picture-grid"), width: 1 });
@@ -84,18 +84,20 @@ export function paintGrid(pen: Pen, plot: Plot, colour: Colours): void {
 
 /** Frame, ticks inwards on all four sides, numbers and labels. */
 export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
-  const { left, top, width, height, size } = plot;
-  const right = left + width;
-  const bottom = top + height;
+  const { size } = plot;
+  // Ticks begin on the frame and not a pixel beside it.
+  const [left, right] = [placed(pen, plot.left), placed(pen, plot.left + plot.width)];
+  const [top, bottom] = [placed(pen, plot.top), placed(pen, plot.top + plot.height)];
+  const [width, height] = [right - left, bottom - top];
   const long = Math.round(size * 0.45);
   const short = Math.round(size * 0.25);
   const points: number[] = [];
   const tickX = (value: number, length: number) => {
-    const x = crisp(pixelX(plot, value));
+    const x = placed(pen, pixelX(plot, value));
     points.push(x, bottom, x, bottom - length, NaN, NaN, x, top, x, top + length, NaN, NaN);
   };
   const tickY = (value: number, length: number) => {
-    const y = crisp(pixelY(plot, value));
+    const y = placed(pen, pixelY(plot, value));
     points.push(left, y, left + length, y, NaN, NaN, right, y, right - length, y, NaN, NaN);
   };
   for (const tick of plot.xTicks.major) tickX(tick.value, long);
@@ -104,7 +106,7 @@ export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
   for (const value of plot.yTicks.minor) tickY(value, short);
   const frame = colour("--picture-frame");
   pen.path(points, { stroke: frame, width: 1 });
-  pen.rect(crisp(left), crisp(top), Math.round(width), Math.round(height), { stroke: frame, width: 1 });
+  pen.rect(left, top, width, height, { stroke: frame, width: 1 });
   const ink = colour("--picture-text");
   for (const { value, label } of plot.xTicks.major) {
     pen.text(label, pixelX(plot, value), bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
@@ -118,7 +120,7 @@ export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
   pen.text(plot.y.label, edge, top + height / 2, { colour: ink, size, anchor: "middle", upwards: true });
 }
 
-/** A line of one pixel fills one row of pixels if it runs through their middle. */
-function crisp(place: number): number {
-  return Math.round(place - 0.5) + 0.5;
+/** On a screen a line of one pixel fills one row of pixels if it runs through their middle. */
+function placed(pen: Pen, place: number): number {
+  return pen.printed ? place : Math.round(place - 0.5) + 0.5;
 }

@@ -11,6 +11,10 @@ export class CanvasPen implements Pen {
     private readonly weight = 1,
   ) {}
 
+  get printed(): boolean {
+    return this.family !== SCREEN_FONT;
+  }
+
   path(points: ArrayLike<number>, style: PathStyle): void {
     const { context } = this;
     context.beginPath();

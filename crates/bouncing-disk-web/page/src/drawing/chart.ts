@@ -40,6 +40,8 @@ export interface Chart {
   readonly curves: readonly Curve[];
   readonly xRange: Range;
   readonly yRange: Range;
+  /** The numbers beside the vertical axis have at least the place of this one: charts below each other are aligned. */
+  readonly widest?: string;
   readonly lines?: readonly Line[];
   readonly marks?: readonly Mark[];
   /** A grey stretch of the x axis. */

@@ -7,14 +7,20 @@ import type { Colours } from "./colours";
 import type { Pen } from "./pen";
 import { linearScale } from "./scale";
 
-/** The whole chart with its legend, in a box of `width` by `height`. */
-export function paintChart(pen: Pen, chart: Chart, colour: Colours, width: number, height: number, size: number): void {
+/** Where a chart in a box of `width` by `height` has its axes. */
+export function layOutChart(pen: Pen, chart: Chart, width: number, height: number, size: number): Plot {
   const x = { label: chart.xLabel, scale: linearScale(chart.xRange) };
   // A legend stands above the curves, not on them.
   const [low, high] = chart.yRange;
   const room = chart.curves.length > 1 ? ((1.3 * chart.curves.length + 2) * size) / height : 0;
   const y = { label: chart.yLabel, scale: linearScale([low, high + room * 1.4 * (high - low)]) };
-  const plot = layOut(pen, width, height, x, y, size);
+  const widest = chart.widest === undefined ? {} : { widest: chart.widest };
+  return layOut(pen, width, height, x, { ...y, ...widest }, size);
+}
+
+/** The whole chart with its legend, in a box of `width` by `height`. */
+export function paintChart(pen: Pen, chart: Chart, colour: Colours, width: number, height: number, size: number): void {
+  const plot = layOutChart(pen, chart, width, height, size);
   paintGrid(pen, plot, colour);
   pen.clipped(plot.left, plot.top, plot.width, plot.height, () => {
     paintExtras(pen, chart, plot, colour);

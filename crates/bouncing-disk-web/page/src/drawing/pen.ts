@@ -25,6 +25,8 @@ export interface TextStyle {
 }
 
 export interface Pen {
+  /** On paper lines stand where they belong, on a screen in the middle of pixels. */
+  readonly printed: boolean;
   /** A polyline through x, y, x, y, ...; NaN lifts the pen. */
   path(points: ArrayLike<number>, style: PathStyle): void;
   circle(x: number, y: number, radius: number, style: PathStyle): void;
@@ -75,17 +77,18 @@ export function measureRuns(text: string, size: number, family: string): number 
   return width;
 }
 
-/** The same pen with its sheet moved down: for pictures below each other. */
-export function shifted(pen: Pen, down: number): Pen {
+/** The same pen with its sheet moved down, or to the right: for pictures below each other, or in a corner. */
+export function shifted(pen: Pen, down: number, right = 0): Pen {
   const moved = (points: ArrayLike<number>) =>
-    Float64Array.from(points, (value, index) => (index % 2 === 1 ? value + down : value));
+    Float64Array.from(points, (value, index) => value + (index % 2 === 1 ? down : right));
   return {
+    printed: pen.printed,
     path: (points, style) => pen.path(moved(points), style),
-    circle: (x, y, radius, style) => pen.circle(x, y + down, radius, style),
-    rect: (x, y, width, height, style) => pen.rect(x, y + down, width, height, style),
-    text: (text, x, y, style) => pen.text(text, x, y + down, style),
+    circle: (x, y, radius, style) => pen.circle(x + right, y + down, radius, style),
+    rect: (x, y, width, height, style) => pen.rect(x + right, y + down, width, height, style),
+    text: (text, x, y, style) => pen.text(text, x + right, y + down, style),
     measure: (text, size) => pen.measure(text, size),
-    image: (source, x, y, width, height, smooth) => pen.image(source, x, y + down, width, height, smooth),
-    clipped: (x, y, width, height, draw) => pen.clipped(x, y + down, width, height, draw),
+    image: (source, x, y, width, height, smooth) => pen.image(source, x + right, y + down, width, height, smooth),
+    clipped: (x, y, width, height, draw) => pen.clipped(x + right, y + down, width, height, draw),
   };
 }

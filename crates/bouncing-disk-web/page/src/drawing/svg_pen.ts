@@ -4,6 +4,7 @@ import { parseRichText } from "./rich_text";
 
 /** Writes SVG with words as text, so that they can be edited and searched. */
 export class SvgPen implements Pen {
+  readonly printed = true;
   private readonly parts: string[] = [];
   private clips = 0;
 

@@ -2,6 +2,7 @@
 
 import "./views.css";
 
+import { Cancelled } from "../contract";
 import type { Context, Offer, State, View } from "../contract";
 import { layOut, paintAxes, pixelX, pixelY } from "../drawing/axes";
 import type { Axis, Plot } from "../drawing/axes";
@@ -17,7 +18,8 @@ import { paintStretched, WindowPicture } from "../drawing/window_picture";
 import type { AttractorsJson, Range } from "../protocol";
 import { Cells, isUndecided } from "./basins/cells";
 import { computeCells, findAttractors, gridsOf } from "./basins/computation";
-import { describe, labelsOf, Legend } from "./basins/legend";
+import { describe, labelsOf, Legend, undecidedShare } from "./basins/legend";
+import { paintTitle, printedLegend, TITLE_HEIGHT } from "./basins/print";
 import { tellFailure } from "./failures";
 import { axialForcing } from "./forcing";
 import { RoundingCaution } from "./rounding";
@@ -46,6 +48,8 @@ class BasinsView implements View {
   private asked = "";
   private mapAsked = "";
   private complete = false;
+  /** The attractors of another map are being looked for: what is seen is of the one before. */
+  private stale = false;
   private readonly compute = debounced(60, () => void this.fetch());
 
   mount(host: HTMLElement, context: Context): void {
@@ -88,7 +92,7 @@ class BasinsView implements View {
     this.context.client.cancel("basins");
     this.context.client.cancel("basins-attractors");
     if (!this.complete) this.asked = "";
-    if (this.found === null) this.mapAsked = "";
+    if (this.found === null || this.stale) this.mapAsked = "";
   }
 
   redraw(): void {
@@ -100,17 +104,21 @@ class BasinsView implements View {
   offers(): Offer[] {
     const { system, basins } = this.state();
     const cells = this.layers[this.layers.length - 1];
-    if (cells === undefined || this.found === null) return [];
-    const known = labelsOf(this.found);
+    const { found } = this;
+    // What is half done is not given away: it has the labels of some of its cells.
+    if (cells === undefined || found === null || this.stale || !this.complete) return [];
+    const known = labelsOf(found);
+    const forcing = axialForcing(system);
+    const legend = printedLegend(found, cells.shares());
     return [
       ...tableOffers({
         name: "basins",
         parameters: {
           picture: "basins",
-          axial_forcing: axialForcing(system),
+          axial_forcing: forcing,
           restitution: system.restitution,
           basins,
-          ...this.found,
+          ...found,
         },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
@@ -119,16 +127,19 @@ class BasinsView implements View {
         name: "basins",
         title: "Basins of attraction",
         width: ONE_COLUMN,
-        height: ONE_COLUMN * 0.85,
+        height: ONE_COLUMN * 0.9 + legend.height,
         paint: (pen, colour, width, height) => {
           const { x, y } = this.axes();
-          const plot = layOut(pen, width, height, x, y, PRINT_SIZE);
+          paintTitle(pen, colour, width, forcing, system.restitution);
+          const laid = layOut(pen, width, height - legend.height - TITLE_HEIGHT, x, y, PRINT_SIZE);
+          const plot = { ...laid, top: laid.top + TITLE_HEIGHT };
           cells.repaint(known, colour);
           pen.clipped(plot.left, plot.top, plot.width, plot.height, () => {
             paintStretched(pen, plot, cells.canvas, cells.window);
             this.paintMarks(pen, plot, colour, false);
           });
           paintAxes(pen, plot, colour);
+          legend.paint(pen, colour, height - legend.height);
           cells.repaint(known, this.context.colour);
         },
       }),
@@ -164,16 +175,23 @@ class BasinsView implements View {
     this.asked = key;
     this.complete = false;
     this.context.status("Computing attractors and basins", "busy");
+    const at = `Γ = ${brief(wanted.axial_forcing)} and a restitution of ${brief(wanted.restitution)}`;
+    setText(this.alternative, `The basins at ${at} are being computed.`);
     const began = performance.now();
     try {
       const map = JSON.stringify(wanted);
-      if (map !== this.mapAsked || this.found === null) {
+      if (map !== this.mapAsked || this.found === null || this.stale) {
         this.mapAsked = map;
-        this.found = null;
+        this.stale = true;
+        this.legend.dim(true);
+        this.picture.redraw();
         const found = await findAttractors(this.context, wanted);
         if (this.mapAsked !== map) return;
+        // No cell of another map stands under this legend.
+        this.clear();
         this.found = found;
-        this.legend.show(found, new Map());
+        this.legend.show(found, null);
+        this.picture.redraw();
       }
       if (this.asked !== key) return;
       await this.fill(wanted, [coarse, fine], laid.columns, key);
@@ -187,8 +205,23 @@ class BasinsView implements View {
       this.describe();
     } catch (error) {
       if (this.asked === key) this.asked = "";
+      // Nor does a picture of another map stand where there is none of this one.
+      if (!(error instanceof Cancelled)) {
+        this.clear();
+        this.mapAsked = "";
+        setText(this.alternative, `There are no basins at ${at}.`);
+        this.picture.redraw();
+      }
       tellFailure(this.context, error);
     }
+  }
+
+  private clear(): void {
+    this.stale = false;
+    this.found = null;
+    this.layers = [];
+    this.previous = null;
+    this.legend.clear();
   }
 
   private async fill(
@@ -218,6 +251,10 @@ class BasinsView implements View {
     for (const cells of [this.previous, ...this.layers]) {
       if (cells !== null) paintStretched(pen, plot, cells.canvas, cells.window);
     }
+    if (this.stale) {
+      const paper = { fill: this.context.colour("--picture-paper"), opacity: 0.75 };
+      pen.rect(plot.left, plot.top, plot.width, plot.height, paper);
+    }
     this.paintMarks(pen, plot, this.context.colour, true);
   }
 
@@ -235,7 +272,7 @@ class BasinsView implements View {
         pen.path(path, { stroke: colour("--attractor-mark"), width: 1.8 });
       }
     };
-    for (const { impact } of this.found?.attractors ?? []) {
+    for (const { impact } of (this.stale ? null : this.found)?.attractors ?? []) {
       if (impact !== null) mark(impact.impact_phase, impact.normalised_speed, false);
     }
     const { start } = this.state();
@@ -243,7 +280,7 @@ class BasinsView implements View {
   }
 
   private point(at: readonly [number, number] | null): void {
-    if (at === null || this.found === null) return;
+    if (at === null || this.found === null || this.stale) return;
     const [phase, speed] = at;
     const label = this.layers[1]?.at(phase, speed) ?? this.layers[0]?.at(phase, speed) ?? null;
     if (label === null) return;
@@ -269,11 +306,11 @@ class BasinsView implements View {
     if (this.found === null || fine === undefined) return;
     const known = labelsOf(this.found);
     const { phase_periods: x, normalised_speed: y } = fine.grid;
-    let undecided = 0;
+    const shares = fine.shares();
+    const undecided = undecidedShare(this.found, shares) ?? 0;
     const parts: string[] = [];
-    for (const [label, share] of fine.shares()) {
-      if (isUndecided(label, known)) undecided += share;
-      else parts.push(`${percent(share)} end so: ${this.nameOf(label, this.found).replace(/\.$/, "")}`);
+    for (const [label, share] of shares) {
+      if (!isUndecided(label, known)) parts.push(`${percent(share)} end so: ${this.nameOf(label, this.found).replace(/\.$/, "")}`);
     }
     setText(
       this.alternative,

@@ -2,9 +2,9 @@
 
 import "./views.css";
 
-import type { Context, Offer, State, View } from "../contract";
+import type { Context, Offer, State, Throw, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
-import { element, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
+import { button, element, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
 import { Layers } from "../drawing/layers";
 import { plain } from "../drawing/numbers";
 import type { MotionStart } from "../protocol";
@@ -15,6 +15,7 @@ import { describeMoment } from "./toss/description";
 import { attachKeys } from "./toss/keys";
 import { tossLayout } from "./toss/layout";
 import { tossOffers } from "./toss/offers";
+import { describePath, paintPathInset } from "./toss/path";
 import { Player } from "./toss/player";
 import { Portrait } from "./toss/portrait";
 import { Readings } from "./toss/readings";
@@ -24,10 +25,10 @@ import { describeGains, paintScale, paintScene, stageOf } from "./toss/scene";
 import type { Stage } from "./toss/scene";
 import { ThrowForm } from "./toss/throw_form";
 import { attachThrowing, describeThrow } from "./toss/throwing";
-import type { Throw } from "./toss/throwing";
 import { traces } from "./toss/traces";
 
-const FIRST_PERIODS = 20;
+/** The slowest rotor of Fig. 9 takes 40 periods to stop. */
+const FIRST_PERIODS = 48;
 const MOST_PERIODS = 1280;
 const SAMPLES_PER_PERIOD = 64;
 /** More of the motion is asked for when less than this share of it is still to be shown. */
@@ -44,6 +45,7 @@ class TossView implements View {
   );
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
+  private readonly thrown = element("p", { class: "remark", hidden: true });
   private readonly rounding = new RoundingCaution(
     "toss-rest",
     "once this disk has come to rest, rounding decides after how many impacts it rests again.",
@@ -59,10 +61,11 @@ class TossView implements View {
   );
   private recording: Recording | null = null;
   private stage: Stage | null = null;
-  private thrown: Throw | null = null;
   private held: { height: number; angle: number } | null = null;
   private asked = "";
-  private startShown = "";
+  private throwTold: Throw | null = null;
+  /** Whether the motion was under way when the view was left. */
+  private resumes = false;
   private mounted = false;
   private tracesDrawn = -1;
   private anew = true;
@@ -103,7 +106,7 @@ class TossView implements View {
     host.append(
       this.controls.root,
       tossLayout({
-        scene: [this.scene.root, this.gains, this.rounding.root, this.alternative],
+        scene: [this.scene.root, this.gains, this.thrown, this.rounding.root, this.alternative],
         traces: [this.heights.root, this.spins.root],
         readings: [...this.readings.elements, form.root],
         portrait: this.portrait.layers.root,
@@ -114,15 +117,16 @@ class TossView implements View {
 
   show(state: State): void {
     void this.rounding.show(this.context, state);
-    const start = JSON.stringify(state.start);
-    // Another start in the state takes the place of a throw.
-    if (start !== this.startShown) this.thrown = null;
-    this.startShown = start;
+    this.tellThrow(state.thrown);
+    // The same motion goes on where it was left, unless somebody had stopped it; another one begins anew.
+    if (this.resumes && this.asked.startsWith(this.motion())) this.player.play();
+    this.resumes = false;
     void this.fetch(FIRST_PERIODS);
     this.draw();
   }
 
   hide(): void {
+    this.resumes = this.player.playing;
     this.player.pause();
     this.context.client.cancel("toss-motion");
     if (this.recording === null) this.asked = "";
@@ -146,7 +150,13 @@ class TossView implements View {
   }
 
   private start(): MotionStart {
-    return this.thrown ?? { kind: "impact", ...this.context.state().start };
+    const { start, thrown } = this.context.state();
+    return thrown === null ? { kind: "impact", ...start } : { kind: "flight", ...thrown };
+  }
+
+  /** What tells motions apart. */
+  private motion(): string {
+    return JSON.stringify([this.context.state().system, this.start()]);
   }
 
   private period(): number {
@@ -165,11 +175,10 @@ class TossView implements View {
   private async fetch(periods: number): Promise<void> {
     const { system } = this.context.state();
     const start = this.start();
-    const motion = JSON.stringify([system, start]);
+    const motion = this.motion();
     const same = this.asked.startsWith(motion);
     const key = `${motion} ${periods}`;
     if (same && periods <= Number(this.asked.slice(motion.length))) return;
-    const first = this.recording === null;
     this.asked = key;
     try {
       const response = await this.context.client.ask("toss-motion", {
@@ -180,25 +189,26 @@ class TossView implements View {
         samples_per_period: SAMPLES_PER_PERIOD,
       });
       if (this.asked !== key) return;
-      this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods), same, first);
+      this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods, system), same);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
     }
   }
 
-  private take(recording: Recording, same: boolean, first: boolean): void {
+  private take(recording: Recording, same: boolean): void {
     this.recording = recording;
     this.tracesDrawn = -1;
     this.anew = true;
     if (!same) {
       this.player.now = 0;
       this.stage = null;
-      if (!this.thrown) this.context.status(`The motion begins with the shared impact.`);
+      const { thrown } = this.context.state();
+      this.context.status(thrown === null ? "The motion begins with the shared impact." : describeThrow(thrown));
+      // A motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
+      if (!prefersLessMotion()) this.player.play();
+      else if (!this.player.playing) this.player.now = Math.min(7, recording.periods);
     }
-    // The first motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
-    if (first && !prefersLessMotion()) this.player.play();
-    else if (!same && !this.player.playing) this.player.now = prefersLessMotion() ? Math.min(7, recording.periods) : 0;
     this.readings.balance(recording);
     this.describe();
     this.draw();
@@ -223,9 +233,10 @@ class TossView implements View {
     const pen = this.scene.data(context.colour);
     paintScene(pen, stage, moment, context.colour);
     paintScale(pen, stage, this.scene.height, context.colour);
+    paintPathInset(pen, recording, moment, context.colour, this.scene.width);
     this.controls.show(recording.periods);
     const impacts = recording.impactsUntil(player.now * recording.period);
-    this.readings.show(moment, player.now, impacts, context.state().system);
+    this.readings.show(moment, player.now, impacts, recording);
     this.showTraces(recording);
     this.portrait.show(recording, context.state().start, impacts, this.anew);
     this.anew = false;
@@ -248,7 +259,10 @@ class TossView implements View {
     const radius = Math.max(Math.SQRT2 * gyration_radius, contact_radius);
     const heights = recording.extent("height", "platform_height");
     this.stage = stageOf(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
-    setText(this.gains, `${describeGains(this.stage)} Drag the disk upwards or sideways to throw it.`);
+    setText(
+      this.gains,
+      `${describeGains(this.stage)} ${describePath(recording.system)} Drag the disk upwards or sideways to throw it.`,
+    );
   }
 
   /** Where the charts stand beside the scene, both are as high as it is. */
@@ -269,11 +283,17 @@ class TossView implements View {
   }
 
   private throwDisk(thrown: Throw): void {
-    this.thrown = thrown;
-    this.context.status(describeThrow(thrown));
     this.context.announce(describeThrow(thrown));
-    void this.fetch(FIRST_PERIODS);
-    if (!prefersLessMotion()) this.player.play();
+    this.context.change({ thrown });
+  }
+
+  /** That the disk was thrown stays to be read, with the way back to the shared impact. */
+  private tellThrow(thrown: Throw | null): void {
+    this.thrown.hidden = thrown === null;
+    if (thrown === null || thrown === this.throwTold) return;
+    this.throwTold = thrown;
+    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), { class: "quiet" });
+    this.thrown.replaceChildren(describeThrow(thrown), " ", back);
   }
 
   private choose(phasePeriods: number, speed: number): void {
@@ -289,7 +309,7 @@ class TossView implements View {
     const { recording, player } = this;
     if (moment === null || recording === null) return;
     const impacts = recording.impactsUntil(player.now * recording.period);
-    const text = describeMoment(moment, player.now, impacts);
+    const text = describeMoment(moment, player.now, impacts, recording);
     setText(this.alternative, player.playing ? "" : text);
   }
 }

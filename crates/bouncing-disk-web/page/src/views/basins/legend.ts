@@ -1,35 +1,44 @@
 /** The attractors in words, with the shares of the starts that end on them. */
 
 import { element } from "../../drawing/elements";
-import { percent } from "../../drawing/numbers";
+import { brief, grouped, percent } from "../../drawing/numbers";
 import type { AttractorsJson } from "../../protocol";
 import { categoryColour, isUndecided } from "./cells";
 
 type Attractor = AttractorsJson["attractors"][number];
 
+const HINT = "Point at a start to read where it ends.";
+
 export class Legend {
   readonly root = element("section", { class: "panel", "aria-label": "Attractors" });
   private readonly list = element("ol", { class: "attractors" });
-  private readonly pointed = element(
-    "p",
-    { class: "pointed", "aria-live": "polite" },
-    "Point at a start to read where it ends.",
-  );
+  private readonly pointed = element("p", { class: "pointed", "aria-live": "polite" }, HINT);
+  private readonly note = element("p", { class: "remark" });
 
   /** `caution` stands below the list. */
   constructor(caution: HTMLElement) {
-    const note = element(
-      "p",
-      { class: "remark" },
-      "Shares with 95 % intervals are of the library's own sample of starts; those of the window are of its cells.",
-    );
-    this.root.append(element("h3", {}, "Attractors"), this.pointed, this.list, caution, note);
+    this.root.append(element("h3", {}, "Attractors"), this.pointed, this.list, caution, this.note);
   }
 
-  show(found: AttractorsJson, shares: ReadonlyMap<number, number>): void {
-    const known = labelsOf(found);
+  /** Nothing, where no attractors are known. */
+  clear(): void {
+    this.list.replaceChildren();
+    this.note.textContent = "";
+    this.point(HINT);
+    this.dim(false);
+  }
+
+  /** Those of another map are being looked for. */
+  dim(stale: boolean): void {
+    this.root.classList.toggle("stale", stale);
+    if (stale) this.point(HINT);
+  }
+
+  /** `shares` are those of the cells of the window; null as long as they are not computed. */
+  show(found: AttractorsJson, shares: ReadonlyMap<number, number> | null): void {
+    this.dim(false);
+    this.note.textContent = describeSample(found);
     const items = found.attractors.map((attractor, index) => {
-      const inWindow = attractor.label === null ? undefined : shares.get(attractor.label);
       const item = element(
         "li",
         {},
@@ -39,14 +48,11 @@ export class Legend {
           {},
           describe(attractor, found),
           " ",
-          element("b", {}, shareOf(attractor)),
-          windowShare(inWindow),
+          ...sharesOf(windowShare(attractor, shares), sampleShare(attractor)),
         ),
       );
       return item;
     });
-    let undecided = 0;
-    for (const [label, share] of shares) if (isUndecided(label, known)) undecided += share;
     items.push(
       element(
         "li",
@@ -55,9 +61,8 @@ export class Legend {
         element(
           "span",
           {},
-          "Undecided: not on any of these after the allowed number of impacts ",
-          element("b", {}, percent(found.undecided)),
-          windowShare(shares.size === 0 ? undefined : undecided),
+          "Undecided: not on any of these after the allowed number of impacts. ",
+          ...sharesOf(undecidedShare(found, shares), percent(found.undecided)),
         ),
       ),
     );
@@ -82,10 +87,34 @@ export function describe(attractor: Attractor, found: AttractorsJson): string {
   return `${text}; it does not last, and leads to: ${target}.`;
 }
 
-function shareOf({ share, interval: [low, high] }: Attractor): string {
+/** The share of the cells of the window; null where it is not known. An attractor that has none of them has 0. */
+export function windowShare({ label }: Attractor, shares: ReadonlyMap<number, number> | null): number | null {
+  return shares === null || label === null ? null : (shares.get(label) ?? 0);
+}
+
+export function undecidedShare(found: AttractorsJson, shares: ReadonlyMap<number, number> | null): number | null {
+  if (shares === null) return null;
+  const known = labelsOf(found);
+  let undecided = 0;
+  for (const [label, share] of shares) if (isUndecided(label, known)) undecided += share;
+  return undecided;
+}
+
+function sampleShare({ share, interval: [low, high] }: Attractor): string {
   return `${percent(share)} (95 %: ${percent(low)} to ${percent(high)})`;
 }
 
-function windowShare(share: number | undefined): string {
-  return share === undefined ? "" : `; ${percent(share)} of this window`;
+/** First the share of what is seen, then that of the sample of the library. */
+function sharesOf(inWindow: number | null, inSample: string): (HTMLElement | string)[] {
+  const own = inWindow === null ? [] : [element("b", {}, percent(inWindow)), " of this window; "];
+  return [...own, `${inSample} of the sample.`];
+}
+
+/** Of which starts the shares are. */
+function describeSample({ starts, fastest_start }: AttractorsJson): string {
+  return (
+    "Shares of this window are of its cells. The sample is the library's own, whatever the window is: " +
+    `${grouped(String(starts))} starts spread evenly over all phases and all normalised speeds up to the bound that no ` +
+    `attractor exceeds at that phase (${brief(fastest_start, 3)} at most); the intervals are those of a random sample.`
+  );
 }

@@ -3,10 +3,11 @@
 import type { Offer } from "../../contract";
 import { layOut, paintAxes } from "../../drawing/axes";
 import type { Axis } from "../../drawing/axes";
-import { paintChart } from "../../drawing/chart_paint";
+import { layOutChart, paintChart } from "../../drawing/chart_paint";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, tableOffers } from "../../drawing/files";
 import { shifted } from "../../drawing/pen";
 import type { MotionStart, SystemParameters } from "../../protocol";
+import { paintPath, pathAxes } from "./path";
 import { paintImpacts } from "./portrait";
 import type { Recording } from "./recording";
 import { traces } from "./traces";
@@ -40,8 +41,25 @@ export function tossOffers(
       height: ONE_COLUMN * 1.2,
       paint(pen, colour, width, height) {
         const [heights, spins] = traces(recording, Math.max(now, Math.min(recording.periods, 8)));
-        paintChart(pen, heights, colour, width, height / 2, PRINT_SIZE);
-        paintChart(shifted(pen, height / 2), spins, colour, width, height / 2, PRINT_SIZE);
+        // One axis of time: both have the place that the longer numbers need.
+        const plots = [heights, spins].map((chart) => layOutChart(pen, chart, width, height / 2, PRINT_SIZE));
+        const numbers = plots.flatMap(({ yTicks }) => yTicks.major.map(({ label }) => label));
+        const long = (label: string) => pen.measure(label, PRINT_SIZE);
+        const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
+        paintChart(pen, { ...heights, widest }, colour, width, height / 2, PRINT_SIZE);
+        paintChart(shifted(pen, height / 2), { ...spins, widest }, colour, width, height / 2, PRINT_SIZE);
+      },
+    }),
+    ...pictureOffers({
+      name: "path of the platform",
+      title: "Path of a point of the platform: height over angle",
+      width: ONE_COLUMN,
+      height: ONE_COLUMN * 0.8,
+      paint(pen, colour, width, height) {
+        const { x, y } = pathAxes(recording.system);
+        const plot = layOut(pen, width, height, x, y, PRINT_SIZE);
+        paintPath(pen, plot, recording, colour);
+        paintAxes(pen, plot, colour);
       },
     }),
     ...pictureOffers({

@@ -1,10 +1,12 @@
 /** A motion that the library computed: states at equal times, and what happened in between. */
 
 import { EVENT_COLUMNS, MODES, MOTION_COLUMNS } from "../../protocol";
-import type { MotionJson, Response } from "../../protocol";
+import type { MotionJson, Response, SystemParameters } from "../../protocol";
 
 const WIDTH = MOTION_COLUMNS.length;
 const EVENT_WIDTH = EVENT_COLUMNS.length;
+/** A sum of some doubles is rounded by so much of the largest of them. */
+export const ROUNDING = 8 * Number.EPSILON;
 
 export type Column = (typeof MOTION_COLUMNS)[number];
 export type Moment = Record<Column, number> & { readonly mode: string };
@@ -23,11 +25,14 @@ export class Recording {
   private readonly samples: Float64Array;
   private readonly modes: Uint8Array;
   private readonly count: number;
+  private readonly extents = new Map<string, readonly [number, number]>();
 
   constructor(
     { json, numbers, bytes }: Response,
     readonly period: number,
     readonly periods: number,
+    /** What moves. */
+    readonly system: Readonly<SystemParameters>,
   ) {
     const told = json as MotionJson;
     this.count = told.samples;
@@ -66,6 +71,13 @@ export class Recording {
 
   /** Least and greatest of some columns over all of it. */
   extent(...names: Column[]): [number, number] {
+    const key = names.join();
+    const known = this.extents.get(key) ?? this.findExtent(names);
+    this.extents.set(key, known);
+    return [known[0], known[1]];
+  }
+
+  private findExtent(names: readonly Column[]): readonly [number, number] {
     let low = Infinity;
     let high = -Infinity;
     for (const name of names) {
@@ -77,6 +89,11 @@ export class Recording {
       }
     }
     return [low, high];
+  }
+
+  /** The number itself, or 0 where it is no more than what rounding leaves of the largest of these columns. */
+  settled(value: number, ...names: Column[]): number {
+    return Math.abs(value) <= ROUNDING * this.largest(names) ? 0 : value;
   }
 
   /** Impacts before this time. */
@@ -96,6 +113,11 @@ export class Recording {
     for (let row = 0; row < this.count; row += 1) {
       yield [...this.samples.subarray(row * WIDTH, (row + 1) * WIDTH), MODES[this.modes[row] ?? 0] ?? ""];
     }
+  }
+
+  private largest(names: readonly Column[]): number {
+    const [low, high] = this.extent(...names);
+    return Math.max(Math.abs(low), Math.abs(high));
   }
 
   private value(row: number, column: number): number {

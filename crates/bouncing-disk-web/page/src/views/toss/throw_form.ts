@@ -1,11 +1,11 @@
 /** Three numbers and a button: a throw without a pointer. */
 
+import type { Throw } from "../../contract";
 import { button, element } from "../../drawing/elements";
 import { quantity } from "../../drawing/numbers";
 import type { SystemParameters } from "../../protocol";
 import { typed } from "../../numbers";
 import { bounded } from "./throwing";
-import type { Throw } from "./throwing";
 
 /** Angular speeds beyond this are refused by the library. */
 const FASTEST = 1e6;
@@ -35,7 +35,6 @@ export class ThrowForm {
   /** A number that no throw can have is refused with the range of those that one can. */
   private throwIt(): void {
     const thrown: Throw = {
-      kind: "flight",
       phase: this.phase(),
       gap: this.gap.value / 1000,
       relative_velocity: this.velocity.value / 1000,

@@ -1,12 +1,11 @@
 /** Throwing the disk by dragging it. */
 
+import type { Throw } from "../../contract";
 import { quantity, plain } from "../../drawing/numbers";
 import { clamp } from "../../drawing/scale";
-import type { MotionStart, SystemParameters } from "../../protocol";
+import type { SystemParameters } from "../../protocol";
 import { diskPlace, metresOf, radiansOf } from "./scene";
 import type { Pose, Stage } from "./scene";
-
-export type Throw = Extract<MotionStart, { kind: "flight" }>;
 
 /** The longest flight that a throw may make, in periods. */
 const LONGEST_FLIGHT = 12;
@@ -75,7 +74,6 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     const { height } = heldAt(known, stage, at);
     host.start(
       bounded(host.system(), {
-        kind: "flight",
         phase: host.phase(),
         gap: height - known.pose.platform_height,
         relative_velocity: moving ? metresOf(stage, first.y - at.y) / seconds : 0,
