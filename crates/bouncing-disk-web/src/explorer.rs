@@ -47,9 +47,7 @@ impl Explorer {
             Request::MotorTransient { sheet, members, rise_times, points, seed } => {
                 motor::transient(sheet, members, rise_times, points, seed)
             }
-            Request::MotorLoads { sheet, load_torques, relative_error, seed } => {
-                motor::loads(sheet, &load_torques, relative_error, seed)
-            }
+            Request::MotorLoads(request) => motor::loads(&request),
             Request::MotorStall { sheet, relative_error, seed } => motor::stall(sheet, relative_error, seed),
             Request::SheetWrite { sheet } => motor::write(sheet),
             Request::SheetRead { text } => motor::read(&text),

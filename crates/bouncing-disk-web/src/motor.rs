@@ -1,17 +1,21 @@
 //! Motors by their data sheets.
 
 use bouncing_disk::{
-    Estimate, Motor, MotorParameters, OperatingPoint, OperatingSettings, Operation, Shortfall, Spread,
-    System, TransientSettings, ensemble,
+    Error, Estimate, FitRefusal, FitSettings, IntervalEstimate, Motor, MotorParameters, OperatingPoint,
+    OperatingSettings, Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit,
+    TransientSettings, ensemble_members, transients,
 };
 use serde::Serialize;
 
 use crate::refusal::Refusal;
 use crate::reply::Reply;
-use crate::request::SystemParameters;
+use crate::request::{LoadsRequest, SystemParameters};
 
-/// Most impacts of one answer: a second or two.
-const MOST_IMPACTS: u64 = 5_000_000;
+/// Impacts that an answer may take where the request says nothing: a second or two for most motors.
+const FEW_IMPACTS: u64 = 5_000_000;
+
+/// Most impacts that a request may allow: those of the library's default.
+const MOST_IMPACTS: u64 = 20_000_000;
 
 /// How far away a trap is told, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
@@ -33,22 +37,18 @@ struct ReportJson {
 struct TrapJson {
     preload_acceleration: f64,
     caught: bool,
-    text: String,
+    relative_distance: f64,
+    forcing_from_to: [f64; 2],
 }
 
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let report = motor.report()?;
-    let trap = motor.nearest_trap(TRAP_RANGE)?.map(|trap| {
-        let caught = trap.relative_distance == 0.0;
-        let [from, to] = trap.forcing_from_to;
-        let where_it_is = if caught {
-            "The motor is in a low-period trap".to_owned()
-        } else {
-            format!("A low-period trap is {:.3} % away", 100.0 * trap.relative_distance)
-        };
-        let text = format!("{where_it_is}: \u{393} from {from:.5} to {to:.5}");
-        TrapJson { preload_acceleration: trap.preload_acceleration, caught, text }
+    let trap = motor.nearest_trap(TRAP_RANGE)?.map(|trap| TrapJson {
+        preload_acceleration: trap.preload_acceleration,
+        caught: trap.relative_distance == 0.0,
+        relative_distance: trap.relative_distance,
+        forcing_from_to: trap.forcing_from_to,
     });
     Reply::short(&ReportJson {
         axial_forcing: report.axial_forcing,
@@ -66,9 +66,16 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
 #[derive(Debug, Serialize)]
 struct TransientJson {
     points: usize,
-    steady_speed: Option<f64>,
-    steady_speed_error: Option<f64>,
-    time_constant: Option<f64>,
+    rise: Option<RiseJson>,
+    refusal: Option<&'static str>,
+}
+
+/// The form that fits the run-up best.
+#[derive(Debug, Serialize)]
+struct RiseJson {
+    form: RiseForm,
+    constant: IntervalEstimate,
+    residual: f64,
 }
 
 pub(crate) fn transient(
@@ -81,22 +88,43 @@ pub(crate) fn transient(
     let system = *sheet.build()?.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals: points, seed, ..TransientSettings::default() };
-    let runs = ensemble(&system, &settings, members)?;
-    let times = runs.curves.first().map_or(&[][..], |curve| &curve.times);
+    let runs = ensemble_members(&system, &settings, members)?;
+    let curves = transients(&runs).into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
+    let times = curves.first().map_or(&[][..], |curve| &curve.times);
     let mut numbers = Vec::with_capacity(3 * times.len());
     for (place, time) in times.iter().enumerate() {
-        let speeds: Vec<f64> = runs.curves.iter().map(|curve| curve.speeds[place]).collect();
+        let speeds: Vec<f64> = curves.iter().map(|curve| curve.speeds[place]).collect();
         let speed = Spread::of(&speeds)?;
         numbers.extend([*time, speed.mean, speed.standard_error]);
     }
-    let finite = |number: f64| Some(number).filter(|number| number.is_finite());
-    let json = TransientJson {
-        points: times.len(),
-        steady_speed: finite(runs.steady_speed.mean),
-        steady_speed_error: finite(runs.steady_speed.standard_error),
-        time_constant: finite(runs.time_constant.mean),
+    let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
+        Ok(fit) => (Some(rise_of(&fit)), None),
+        Err(Error::FitRefused { reason }) => (None, Some(refused_since(&reason))),
+        Err(error) => return Err(error.into()),
     };
-    Reply::new(&json, numbers, Vec::new())
+    Reply::new(&TransientJson { points: times.len(), rise, refusal }, numbers, Vec::new())
+}
+
+fn rise_of(fit: &TransientFit) -> RiseJson {
+    let ramp = fit.ramp.as_ref().filter(|_| fit.form == RiseForm::Ramp);
+    let rise = ramp.unwrap_or(&fit.exponential);
+    RiseJson { form: fit.form, constant: rise.constant, residual: rise.residual }
+}
+
+/// Why a run-up has no time constant, for readers: what the library says has its numbers to the last digit.
+const fn refused_since(reason: &FitRefusal) -> &'static str {
+    match reason {
+        FitRefusal::NoRise => "the speed stays zero",
+        FitRefusal::AtSearchLimit { .. } => "the speed is a straight line, or constant",
+        FitRefusal::TooShort { .. } => "the run-up ends before its speed has settled",
+        FitRefusal::TooFewPoints { .. } | FitRefusal::TooCoarse { .. } => {
+            "too few of its points lie where the speed rises"
+        }
+        FitRefusal::TooFewMembers { .. } => "too few motors were run",
+        FitRefusal::TooFewFlights { .. } => "the rotor hardly flies while its speed rises",
+        FitRefusal::Residual { .. } => "the run-up has another form, or scatters too much",
+        _ => "the run-up does not determine one",
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -104,13 +132,10 @@ struct OperationsJson {
     shortfalls: Vec<Option<String>>,
 }
 
-pub(crate) fn loads(
-    sheet: MotorParameters,
-    load_torques: &[f64],
-    relative_error: f64,
-    seed: u64,
-) -> Result<Reply, Refusal> {
-    let operations = sheet.build()?.torque_speed_curve(load_torques, &settings(relative_error, seed))?;
+pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
+    let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
+    let settings = settings(*relative_error, *most_impacts, *seed)?;
+    let operations = sheet.build()?.torque_speed_curve(load_torques, &settings)?;
     let mut numbers = Vec::with_capacity(10 * operations.len());
     let mut shortfalls = Vec::with_capacity(operations.len());
     for operation in &operations {
@@ -121,8 +146,12 @@ pub(crate) fn loads(
     Reply::new(&OperationsJson { shortfalls }, numbers, Vec::new())
 }
 
-fn settings(relative_error: f64, seed: u64) -> OperatingSettings {
-    OperatingSettings { relative_error, seed, most_impacts: MOST_IMPACTS, ..OperatingSettings::default() }
+fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result<OperatingSettings, Refusal> {
+    let most_impacts = most_impacts.unwrap_or(FEW_IMPACTS);
+    if most_impacts > MOST_IMPACTS {
+        return Err(Refusal::out_of_range("most_impacts", most_impacts as f64, "[1, 20000000]"));
+    }
+    Ok(OperatingSettings { relative_error, seed, most_impacts, ..OperatingSettings::default() })
 }
 
 /// A row of a curve, and what it lacks.
@@ -130,10 +159,14 @@ fn told(operation: &Operation) -> ([f64; 10], Option<String>) {
     match operation {
         Operation::Steady(point) => (row(point, 0.0), None),
         Operation::Unsettled(point, shortfall) => (row(point, 1.0), Some(lacking(shortfall))),
-        Operation::Runaway { load_torque, .. } => {
+        Operation::Runaway { load_torque, largest_torque, acceleration } => {
             let mut numbers = [f64::NAN; 10];
             (numbers[0], numbers[9]) = (*load_torque, 2.0);
-            (numbers, Some("the load drives the rotor".to_owned()))
+            let text = format!(
+                "the load drives the rotor: friction holds {largest_torque:.3e} N m at most, and the rest of the load \
+                 accelerates the rotor by {acceleration:.3e} rad/s^2"
+            );
+            (numbers, Some(text))
         }
         _ => ([f64::NAN; 10], Some("unknown".to_owned())),
     }
@@ -173,22 +206,33 @@ fn lacking(shortfall: &Shortfall) -> String {
 
 #[derive(Debug, Serialize)]
 struct StallJson {
-    torque: f64,
-    torque_error: f64,
-    bracket: [f64; 2],
+    torque: Option<f64>,
+    torque_error: Option<f64>,
+    bracket: Option<[f64; 2]>,
     no_load_speed: f64,
-    no_load_speed_error: f64,
+    no_load_speed_error: Option<f64>,
 }
 
+/// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
-    let stall = sheet.build()?.stall_load(&settings(relative_error, seed))?;
-    Reply::short(&StallJson {
-        torque: stall.torque.value,
-        torque_error: stall.torque.standard_error,
-        bracket: stall.bracket,
-        no_load_speed: stall.no_load_speed.value,
-        no_load_speed_error: stall.no_load_speed.standard_error,
-    })
+    let json = match sheet.build()?.stall_load(&settings(relative_error, None, seed)?) {
+        Ok(stall) => StallJson {
+            torque: Some(stall.torque.value),
+            torque_error: Some(stall.torque.standard_error),
+            bracket: Some(stall.bracket),
+            no_load_speed: stall.no_load_speed.value,
+            no_load_speed_error: Some(stall.no_load_speed.standard_error),
+        },
+        Err(Error::DoesNotTurn { speed, standard_error }) => StallJson {
+            torque: None,
+            torque_error: None,
+            bracket: None,
+            no_load_speed: speed,
+            no_load_speed_error: Some(standard_error).filter(|error| error.is_finite()),
+        },
+        Err(error) => return Err(error.into()),
+    };
+    Reply::short(&json)
 }
 
 #[derive(Debug, Serialize)]

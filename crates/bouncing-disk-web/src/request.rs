@@ -104,7 +104,7 @@ pub(crate) enum Request {
     Basins(BasinsRequest),
     MotorReport { sheet: MotorParameters },
     MotorTransient { sheet: MotorParameters, members: usize, rise_times: f64, points: usize, seed: u64 },
-    MotorLoads { sheet: MotorParameters, load_torques: Vec<f64>, relative_error: f64, seed: u64 },
+    MotorLoads(LoadsRequest),
     MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
     SheetWrite { sheet: MotorParameters },
     SheetRead { text: String },
@@ -138,6 +138,19 @@ pub(crate) struct BasinsRequest {
     pub(crate) normalised_speed: [f64; 2],
     pub(crate) speeds: usize,
     pub(crate) rows: [usize; 2],
+}
+
+/// The steady operation of a motor under loads.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LoadsRequest {
+    pub(crate) sheet: MotorParameters,
+    pub(crate) load_torques: Vec<f64>,
+    pub(crate) relative_error: f64,
+    /// Most impacts that the answer may take.
+    #[serde(default)]
+    pub(crate) most_impacts: Option<u64>,
+    pub(crate) seed: u64,
 }
 
 /// The map of a forcing.

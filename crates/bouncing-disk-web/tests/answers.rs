@@ -331,11 +331,72 @@ fn a_motor_is_that_of_its_sheet() {
     assert!(json["shortfalls"][2].is_string() && reply.numbers()[1] > reply.numbers()[11]);
     let run = json!({ "call": "motor_transient", "sheet": sheet(), "members": 4, "rise_times": 3.0, "points": 20, "seed": 1 });
     assert_eq!(answered(&run).1.numbers().len(), 60);
+    refused(&with(request, json!({ "most_impacts": 30_000_000 })));
     for (name, value) in [("members", json!(0)), ("points", json!(1)), ("rise_times", json!(-1.0))] {
         refused(&with(run.clone(), json!({ name: value })));
     }
     let both = with(sheet(), json!({ "twist_amplitude": 1e-4 }));
     refused(&json!({ "call": "motor_report", "sheet": both }));
+}
+
+/// A number of an answer, which must have it.
+fn number(json: &Value, name: &str) -> f64 {
+    json[name].as_f64().unwrap_or_else(|| panic!("{name} of {json}"))
+}
+
+#[test]
+fn the_form_of_a_run_up_is_said_and_one_without_a_time_constant_is_told_as_such() {
+    let run = |changes: Value, rise_times: f64| {
+        let sheet = with(sheet(), changes);
+        let request = json!({
+            "call": "motor_transient", "sheet": sheet, "members": 8, "rise_times": rise_times, "points": 120, "seed": 1
+        });
+        answered(&request).0
+    };
+    let usual = run(json!({}), 6.0);
+    let (rise, constant) = (&usual["rise"], &usual["rise"]["constant"]);
+    assert_eq!((&rise["form"], &usual["refusal"]), (&json!("exponential"), &Value::Null));
+    let interval = [number(constant, "low"), number(constant, "value"), number(constant, "high")];
+    assert!(interval.is_sorted() && interval[0] < interval[2] && number(rise, "residual") > 0.0, "{rise}");
+    // A plastic rotor repeats the same impulses, and speeds up on a straight line.
+    assert_eq!(run(json!({ "restitution": 0.0 }), 6.0)["rise"]["form"], "ramp");
+    // Under more than friction can hold, and as long as the speed rises, no form is that of the run-up.
+    for none in [run(json!({ "load_torque": 2e-6 }), 6.0), run(json!({}), 0.5)] {
+        assert!(none["rise"].is_null() && none["refusal"].is_string(), "{none}");
+    }
+}
+
+#[test]
+fn a_motor_that_does_not_turn_has_no_stall_load_and_one_that_runs_away_no_speed() {
+    let plain = json!({ "call": "motor_stall", "sheet": sheet(), "relative_error": 0.1, "seed": 1 });
+    let (stall, _) = answered(&plain);
+    assert!(number(&stall, "torque") > 0.0 && number(&stall, "no_load_speed") > 0.0);
+    // Without any twist of the stator.
+    let (none, _) =
+        answered(&with(plain, json!({ "sheet": with(sheet(), json!({ "peak_angular_speed": 0.0 })) })));
+    assert!(none["torque"].is_null() && none["bracket"].is_null(), "{none}");
+    assert!(number(&none, "no_load_speed").abs() < 1e-9);
+    let away = json!({
+        "call": "motor_loads", "sheet": sheet(), "load_torques": [2e-6], "relative_error": 0.2, "seed": 1
+    });
+    let text = answered(&away).0["shortfalls"][0].as_str().expect("a text").to_owned();
+    assert!(text.starts_with("the load drives the rotor: friction holds 1.225e-6 N m at most"), "{text}");
+}
+
+#[test]
+fn a_trap_is_told_by_its_numbers() {
+    let trap = |changes: Value| {
+        let request = json!({ "call": "motor_report", "sheet": with(sheet(), changes) });
+        answered(&request).0["trap"].clone()
+    };
+    let caught = trap(json!({ "amplitude": 1e-9 }));
+    assert_eq!((&caught["caught"], number(&caught, "relative_distance")), (&json!(true), 0.0));
+    let range = &caught["forcing_from_to"];
+    assert!(
+        range[0].as_f64() < Some(std::f64::consts::TAU) && range[1].as_f64() > Some(std::f64::consts::TAU)
+    );
+    let near = trap(json!({ "preload_acceleration": 9.7973 }));
+    assert!(near["caught"] == false && number(&near, "relative_distance") != 0.0, "{near}");
 }
 
 #[test]

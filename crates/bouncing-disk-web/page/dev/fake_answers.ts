@@ -146,7 +146,8 @@ function motorAnswer(request: Request): Answer {
         21 * (1 - Math.exp(-index / 20)),
         0.2,
       ]);
-      const json = { points: request.points, steady_speed: 21, steady_speed_error: 0.1, time_constant: 0.8 };
+      const rise = { form: "exponential", constant: { value: 0.8, low: 0.7, high: 0.9 }, residual: 0.2 };
+      const json = { points: request.points, rise, refusal: null };
       return { json, numbers: numbers.flat() };
     }
     case "motor_loads": {

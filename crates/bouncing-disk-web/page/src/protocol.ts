@@ -112,7 +112,15 @@ export type Request =
   /** Run-ups of `members` motors: `TransientJson`; numbers: `points` rows of `TRANSIENT_COLUMNS`. */
   | { call: "motor_transient"; sheet: MotorSheet; members: number; rise_times: number; points: number; seed: number }
   /** Steady operation under loads (N m): `OperationsJson`; numbers: a row of `OPERATION_COLUMNS` for each. */
-  | { call: "motor_loads"; sheet: MotorSheet; load_torques: number[]; relative_error: number; seed: number }
+  | {
+      call: "motor_loads";
+      sheet: MotorSheet;
+      load_torques: number[];
+      relative_error: number;
+      /** Most impacts that the answer may take, up to 20 million; 5 million where nothing is said. */
+      most_impacts?: number;
+      seed: number;
+    }
   /** The load that stops the motor: `StallJson`. */
   | { call: "motor_stall"; sheet: MotorSheet; relative_error: number; seed: number }
   /** A data sheet as the command line and Python read it: `{ text }`. */
@@ -263,14 +271,32 @@ export interface ReportJson {
   mass: number;
   /** The nearest preload acceleration (m/s^2) at which the motor may be caught in a motion of few impacts; null if
    * there is none. `caught` says whether the sheet's own motion is one. */
-  trap: { preload_acceleration: number; caught: boolean; text: string } | null;
+  trap: TrapJson | null;
+}
+
+export interface TrapJson {
+  preload_acceleration: number;
+  caught: boolean;
+  /** The relative change of the preload or the amplitude that reaches it; zero where the motor is caught. */
+  relative_distance: number;
+  /** From where to where in the forcing it reaches. */
+  forcing_from_to: Range;
+}
+
+/** A number with its 95 % interval. */
+export interface IntervalJson {
+  value: number;
+  low: number;
+  high: number;
 }
 
 export interface TransientJson {
   points: number;
-  steady_speed: number | null;
-  steady_speed_error: number | null;
-  time_constant: number | null;
+  /** The form that fits the run-up best, an exponential or a straight rise to a constant: its time constant, or the
+   * time at which the straight rise ends (s), and the root mean square of what it misses (rad/s). */
+  rise: { form: "exponential" | "ramp"; constant: IntervalJson; residual: number } | null;
+  /** Why there is none, where there is none. */
+  refusal: string | null;
 }
 
 export interface OperationsJson {
@@ -278,11 +304,12 @@ export interface OperationsJson {
 }
 
 export interface StallJson {
-  torque: number;
-  torque_error: number;
-  bracket: Range;
+  /** Null, as its error and its bracket are, for a motor that does not turn without a load. */
+  torque: number | null;
+  torque_error: number | null;
+  bracket: Range | null;
   no_load_speed: number;
-  no_load_speed_error: number;
+  no_load_speed_error: number | null;
 }
 
 export interface Response {

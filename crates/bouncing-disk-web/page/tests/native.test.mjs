@@ -112,17 +112,17 @@ const MISSING = {
       ...verdict(system, of),
     ];
   },
-  motor({ system, mass, motor }, of, all) {
+  motor({ system, mass }, of, all) {
     const read = of("sheet_of_system").find((one) => same([one.system, one.mass], [system, mass]));
     if (read === undefined) return ["the sheet"];
     const asked = (call) => of(call).filter((one) => same(one.sheet, read.answered.sheet));
     const loads = asked("motor_loads").length;
-    const wanted = all ? 2 * motor.points : 1;
+    const wanted = all ? 2 : 1;
     return [
       ...["sheet_write", "motor_report", "motor_transient", ...(all ? ["motor_stall"] : [])].filter(
         (call) => asked(call).length === 0,
       ),
-      loads < wanted && `${loads} of ${wanted} loads`,
+      loads < wanted && `${loads} of ${wanted} curves`,
     ];
   },
 };

@@ -176,6 +176,21 @@ test("Fig. 10: (a) is caught, the others are not", options, async () => {
   assert.deepEqual([await caught("(a)"), await caught("(b)"), await caught("(c)")], [true, false, false]);
 });
 
+test("Fig. 10: (a) does not rise on a straight line, and stops abruptly", options, async () => {
+  const { state, says } = preset("fig10");
+  const [sheet, points] = [await sheetOf(state("(a)")), 160];
+  const request = { call: "motor_transient", sheet, members: 4, rise_times: 6, points, seed: 1 };
+  const { numbers } = await ask(request);
+  const at = (row) => ({ time: numbers[3 * row], speed: numbers[3 * row + 1] });
+  const slope = (from, to) => (at(to).speed - at(from).speed) / (at(to).time - at(from).time);
+  const last = at(points - 1).speed;
+  let kink = 0;
+  while (at(kink).speed < 0.99 * last) kink += 1;
+  says(`from ${slope(0, 8).toFixed(0)} to ${slope(kink - 8, kink).toFixed(0)} rad/s²`);
+  says(`stays at ${last.toFixed(1)} rad/s`);
+  assert.ok(Math.abs(slope(kink + 8, kink + 16)) < 0.1, "it stays there at once");
+});
+
 test("Fig. 11: the torque follows the preload, the speed does not", options, async () => {
   const { state, says } = preset("fig11");
   const ratios = [];
@@ -194,7 +209,7 @@ test("Fig. 12: the printed amplitude is not caught, but a trap is near", options
   const { trap } = await report(state("(d)"));
   const preload = state("(d)").system.preload_acceleration;
   assert.equal(trap.caught, false);
-  assert.ok(Math.abs(trap.preload_acceleration / preload - 1) < 1e-3, trap.text);
+  assert.ok(Math.abs(trap.preload_acceleration / preload - 1) < 1e-3, JSON.stringify(trap));
 });
 
 test("Fig. 13: what moves the torque and what the speed", options, async () => {

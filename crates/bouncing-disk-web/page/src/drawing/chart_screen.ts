@@ -27,14 +27,19 @@ export class ScreenChart {
   private made = "";
   private chart: Chart | null = null;
 
+  /** Stands in the place of a picture that is not there yet, or that there is none of. */
+  private readonly word = element("p", { class: "chart-word", hidden: true });
+
   constructor(private readonly height: () => number) {
-    this.root.append(this.stage, this.caption, this.reading);
+    this.root.append(this.word, this.stage, this.caption, this.reading);
     this.stage.addEventListener("keydown", (event) => this.key(event));
   }
 
   /** Shows a chart. The same kinds of curves are only filled anew, which is quick. */
   show(chart: Chart, colour: Colours, alternative?: string): void {
     this.chart = chart;
+    this.word.hidden = true;
+    this.stage.hidden = false;
     this.stage.setAttribute("aria-label", `Chart: ${chart.title}. ${alternative ?? ""} ${KEYS}`);
     if (alternative !== undefined) setText(this.caption, alternative);
     const width = Math.floor(this.root.clientWidth);
@@ -52,6 +57,19 @@ export class ScreenChart {
       if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({ width, height });
       this.plot.setData(columns(chart), true);
     }
+  }
+
+  /** Shows a word in place of a chart, whose values are those of something else by now. */
+  showWord(word: string): void {
+    // The page does not jump while the next chart is computed.
+    this.word.style.minHeight = `${this.stage.offsetHeight || this.word.offsetHeight || this.height()}px`;
+    this.destroy();
+    this.chart = null;
+    this.stage.hidden = true;
+    this.word.hidden = false;
+    setText(this.word, word);
+    setText(this.caption, "");
+    setText(this.reading, "");
   }
 
   /** The cursor of the keyboard goes from value to value. */

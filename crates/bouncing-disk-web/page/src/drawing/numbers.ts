@@ -40,6 +40,8 @@ export function withError(value: number | null, error: number | null, factor = 1
   if (error === null || !Number.isFinite(error) || error <= 0) return plain(value * factor);
   const scaled = error * factor;
   const decimals = Math.max(0, 1 - Math.floor(Math.log10(scaled)));
+  // What the error hides altogether has neither digits nor a sign.
+  if (Math.abs(value * factor) < 0.5 * 10 ** -decimals) return `0 ± ${plain(scaled, 2)}`;
   if (decimals > 8) {
     const power = Math.floor(Math.log10(Math.max(Math.abs(value * factor), scaled)));
     const by = 10 ** power;
@@ -48,6 +50,14 @@ export function withError(value: number | null, error: number | null, factor = 1
     return `(${lead} ± ${(scaled / by).toFixed(places)}) × 10${superscript(power)}`;
   }
   return `${minus(grouped((value * factor).toFixed(decimals)))} ± ${grouped(scaled.toFixed(decimals))}`;
+}
+
+/** Two numbers with as many digits as it takes to tell them apart, and `least` decimals anyhow. */
+export function toldApart(one: number, other: number, least = 2): [string, string] {
+  const apart = Math.abs(one - other);
+  const decimals = apart > 0 ? Math.max(least, 1 - Math.floor(Math.log10(apart))) : least;
+  const text = (value: number) => minus(grouped(value.toFixed(Math.min(decimals, 20))));
+  return [text(one), text(other)];
 }
 
 export function percent(share: number, decimals = 1): string {

@@ -56,9 +56,9 @@ export const MOTOR_FIGURES: readonly Preset[] = [
     title: "Run-up of the motor",
     text:
       "Impacts drag the rotor along to its steady speed, nearly exponentially, and more roughly where a larger " +
-      "amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², is caught in a short cycle " +
-      "and rises on a straight line. The measured runs (d) to (f) are not in the paper's text, so they are not " +
-      "here either.",
+      "amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², is caught in a short cycle: its " +
+      "rise bends from 12 to 5 rad/s² and then breaks off, after which the speed stays at 16.6 rad/s. The measured " +
+      "runs (d) to (f) are not in the paper's text, so they are not here either.",
     opens: 1,
     panels: [
       motor("(a) A = 1 nm", { amplitude: 1e-9 }),

@@ -7,18 +7,22 @@ import type { Context, Offer, State, View } from "../contract";
 import { ScreenChart } from "../drawing/chart_screen";
 import type { Chart } from "../drawing/chart";
 import { debounced, element, oncePerFrame, setText } from "../drawing/elements";
-import { withError } from "../drawing/numbers";
 import { clamp } from "../drawing/scale";
 import type { MotorSheet, Range, ReportJson, StallJson } from "../protocol";
 import { tellFailure } from "./failures";
 import { loadCharts, transientChart } from "./motor/charts";
-import { ERRORS, MEMBERS, operate, reportOf, sheetOf, stallOf, transientOf } from "./motor/computation";
-import type { Operation, Transient } from "./motor/computation";
+import { MEMBERS, operate, PASSES, reportOf, sheetOf, stallOf, transientOf } from "./motor/computation";
+import type { Operation, Pass, Transient } from "./motor/computation";
 import { motorOffers } from "./motor/offers";
 import { ReportPanel } from "./motor/report_panel";
 import { SheetPanel } from "./motor/sheet_panel";
 import type { Imported } from "./motor/sheet_panel";
-import { describeCurves } from "./motor/words";
+import { describeCurves, describeRunUp, whyNothingTurns } from "./motor/words";
+
+const REMARK =
+  `Bands are two standard errors wide on either side; run-ups are means of ${MEMBERS} motors. ` +
+  "A hollow circle is a load under which the motion has not settled: its numbers are the best so far. " +
+  "A cross is a load that drives the rotor.";
 
 const SLOTS = ["motor-report", "motor-transient", "motor-loads", "motor-stall"] as const;
 
@@ -39,10 +43,16 @@ class MotorView implements View {
   private text = "";
   private report: ReportJson | null = null;
   private transient: Transient | null = null;
-  private operations: Operation[] = [];
+  private operations: readonly Operation[] = [];
+  /** The operation under the load of the sheet. */
+  private own: Operation | null = null;
+  /** Why there is no run-up, and no curve, where they cannot be computed. */
+  private problems: { runUp?: string; curve?: string } = {};
   private loads: Range = [0, 1];
   private stall: StallJson | null = null;
   private imported: Imported | null = null;
+  /** The state that is shown, and the one that is computed or was: "" if none is. */
+  private shown = "";
   private asked = "";
   private complete = false;
   private readonly compute = debounced(150, () => void this.fetch());
@@ -74,15 +84,16 @@ class MotorView implements View {
         element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
       ),
     );
-    setText(
-      this.remark,
-      `Bands are two standard errors wide on either side; run-ups are means of ${MEMBERS} motors. ` +
-        "A hollow circle is a load under which the motion has not settled: its numbers are the best so far. " +
-        "A cross is a load that drives the rotor.",
-    );
+    setText(this.remark, REMARK);
   }
 
   show(): void {
+    const key = keyOf(this.context.state());
+    // What is known of one motor never stands under another one, however long that one takes.
+    if (key !== this.shown) {
+      this.shown = key;
+      this.forget();
+    }
     this.compute();
     this.draw();
   }
@@ -98,9 +109,9 @@ class MotorView implements View {
   }
 
   offers(): Offer[] {
-    const { sheet, text, transient, operations } = this;
+    const { sheet, text, transient, operations, own } = this;
     if (sheet === null || text === "") return [];
-    const runUp = transient === null ? null : transientChart(transient);
+    const runUp = transient === null ? null : transientChart(transient, own);
     return motorOffers({ sheet, text, transient, operations, runUp, curves: this.curves() });
   }
 
@@ -109,13 +120,29 @@ class MotorView implements View {
     return loadCharts(this.operations, this.loads, this.report.largest_torque, this.stall);
   }
 
+  private forget(): void {
+    for (const slot of SLOTS) this.context.client.cancel(slot);
+    this.asked = "";
+    this.complete = false;
+    this.sheet = null;
+    this.text = "";
+    this.report = null;
+    this.transient = null;
+    this.operations = [];
+    this.own = null;
+    this.stall = null;
+    this.problems = {};
+    this.sheetPanel.show("");
+    this.reportPanel.clear();
+  }
+
   private async fetch(): Promise<void> {
     const state = this.context.state();
-    const key = JSON.stringify([state.system, state.mass, state.motor]);
+    const key = keyOf(state);
     if (key === this.asked) return;
+    this.forget();
+    this.draw();
     this.asked = key;
-    this.complete = false;
-    for (const slot of SLOTS) this.context.client.cancel(slot);
     try {
       await this.computeAll(state, key);
     } catch (error) {
@@ -137,21 +164,26 @@ class MotorView implements View {
     const report = await reportOf(context, sheet);
     if (!present()) return;
     this.report = report;
-    this.transient = null;
-    this.operations = [];
-    this.stall = null;
     this.reportPanel.report(report);
-    if (!this.turns) {
+    this.draw();
+    const still = whyNothingTurns(report);
+    if (still !== null) {
       this.complete = true;
-      this.draw();
-      context.status("Without friction nothing turns the rotor: there is no run-up, and no curve.");
+      this.reportPanel.still();
+      context.status(still);
       return;
     }
     context.status("Computing the run-up", "busy");
-    const transient = await transientOf(context, sheet, state.motor.rise_times);
-    if (!present()) return;
-    this.transient = transient;
-    this.reportPanel.transient(transient.json);
+    try {
+      const transient = await transientOf(context, sheet, state.motor.rise_times);
+      if (!present()) return;
+      this.transient = transient;
+    } catch (error) {
+      if (error instanceof Cancelled) throw error;
+      if (!present()) return;
+      this.problems.runUp = messageOf(error);
+    }
+    this.reportPanel.runUp(this.transient, this.own, this.problems.runUp);
     this.draw();
     await this.computeCurve(sheet, report, state, present);
   }
@@ -166,14 +198,26 @@ class MotorView implements View {
     const [low, high] = [loads[0] * report.largest_torque, loads[1] * report.largest_torque];
     this.loads = [low, high];
     const torques = Array.from({ length: points }, (_, index) => low + ((high - low) * index) / (points - 1));
-    const [rough, fine] = ERRORS;
-    await this.sweep(sheet, torques, rough, present);
-    if (!present()) return;
-    await this.findStall(sheet, present);
-    if (!present()) return;
-    await this.sweep(sheet, torques, fine, present);
+    const [rough, fine] = PASSES;
+    try {
+      await this.sweep(sheet, torques, rough, present);
+      if (!present()) return;
+      await this.findStall(sheet, present);
+      if (!present()) return;
+      await this.sweep(sheet, torques, fine, present);
+    } catch (error) {
+      if (error instanceof Cancelled || !present()) throw error;
+      this.problems.curve = messageOf(error);
+      this.draw();
+      throw error;
+    }
     if (!present()) return;
     this.complete = true;
+    const { runUp } = this.problems;
+    if (runUp !== undefined) {
+      this.context.status(runUp, "error");
+      return;
+    }
     const unsettled = this.operations.filter(({ status }) => status === 1).length;
     const runaway = this.operations.filter(({ status }) => status === 2).length;
     const words = [`Run-up and ${points} loads are computed`];
@@ -182,24 +226,27 @@ class MotorView implements View {
     this.context.status(`${words.join("; ")}.`);
   }
 
+  /** The loads of the curve, and with them that of the sheet, so that there is one steady speed on the page. */
   private async sweep(
     sheet: MotorSheet,
     torques: readonly number[],
-    error: number,
+    pass: Pass,
     present: () => boolean,
   ): Promise<void> {
-    await operate(this.context, sheet, torques, error, (operation, index) => {
-      if (!present()) return;
-      this.operations[index] = operation;
-      this.context.status(
-        `Load ${index + 1} of ${torques.length} with an error of ${100 * error} % of the speed`,
-        "busy",
-      );
-      this.draw();
-    });
+    const { load_torque } = sheet;
+    const asked = torques.includes(load_torque) ? torques : [...torques, load_torque];
+    const error = `${100 * pass.relative_error} %`;
+    this.context.status(`Computing the operation under ${asked.length} loads with an error of ${error}`, "busy");
+    const found = await operate(this.context, sheet, asked, pass);
+    if (!present() || this.report === null) return;
+    this.operations = found.slice(0, torques.length);
+    this.own = found[asked.indexOf(load_torque)] ?? null;
+    if (this.own !== null) this.reportPanel.operation(this.own, this.report);
+    this.reportPanel.runUp(this.transient, this.own, this.problems.runUp);
+    this.draw();
   }
 
-  /** A motor that no load stops, or that does not turn, has no stall load: that is no failure of the view. */
+  /** A stall load that cannot be found is no failure of the view. */
   private async findStall(sheet: MotorSheet, present: () => boolean): Promise<void> {
     this.context.status("Searching the stall load", "busy");
     try {
@@ -209,7 +256,7 @@ class MotorView implements View {
       this.reportPanel.stall(stall);
     } catch (error) {
       if (error instanceof Cancelled) throw error;
-      if (present()) this.reportPanel.stall(null, error instanceof Error ? error.message : String(error));
+      if (present()) this.reportPanel.stall(null, messageOf(error));
     }
     this.draw();
   }
@@ -222,25 +269,32 @@ class MotorView implements View {
     return names.every((name) => imported.system[name] === state.system[name]) ? imported.sheet : null;
   }
 
-  /** Whether there is a torque at all. */
-  private get turns(): boolean {
-    return this.report === null || this.report.largest_torque > 0;
-  }
-
   private paint(): void {
     const { colour } = this.context;
-    for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = !this.turns;
-    if (this.transient !== null) {
-      const { steady_speed, steady_speed_error } = this.transient.json;
-      const steady =
-        steady_speed === null
-          ? "No steady speed is known."
-          : `The speed tends to ${withError(steady_speed, steady_speed_error)} rad/s.`;
-      this.runUpChart.show(transientChart(this.transient), colour, steady);
+    const { report, transient, problems } = this;
+    const still = report === null ? null : whyNothingTurns(report);
+    setText(this.remark, still ?? REMARK);
+    for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = still !== null;
+    if (transient === null || report === null) {
+      this.runUpChart.showWord(problems.runUp ?? "The run-up is being computed.");
+    } else {
+      const words = describeRunUp(transient, this.own, report);
+      this.runUpChart.show(transientChart(transient, this.own), colour, words);
     }
+    const charts = this.curves();
     const words = describeCurves(this.operations, this.stall);
-    this.curves().forEach((chart, index) => this.curveCharts[index]?.show(chart, colour, words[index]));
+    this.curveCharts.forEach((place, index) => {
+      const chart = charts[index];
+      if (chart === undefined) place.showWord(problems.curve ?? `${CURVES[index]} is being computed.`);
+      else place.show(chart, colour, words[index]);
+    });
   }
 }
+
+const CURVES = ["The speed against the load", "The power", "The efficiency"] as const;
+
+const keyOf = ({ system, mass, motor }: State): string => JSON.stringify([system, mass, motor]);
+
+const messageOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
 export const view: View = new MotorView();

@@ -7,7 +7,8 @@ import type { Range, StallJson } from "../../protocol";
 import { TRANSIENT_COLUMNS } from "../../protocol";
 import type { Operation, Transient } from "./computation";
 
-export function transientChart({ json, numbers }: Transient): Chart {
+/** The run-up, and beside it the steady speed under the same load, as soon as it is known. */
+export function transientChart({ json, numbers }: Transient, own: Operation | null): Chart {
   const width = TRANSIENT_COLUMNS.length;
   const column = (place: number, factor = 1) =>
     Float64Array.from(
@@ -18,12 +19,14 @@ export function transientChart({ json, numbers }: Transient): Chart {
   const time = prefixOf(last);
   const speed = column(1);
   const error = column(2);
-  const steady = json.steady_speed;
+  const steady = own !== null && own.status === 0 ? own : null;
   const edges = [
     ...speed.map((value, row) => value + 2 * (error[row] ?? 0)),
     ...speed.map((value, row) => value - 2 * (error[row] ?? 0)),
   ];
-  const range = extent([...edges, 0, ...(steady === null ? [] : [steady])]) ?? [0, 1];
+  const around = steady === null ? [] : [-2, 2].map((errors) => steady.speed + errors * finite(steady.speed_error));
+  const range = extent([...edges, 0, ...around]) ?? [0, 1];
+  const constant = json.rise?.form === "exponential" ? json.rise.constant.value : null;
   return {
     title: "Run-up",
     xLabel: `time (${time.symbol}s)`,
@@ -31,10 +34,23 @@ export function transientChart({ json, numbers }: Transient): Chart {
     x: column(0, time.factor),
     xRange: [0, last * time.factor],
     yRange: padded(range),
-    curves: [{ label: "speed", y: speed, error, colour: "--curve-speed" }],
-    ...(json.time_constant === null || json.time_constant > last
+    curves: [
+      { label: "run-up", y: speed, error, colour: "--curve-speed" },
+      ...(steady === null
+        ? []
+        : [
+            {
+              label: "steady speed",
+              y: speed.map(() => steady.speed),
+              error: speed.map(() => steady.speed_error),
+              colour: "--curve-power",
+              dash: [6, 3],
+            },
+          ]),
+    ],
+    ...(constant === null || constant > last
       ? {}
-      : { lines: [{ x: json.time_constant * time.factor, label: "time constant", colour: "--picture-muted" }] }),
+      : { lines: [{ x: constant * time.factor, label: "time constant", colour: "--picture-muted" }] }),
   };
 }
 
@@ -85,6 +101,7 @@ export function loadCharts(
   largestTorque: number,
   stall: StallJson | null,
 ): Chart[] {
+  const stop = stall?.torque ?? null;
   const torque = prefixOf(Math.max(Math.abs(loads[0]), Math.abs(loads[1])));
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
   const x = shown.map(({ load_torque }) => load_torque * torque.factor);
@@ -123,7 +140,7 @@ export function loadCharts(
       x,
       xRange: span,
       // Without any value but zero there is no scale to take from the numbers.
-      yRange: greatest > 0 ? padded(range, 0.08) : [0, 1],
+      yRange: padded(greatest > 0 ? range : [0, 1], 0.08),
       curves: kind.curves.map(({ name, ...curve }) => ({
         ...curve,
         y: shown.map((row) => row[name] * prefix.factor),
@@ -131,13 +148,13 @@ export function loadCharts(
         points: true,
       })),
       marks,
-      ...(stall === null
+      ...(stop === null
         ? {}
         : {
             lines: [
               {
-                x: stall.torque * torque.factor,
-                error: stall.torque_error * torque.factor,
+                x: stop * torque.factor,
+                error: finite(stall?.torque_error ?? 0) * torque.factor,
                 label: "stall",
                 colour: "--stall",
               },

@@ -1,12 +1,13 @@
 /** What is known of the motor in words: regime, warnings, traps, steady speed and stall. */
 
 import { element, Facts, setText } from "../../drawing/elements";
-import { plain, quantity, quantityWithError, withError } from "../../drawing/numbers";
-import type { ReportJson, StallJson, TransientJson } from "../../protocol";
+import { plain, quantity } from "../../drawing/numbers";
+import type { ReportJson, StallJson } from "../../protocol";
+import type { Operation, Transient } from "./computation";
+import { describeStall, describeTrap, steadySpeed, timeConstant } from "./words";
 
 const NAMES = [
-  "Regime", "Forcing Γ", "Largest torque of friction", "Steady speed without load", "Time constant", "Stall load",
-  "Speed of the curve at no load",
+  "Regime", "Forcing Γ", "Largest torque of friction", "Steady speed", "Time constant", "Stall load",
 ] as const; // prettier-ignore
 
 export class ReportPanel {
@@ -24,17 +25,20 @@ export class ReportPanel {
     this.root.append(element("h3", {}, "Report"), this.facts.root, this.warningsBox, full);
   }
 
+  /** Forgets a motor. */
+  clear(): void {
+    for (const name of NAMES) this.facts.set(name, "…");
+    this.trap.hidden = true;
+    this.warningsBox.hidden = true;
+    setText(this.text, "");
+  }
+
   report(report: ReportJson): void {
     this.facts.set("Regime", report.regime);
     this.facts.set("Forcing Γ", plain(report.axial_forcing, 5));
     this.facts.set("Largest torque of friction", quantity(report.largest_torque, "N m"));
-    for (const name of NAMES.slice(3)) this.facts.set(name, "…");
     this.trap.hidden = report.trap === null;
-    if (report.trap !== null) {
-      const { caught, preload_acceleration, text } = report.trap;
-      const where = `at a preload acceleration of ${plain(preload_acceleration, 4)} m/s²`;
-      setText(this.trap, `${caught ? "Trap: this motor is caught" : "A trap is near"}, ${where}. ${text}`);
-    }
+    if (report.trap !== null) setText(this.trap, describeTrap(report.trap, report));
     const { length } = report.warnings;
     this.warningsBox.hidden = length === 0;
     setText(this.warned, length === 1 ? "1 warning" : `${length} warnings`);
@@ -42,15 +46,21 @@ export class ReportPanel {
     setText(this.text, report.text);
   }
 
-  transient({ steady_speed, steady_speed_error, time_constant }: TransientJson): void {
-    this.facts.set("Steady speed without load", `${withError(steady_speed, steady_speed_error)} rad/s`);
-    this.facts.set("Time constant", quantity(time_constant, "s"));
+  /** Of a motor that nothing turns. */
+  still(): void {
+    for (const name of ["Steady speed", "Time constant", "Stall load"]) this.facts.set(name, "–");
+  }
+
+  runUp(transient: Transient | null, own: Operation | null, problem = ""): void {
+    const known = transient === null ? problem || "…" : timeConstant(transient.json, own);
+    this.facts.set("Time constant", known);
+  }
+
+  operation(own: Operation, report: ReportJson): void {
+    this.facts.set("Steady speed", steadySpeed(own, report.largest_torque));
   }
 
   stall(stall: StallJson | null, problem = ""): void {
-    const none = problem === "" ? "–" : problem;
-    this.facts.set("Stall load", stall === null ? none : quantityWithError(stall.torque, stall.torque_error, "N m"));
-    const speed = stall === null ? "–" : `${withError(stall.no_load_speed, stall.no_load_speed_error)} rad/s`;
-    this.facts.set("Speed of the curve at no load", speed);
+    this.facts.set("Stall load", stall === null ? problem || "–" : describeStall(stall));
   }
 }

@@ -1,29 +1,124 @@
-/** The curves of a motor in words. */
+/** The motor in words: its steady speed, its run-up, its curves, and the trap that is near. */
 
-import { quantityWithError, withError } from "../../drawing/numbers";
-import type { StallJson } from "../../protocol";
-import type { Operation } from "./computation";
+import { grouped, plain, prefixOf, quantity, quantityWithError, toldApart, withError } from "../../drawing/numbers";
+import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
+import type { Operation, Transient } from "./computation";
+
+/** What turns nothing, or null for a motor that may turn. */
+export function whyNothingTurns(report: ReportJson): string | null {
+  const nothing = "nothing turns the rotor: there is no run-up, and no curve.";
+  if (report.angular_forcing === null || !(report.largest_torque > 0)) return `Without friction ${nothing}`;
+  return report.angular_forcing === 0 ? `Without a twist of the stator ${nothing}` : null;
+}
+
+const under = (load: number): string =>
+  load === 0 ? "without load" : `under the load of the sheet, ${quantity(load, "N m")}`;
+
+/** The steady speed under the load of the sheet, with no more digits than are known. */
+export function steadySpeed(own: Operation, largestTorque: number): string {
+  if (own.status === 2) {
+    const most = quantity(largestTorque, "N m");
+    return `none: the load of the sheet, ${quantity(own.load_torque, "N m")}, is more than the ${most} that friction holds at most`;
+  }
+  if (own.status === 1) {
+    const speed = `about ${plain(own.speed, 3)} rad/s ${under(own.load_torque)}`;
+    return `${speed}, not settled${own.shortfall === null ? "" : `: ${readable(own.shortfall)}`}`;
+  }
+  return `${withError(own.speed, own.speed_error)} rad/s ${under(own.load_torque)}`;
+}
+
+/** What a motor lacks, as the library's ASCII says it. */
+const readable = (text: string): string =>
+  text
+    .replace(/-?[\d.]+e-?\d+/g, (digits) => plain(Number(digits), 3))
+    .replace("+-", "±")
+    .replace("rad/s^2", "rad/s²");
+
+/** A time with its 95 % interval, with the digits that the interval leaves: "852 ms (95 % interval 824 to 889 ms)". */
+function time({ value, low, high }: IntervalJson): string {
+  const { factor, symbol } = prefixOf(value);
+  const decimals = Math.min(20, Math.max(0, 1 - Math.floor(Math.log10((high - low || value) * factor))));
+  const [middle, from, to] = [value, low, high].map((one) => grouped((one * factor).toFixed(decimals)));
+  return `${middle} ${symbol}s (95 % interval ${from} to ${to} ${symbol}s)`;
+}
+
+/** The time constant of a run-up that has one. */
+export function timeConstant({ rise, refusal }: Transient["json"], own: Operation | null): string {
+  if (own?.status === 2) return "none: the load drives the rotor";
+  if (rise === null) return `none: ${refusal ?? "it is not known"}`;
+  if (rise.form === "ramp") return "none: the run-up is nearer to a straight line than to an exponential";
+  return time(rise.constant);
+}
+
+/** What a run-up tends to, which its own end does not tell, and its form. */
+export function describeRunUp({ json }: Transient, own: Operation | null, report: ReportJson): string {
+  if (own?.status === 2) {
+    const [load, most] = [own.load_torque, report.largest_torque].map((torque) => quantity(torque, "N m"));
+    return (
+      `The load of the sheet, ${load}, is more than the ${most} that friction holds at most: it drives the rotor ` +
+      "faster and faster, and there is no steady speed."
+    );
+  }
+  const steady =
+    own === null ? "The steady speed is being computed." : `Steady speed: ${steadySpeed(own, report.largest_torque)}.`;
+  const { rise, refusal } = json;
+  if (rise === null) return `${steady} There is no time constant: ${refusal ?? "it is not known"}.`;
+  const missed = `${plain(rise.residual, 2)} rad/s, root mean square`;
+  return rise.form === "exponential"
+    ? `${steady} An exponential with a time constant of ${time(rise.constant)} is nearest to the run-up, and misses it by ${missed}.`
+    : `${steady} A straight rise that ends after ${time(rise.constant)} is nearer to the run-up than an exponential, ` +
+        `and misses it by ${missed}.`;
+}
+
+/** Where a motor is caught in a short cycle, or would be. */
+export function describeTrap(trap: TrapJson, report: ReportJson): string {
+  const [low, high] = trap.forcing_from_to;
+  const [from, to] = toldApart(low, high, 3);
+  const [edge] = toldApart(trap.preload_acceleration, report.system.preload_acceleration, 2);
+  const reach = `for Γ from ${from} to ${to}`;
+  if (trap.caught) {
+    return `Trap: this motor, at a preload acceleration of ${edge} m/s², is caught in a short cycle, as it is ${reach}.`;
+  }
+  const away = plain(100 * Math.abs(trap.relative_distance), 2);
+  return (
+    `A trap is near, ${away} % away: at a preload acceleration of ${edge} m/s² this motor would be caught in a short ` +
+    `cycle, as it is ${reach}.`
+  );
+}
+
+/** Why a motor has no stall load, or the load. */
+export function describeStall(stall: StallJson): string {
+  if (stall.torque !== null) return quantityWithError(stall.torque, stall.torque_error, "N m");
+  return `none: without load the speed, ${withError(stall.no_load_speed, stall.no_load_speed_error)} rad/s, is none`;
+}
 
 /** A sentence for speed, power and efficiency each; none before there is a load. */
 export function describeCurves(operations: readonly Operation[], stall: StallJson | null): string[] {
   const known = operations.filter(({ status }) => status !== 2);
   const first = known[0];
   const last = known[known.length - 1];
-  if (first === undefined || last === undefined) return [];
+  if (first === undefined || last === undefined) {
+    const away = "Each of the loads computed is more than friction holds, and drives the rotor.";
+    return operations.length === 0 ? [] : [away, away, away];
+  }
   const at = ({ load_torque }: Operation) => quantityWithError(load_torque, null, "N m");
-  const speed = (row: Operation) => `${withError(row.speed, row.speed_error)} rad/s at ${at(row)}`;
-  const stop =
-    stall === null ? "" : ` The motor stalls at ${quantityWithError(stall.torque, stall.torque_error, "N m")}.`;
+  const speed = (row: Operation) =>
+    row.status === 1
+      ? `about ${plain(row.speed, 3)} rad/s, not settled, at ${at(row)}`
+      : `${withError(row.speed, row.speed_error)} rad/s at ${at(row)}`;
+  const stop = stall === null || stall.torque === null ? "" : ` The motor stalls at ${describeStall(stall)}.`;
   const powerful = known.reduce((best, row) => (row.mechanical_power > best.mechanical_power ? row : best));
   const power = quantityWithError(powerful.mechanical_power, powerful.mechanical_power_error, "W");
   const efficient = known
-    .filter(({ efficiency }) => Number.isFinite(efficiency))
+    .filter(({ efficiency }) => efficiency > 0)
     .reduce<Operation | null>((best, row) => (best === null || row.efficiency > best.efficiency ? row : best), null);
   return [
     `From ${speed(first)} to ${speed(last)}.${stop}`,
-    `Of the loads computed, the load takes most power at ${at(powerful)}: ${power}.`,
+    powerful.mechanical_power > 0
+      ? `Of the loads computed, the load takes most power at ${at(powerful)}: ${power}.`
+      : "None of the loads computed takes power from the motor.",
     efficient === null
-      ? "No efficiency is known."
+      ? "None of the loads computed takes power from the motor, which has no efficiency there."
       : "Of the loads computed, the best efficiency is " +
         `${withError(efficient.efficiency, efficient.efficiency_error, 100)} % at ${at(efficient)}.`,
   ];

@@ -1,0 +1,135 @@
+/** The motor view: nothing of one motor stands under another one, and one steady speed stands on the page. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { isFake, launch, opened, settled } from "./browser.mjs";
+import { sourceOf } from "./sources.mjs";
+
+let browser, words, numbers;
+before(async () => {
+  browser = await launch();
+  words = await sourceOf("views/motor/words.ts");
+  numbers = await sourceOf("drawing/numbers.ts");
+});
+after(() => browser.close());
+
+async function within(hash, act) {
+  const { page, context, errors } = await opened(browser, { hash });
+  try {
+    await act(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await context.close();
+  }
+}
+
+/** Fig. 10(c), whose impacts are few: its curves are there in a second or two. */
+const MOTOR =
+  "#view=motor&amplitude=1e-7&twist_amplitude=6.820926132509799e-5&angular_frequency=439822.9715025711&phase_lag=0" +
+  "&contact_radius=0.00125&gyration_radius=0.0063&friction=0.1&restitution=0.5&preload_acceleration=9.8&mass=0.0329";
+
+const done = (page) =>
+  page.waitForFunction(
+    () => /^Run-up and \d+ loads are computed/.test(document.getElementById("status").textContent),
+    undefined,
+    { timeout: 60_000 },
+  );
+const captions = (page) => page.locator("#view-motor .chart figcaption").allTextContents();
+const fact = (page, name) =>
+  page.locator(`#view-motor .facts div:has(dt:text-is("${name}")) dd`).textContent();
+
+test("the curves of a motor are gone as soon as there is another one, on the screen and from the exports", () =>
+  within(MOTOR, async (page) => {
+    await done(page);
+    for (const caption of await captions(page)) assert.match(caption, /\d/);
+    const shown = await page.evaluate(async () => {
+      const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+      location.hash = location.hash.replace(/&amplitude=[^&]*/, "&amplitude=1e-9");
+      while (Number(document.querySelector("#field-amplitude").value) === 1e-7) await frame();
+      await frame();
+      await frame();
+      const texts = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
+      document.getElementById("export-button").click();
+      await frame();
+      return {
+        captions: texts("#view-motor .chart figcaption"),
+        words: texts("#view-motor .chart-word:not([hidden])"),
+        canvases: document.querySelectorAll("#view-motor .chart canvas").length,
+        facts: texts("#view-motor .facts dd").join(" "),
+        offers: texts(".menu .items button").filter((one) => /motor/i.test(one)),
+      };
+    });
+    assert.deepEqual(shown.captions, ["", "", "", ""]);
+    assert.equal(shown.words.filter((word) => /is being computed\.$/.test(word)).length, 4, `${shown.words}`);
+    assert.equal(shown.canvases, 0);
+    assert.doesNotMatch(shown.facts, /\d/);
+    assert.deepEqual(shown.offers, []);
+  }));
+
+test("the steady speed of the report is that of the run-up and of the curve without load", () =>
+  within(MOTOR, async (page) => {
+    await done(page);
+    const [, speed] = /^(.* ± .*) rad\/s without load$/.exec(await fact(page, "Steady speed"));
+    const [runUp, curve] = await captions(page);
+    assert.ok(runUp.startsWith(`Steady speed: ${speed} rad/s without load.`), runUp);
+    assert.ok(curve.startsWith(`From ${speed} rad/s at 0 N m`), curve);
+    assert.doesNotMatch(runUp, /tends to/);
+  }));
+
+const real = { skip: isFake ? "the fake module computes nothing" : false };
+
+/** The load of the system, as an angular deceleration, of so many N m. */
+const loaded = (torque) => `${MOTOR}&load_acceleration=${torque / (0.0329 * 0.0063 ** 2)}`;
+
+test("a steady speed says under which load it is, and a load that drives the rotor has none", real, async () => {
+  await within(loaded(10e-6), async (page) => {
+    await done(page);
+    assert.match(await fact(page, "Steady speed"), /^15\.\d+ ± [\d.]+ rad\/s under the load of the sheet, 10\.0 µN m$/);
+  });
+  await within(loaded(60e-6), async (page) => {
+    await done(page);
+    assert.match(await fact(page, "Steady speed"), /^none: the load of the sheet, 60\.0 µN m, is more than the 40\.3 µN m/);
+    assert.match((await captions(page))[0], /there is no steady speed\.$/);
+  });
+});
+
+test("a motor that nothing turns is said to be one", real, () =>
+  within(`${MOTOR}&twist_amplitude=0`.replace("&twist_amplitude=6.820926132509799e-5", ""), async (page) => {
+    await settled(page);
+    await page.waitForFunction(() => /^Without a twist/.test(document.getElementById("status").textContent));
+    assert.equal(await page.locator("#view-motor .chart").first().isVisible(), false);
+  }));
+
+const operation = (row) => ({
+  load_torque: 0, speed: 20, speed_error: 0.1, mechanical_power: 0, mechanical_power_error: 1e-9, input_power: 1e-3,
+  input_power_error: 1e-6, efficiency: NaN, efficiency_error: NaN, status: 0, shortfall: null, wanted: 0.1, ...row,
+}); // prettier-ignore
+
+test("a load that puts power in is not said to take it", () => {
+  const driving = [operation({ load_torque: -2e-5, mechanical_power: -4.04 }), operation({ mechanical_power: 0 })];
+  const [, power, efficiency] = words.describeCurves(driving, null);
+  assert.equal(power, "None of the loads computed takes power from the motor.");
+  assert.doesNotMatch(efficiency, /best/);
+});
+
+test("numbers that the error hides have no digits and no sign, others no more than are known", () => {
+  assert.equal(numbers.withError(-8.1e-10, 4.2e-6), "0 ± 4.2 × 10⁻⁶");
+  assert.equal(numbers.withError(-0.04, 0.012), "−0.040 ± 0.012");
+  const stall = { torque: null, torque_error: null, bracket: null };
+  const still = words.describeStall({ ...stall, no_load_speed: 0.024535763201715438, no_load_speed_error: 0.0118 });
+  assert.match(still, /0\.025 ± 0\.012 rad\/s/);
+  const rise = { form: "exponential", constant: { value: 0.83503, low: 0.83479, high: 0.83528 }, residual: 0.2 };
+  const constant = words.timeConstant({ points: 9, rise, refusal: null }, null);
+  assert.equal(constant, "835.03 ms (95 % interval 834.79 to 835.28 ms)");
+  const lost = words.steadySpeed(operation({ status: 1, speed: 16.0763, speed_error: 8e-4, shortfall: "it drifts" }), 1);
+  assert.match(lost, /^about 16\.1 rad\/s without load, not settled: it drifts$/);
+});
+
+test("a trap is told with digits enough to find it", () => {
+  const report = { system: { preload_acceleration: 1 } };
+  const near = { preload_acceleration: 1.00000002, caught: false, relative_distance: 2e-8 };
+  const told = words.describeTrap({ ...near, forcing_from_to: [615.7521, 615.75212] }, report);
+  assert.match(told, /2\.0 × 10⁻⁶ % away: .* 1\.000000020 m\/s² .* Γ from 615\.752100 to 615\.752120\.$/);
+  const caught = { preload_acceleration: 9.8, caught: true, relative_distance: 0, forcing_from_to: [6.2811, 6.2837] };
+  assert.match(words.describeTrap(caught, { system: { preload_acceleration: 9.8 } }), /^Trap: .*\.$/);
+});
