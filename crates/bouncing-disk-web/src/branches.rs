@@ -1,7 +1,10 @@
 //! Branches of periodic orbits over the forcing, stable and unstable.
+//!
+//! Which branches there are, and where their bifurcations lie, does not depend on the window that is looked at: each is
+//! followed from its birth on, and the window gets its own points of it.
 
 use bouncing_disk::core::{
-    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError,
+    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError, ImpactMap,
     PeriodicOrbit,
 };
 use serde::Serialize;
@@ -12,15 +15,25 @@ use crate::request::map;
 
 /// Pairs with one impact every k periods up to this k, and the branches that double from each.
 const MOST_PERIODS: u64 = 3;
-const DOUBLINGS: usize = 3;
+const DOUBLINGS: usize = 4;
 
-/// Steps of the arclength, and points of a branch: enough for a curve on a screen.
+/// Steps of the arclength, and points of a branch.
 const FIRST_STEP: f64 = 0.01;
 const LARGEST_STEP: f64 = 0.05;
 const MOST_POINTS: usize = 2_000;
 
-/// How far above its birth a pair is picked up, relative.
-const ABOVE_BIRTH: f64 = 1e-3;
+/// Points of a branch in the window: enough for a curve on a screen.
+const POINTS: usize = 100;
+
+/// How far above its birth a pair is picked up, relative: nearer first, but for those that an earlier impact forestalls there.
+const ABOVE_BIRTH: [f64; 4] = [1e-3, 0.1, 0.5, 2.0];
+
+/// A branch is followed to a multiple of its forcing, then its lengths are counted in the forcing that it has there: those of
+/// a nearly elastic disk go over many decades.
+const STRIDE: f64 = 2.0;
+
+/// Branches are followed so far beyond the first doubling of the pair that they come from: all doublings lie there.
+const BEYOND_DOUBLING: f64 = 2.0;
 
 #[derive(Debug, Serialize)]
 struct BranchesJson {
@@ -39,29 +52,32 @@ struct BranchJson {
 struct BifurcationJson {
     kind: &'static str,
     axial_forcing: f64,
+    impact_phase: f64,
+    normalised_speed: f64,
     branch: usize,
 }
 
 pub(crate) fn answer(restitution: f64, axial_forcing: [f64; 2]) -> Result<Reply, Refusal> {
-    let range = (axial_forcing[0], axial_forcing[1]);
-    // Checks the range, whatever is born in it.
-    settings(range, true)?;
-    let mut found = Found { json: BranchesJson { branches: vec![], bifurcations: vec![] }, numbers: vec![] };
-    for periods in 1..=MOST_PERIODS {
+    let window = (axial_forcing[0], axial_forcing[1]);
+    // Checks the window and the restitution, whatever is born in it.
+    settings(window, true)?;
+    map(window.1, restitution)?;
+    let json = BranchesJson { branches: vec![], bifurcations: vec![] };
+    let mut found = Found { json, numbers: vec![], window, lines: 0 };
+    // Without restitution a disk forgets its past in each impact: the library does not continue such orbits.
+    let pairs = if restitution > 0.0 { MOST_PERIODS } else { 0 };
+    for periods in 1..=pairs {
         let birth = periods as f64 * (1.0 - restitution) / (1.0 + restitution);
-        let begin = range.0.max(birth * (1.0 + ABOVE_BIRTH));
-        if begin >= range.1 {
+        if birth >= window.1 {
             continue;
         }
-        let map = map(begin, restitution)?;
-        let Some(pair) = map.period_one_pair(periods) else { continue };
-        if let Some(node) = pair.node.orbit(&map)? {
-            found.family(&map, &node, range)?;
-        }
-        // Where the fold is in the range, the branch goes through it and holds the saddles.
-        let through = range.0 < birth;
-        if let Some(saddle) = pair.saddle.orbit(&map)?.filter(|_| !through) {
-            found.add(&map.continued(&saddle, &settings(range, true)?)?);
+        for above in ABOVE_BIRTH {
+            let map = map(birth * (1.0 + above), restitution)?;
+            let Some(pair) = map.period_one_pair(periods) else { continue };
+            if let Some(node) = pair.node.orbit(&map)? {
+                found.family(&map, &node, birth)?;
+                break;
+            }
         }
     }
     Reply::new(&found.json, found.numbers, Vec::new())
@@ -75,57 +91,126 @@ fn settings(range: (f64, f64), rising: bool) -> Result<Continuation, CoreError> 
     )
 }
 
+/// A branch that the equations do not give is none; all other errors are some.
+fn if_any<T>(found: Result<T, CoreError>) -> Result<Option<T>, CoreError> {
+    match found {
+        Err(CoreError::NoBranch { .. }) => Ok(None),
+        found => found.map(Some),
+    }
+}
+
 struct Found {
     json: BranchesJson,
     numbers: Vec<f64>,
+    window: (f64, f64),
+    lines: usize,
 }
 
 impl Found {
-    /// The branch through an orbit both ways, and those that double from it one after the other.
-    fn family(
-        &mut self,
-        map: &bouncing_disk::core::ImpactMap,
-        orbit: &PeriodicOrbit,
-        range: (f64, f64),
-    ) -> Result<(), Refusal> {
-        if range.0 < map.vibration().axial_forcing() {
-            self.add(&map.continued(orbit, &settings(range, false)?)?);
-        }
-        let mut branch = map.continued(orbit, &settings(range, true)?)?;
-        self.add(&branch);
-        for _ in 0..DOUBLINGS {
-            let doubling = |kind: &BifurcationKind| *kind == BifurcationKind::Doubling;
-            let Some(index) = branch.bifurcations.iter().position(|found| doubling(&found.kind)) else {
-                break;
-            };
-            branch = branch.switched(index, &settings(range, true)?)?;
-            self.add(&branch);
+    /// The branches through one that has just been born, both ways, and those that double from it one after the other.
+    fn family(&mut self, map: &ImpactMap, orbit: &PeriodicOrbit, birth: f64) -> Result<(), Refusal> {
+        let forcing = map.vibration().axial_forcing();
+        let (low, doubling) = (0.5 * birth, ImpactMap::first_doubling_forcing(map.restitution()));
+        let enough = self.window.1.max(BEYOND_DOUBLING * (doubling + birth));
+        // Back through the fold, on whose other side are the saddles, and on to the doublings.
+        for rising in [false, true] {
+            let range = (low, STRIDE * forcing);
+            let Some(branch) = if_any(map.continued(orbit, &settings(range, rising)?))? else { continue };
+            let pieces = self.followed(branch, low, enough)?;
+            if rising {
+                self.doublings(&pieces, low, enough)?;
+            }
         }
         Ok(())
     }
 
-    fn add(&mut self, branch: &Branch) {
-        let Some(first) = branch.points.first() else { return };
+    /// A branch and all that it goes on with up to a forcing, piece by piece.
+    fn followed(&mut self, branch: Branch, low: f64, enough: f64) -> Result<Vec<Branch>, Refusal> {
+        let mut pieces = vec![branch];
+        while let Some(last) = pieces.last() {
+            let Some(tip) = last.points.last() else { break };
+            if !matches!(last.end, BranchEnd::RangeLimit(limit) if limit > low && limit < enough) {
+                break;
+            }
+            let forcing = tip.parameter;
+            let range = (forcing, (STRIDE * forcing).min(enough));
+            if range.0 >= range.1 {
+                break;
+            }
+            let next = last.map_at(forcing)?.continued(&tip.orbit, &settings(range, true)?);
+            let Some(next) = if_any(next)? else { break };
+            pieces.push(next);
+        }
+        for piece in &pieces {
+            self.add(piece)?;
+        }
+        Ok(pieces)
+    }
+
+    fn doublings(&mut self, pieces: &[Branch], low: f64, enough: f64) -> Result<(), Refusal> {
+        let mut pieces = pieces.to_vec();
+        for _ in 0..DOUBLINGS {
+            let doubling = pieces.iter().find_map(|piece| {
+                let at = piece.bifurcations.iter().position(|one| one.kind == BifurcationKind::Doubling)?;
+                Some((piece, at, piece.bifurcations[at].point.parameter))
+            });
+            let Some((piece, at, forcing)) = doubling else { break };
+            let range = (low, (STRIDE * forcing).min(enough).max(forcing.next_up()));
+            let Some(branch) = if_any(piece.switched(at, &settings(range, true)?))? else { break };
+            // Its first point lies beyond the doubling: what is between them belongs to it, too.
+            if let [first, second, ..] = branch.points.as_slice() {
+                let back = second.parameter < first.parameter;
+                let map = branch.map_at(first.parameter)?;
+                if let Some(stem) = if_any(map.continued(&first.orbit, &settings(range, back)?))? {
+                    self.add(&stem)?;
+                }
+            }
+            pieces = self.followed(branch, low, enough)?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, branch: &Branch) -> Result<(), Refusal> {
+        let (low, high) = self.window;
         let number = self.json.branches.len();
-        for impact in 0..first.orbit.period() {
-            for point in &branch.points {
-                // An orbit whose vanishing impact has gone has one less.
-                let Some(state) = point.orbit.states.get(impact) else { continue };
-                let stable = f64::from(u8::from(point.is_stable()));
-                let (phase, speed) = (state.phase().angle(), state.normalised_speed());
-                self.numbers.extend([point.parameter, phase, speed, number as f64, stable]);
+        let Some(first) = branch.points.first() else { return Ok(()) };
+        let impacts = first.orbit.period();
+        let here = branch.bifurcations.iter().filter(|one| (low..=high).contains(&one.point.parameter));
+        let parts = branch.within(self.window, POINTS)?;
+        // That it is born where another one doubles has been told with that one.
+        let here: Vec<_> = here.filter(|one| one.kind != BifurcationKind::Birth).collect();
+        if parts.is_empty() && here.is_empty() {
+            return Ok(());
+        }
+        for part in &parts {
+            for impact in 0..impacts {
+                for point in part {
+                    // An orbit whose vanishing impact has gone has one less.
+                    let Some(state) = point.orbit.states.get(impact) else { continue };
+                    let stable = f64::from(u8::from(point.is_stable()));
+                    let (phase, speed) = (state.phase().angle(), state.normalised_speed());
+                    let line = self.lines as f64;
+                    self.numbers.extend([point.parameter, phase, speed, number as f64, stable, line]);
+                }
+                self.lines += 1;
             }
         }
         self.json.branches.push(BranchJson {
-            impacts: first.orbit.period(),
+            impacts,
             platform_periods: first.orbit.platform_periods,
             end: end(&branch.end),
         });
-        self.json.bifurcations.extend(branch.bifurcations.iter().map(|found| BifurcationJson {
-            kind: kind(&found.kind),
-            axial_forcing: found.point.parameter,
-            branch: number,
+        self.json.bifurcations.extend(here.iter().filter_map(|found| {
+            let state = found.point.orbit.states.first()?;
+            Some(BifurcationJson {
+                kind: kind(&found.kind),
+                axial_forcing: found.point.parameter,
+                impact_phase: state.phase().angle(),
+                normalised_speed: state.normalised_speed(),
+                branch: number,
+            })
         }));
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Columns of orbit diagrams.
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, orbit_diagram};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, is_settling, orbit_diagram};
 use bouncing_disk::{
     CollisionEvent, CollisionState, Collisions, DimensionlessSystem, InitialCondition, System,
 };
@@ -14,40 +14,89 @@ use crate::request::{DiagramRequest, map};
 const MOST_COLUMNS: usize = 1_000_000;
 const MOST_IMPACTS: usize = 1 << 22;
 
+/// Most impacts of an orbit before those that are recorded.
+const MOST_LEFT_OUT: usize = 1_000_000;
+
+/// Longest period (impacts) of an orbit that is seen to be on its way to it, and how far it may still move on while it is
+/// recorded: in units of the normalised speed, and of the platform's largest angular speed.
+const LONGEST_PERIOD: usize = 32;
+const SETTLED: f64 = 1e-6;
+
+/// In one impact a disk takes up the share 2/Gamma_T of the platform's largest angular speed at most, if it hits as fast as in
+/// the motion of one impact a period. So many times that share of an impact are left out before its spin is recorded.
+const SPIN_UPS: f64 = 10.0;
+
 #[derive(Debug, Serialize)]
 struct DiagramJson {
     resting: usize,
+    unsettled: usize,
+    left_out: usize,
+}
+
+/// What one column has.
+struct Column {
+    impacts: Vec<(ImpactState, f64)>,
+    left_out: usize,
+    settled: bool,
 }
 
 pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     let system = request.system.build()?;
     let forcings = forcings(request)?;
     let start = request.start.state()?;
-    let mut numbers = Vec::new();
-    let mut resting = 0;
-    if request.rotation {
-        for forcing in forcings {
-            let impacts = rotating(&system, forcing, start, request.transient, request.recorded)?;
-            resting += usize::from(impacts.len() < request.recorded);
-            for (state, angular_speed) in impacts {
-                numbers.extend([forcing, state.phase().angle(), state.normalised_speed(), angular_speed]);
-            }
-        }
+    let patience = request.patience.max(request.transient);
+    if patience > MOST_LEFT_OUT {
+        return Err(Refusal::out_of_range("patience", patience as f64, "at most 10^6"));
+    }
+    let columns = if request.rotation {
+        let columns = forcings.iter().map(|forcing| rotating(&system, *forcing, start, request));
+        columns.collect::<Result<Vec<_>, _>>()?
     } else {
-        let restitution = system.disk().restitution();
-        let orbits = forcings.iter().map(|forcing| {
-            Ok::<_, Refusal>(map(*forcing, restitution)?.orbit(start, ChatterPolicy::Complete))
-        });
-        let orbits = orbits.collect::<Result<Vec<_>, _>>()?;
-        let columns = orbit_diagram(&orbits, request.transient, request.recorded)?;
-        for (forcing, column) in forcings.iter().zip(&columns) {
-            resting += usize::from(column.len() < request.recorded);
-            for state in column {
-                numbers.extend([*forcing, state.phase().angle(), state.normalised_speed(), f64::NAN]);
-            }
+        vertical(&forcings, system.disk().restitution(), start, request)?
+    };
+    let mut numbers = Vec::with_capacity(4 * request.recorded * columns.len());
+    for (forcing, column) in forcings.iter().zip(&columns) {
+        for (state, angular_speed) in &column.impacts {
+            numbers.extend([*forcing, state.phase().angle(), state.normalised_speed(), *angular_speed]);
         }
     }
-    Reply::new(&DiagramJson { resting }, numbers, Vec::new())
+    let json = DiagramJson {
+        resting: columns.iter().filter(|column| column.impacts.len() < request.recorded).count(),
+        unsettled: columns.iter().filter(|column| !column.settled).count(),
+        left_out: columns.iter().map(|column| column.left_out).max().unwrap_or(request.transient),
+    };
+    Reply::new(&json, numbers, Vec::new())
+}
+
+/// Columns of the vertical motion; those that have not settled are followed again, for longer.
+fn vertical(
+    forcings: &[f64],
+    restitution: f64,
+    start: ImpactState,
+    request: &DiagramRequest,
+) -> Result<Vec<Column>, Refusal> {
+    let orbits = forcings
+        .iter()
+        .map(|forcing| Ok::<_, Refusal>(map(*forcing, restitution)?.orbit(start, ChatterPolicy::Complete)));
+    let orbits = orbits.collect::<Result<Vec<_>, _>>()?;
+    let followed = |orbits: &[Orbit], left_out: usize| {
+        let columns = orbit_diagram(orbits, left_out, request.recorded)?;
+        let columns = columns.into_iter().map(|states| {
+            let speeds: Vec<f64> = states.iter().map(ImpactState::normalised_speed).collect();
+            let impacts = states.into_iter().map(|state| (state, f64::NAN)).collect();
+            Column { impacts, left_out, settled: !is_settling(&speeds, LONGEST_PERIOD, SETTLED) }
+        });
+        Ok::<_, Refusal>(columns.collect::<Vec<_>>())
+    };
+    let mut columns = followed(&orbits, request.transient)?;
+    if request.patience > request.transient {
+        let again: Vec<usize> = (0..columns.len()).filter(|column| !columns[*column].settled).collect();
+        let orbits: Vec<Orbit> = again.iter().map(|column| orbits[*column].clone()).collect();
+        for (column, longer) in again.into_iter().zip(followed(&orbits, request.patience)?) {
+            columns[column] = longer;
+        }
+    }
+    Ok(columns)
 }
 
 /// The forcings of the columns that are asked for.
@@ -66,15 +115,20 @@ fn forcings(request: &DiagramRequest) -> Result<Vec<f64>, Refusal> {
     Ok((from..to).map(|column| low + (high - low) * (column as f64 / (count - 1) as f64)).collect())
 }
 
-/// Impacts with the angular speed after each, in units of the platform's largest one (NaN where it has none).
+/// Impacts with the angular speed after each, in units of the platform's largest one (NaN where it has none, and where no
+/// friction hands it on).
 fn rotating(
     system: &System,
     axial_forcing: f64,
     start: ImpactState,
-    transient: usize,
-    recorded: usize,
-) -> Result<Vec<(ImpactState, f64)>, Refusal> {
+    request: &DiagramRequest,
+) -> Result<Column, Refusal> {
+    let (recorded, patience) = (request.recorded, request.patience.max(request.transient));
     let system = with_forcing(system, axial_forcing)?;
+    let largest = system.twist_speed();
+    let unit = system.angular_forcing().filter(|_| largest > 0.0);
+    let spin_up = unit.map_or(0.0, |angular_forcing| SPIN_UPS * angular_forcing / 2.0);
+    let mut left_out = request.transient.max(patience.min(spin_up as usize));
     // The disk does not turn when the orbit begins.
     let at_rest = -system.platform_angular_speed(start.phase());
     let state = CollisionState {
@@ -84,23 +138,32 @@ fn rotating(
     };
     let mut collisions = Collisions::after(system, state, ChatterPolicy::Complete)?;
     let (mut seen, mut impacts) = (0, Vec::with_capacity(recorded));
-    while impacts.len() < recorded {
-        let Some(event) = collisions.advance()? else { break };
-        let CollisionEvent::Collision(collision) = event else { continue };
-        seen += 1;
-        if seen <= transient {
-            continue;
+    loop {
+        while impacts.len() < recorded {
+            let Some(event) = collisions.advance()? else { break };
+            let CollisionEvent::Collision(collision) = event else { continue };
+            seen += 1;
+            if seen <= left_out {
+                continue;
+            }
+            let after = match collision.state.rebound(&system)? {
+                InitialCondition::Launch { angular_speed, .. }
+                | InitialCondition::Contact { angular_speed, .. } => angular_speed,
+                _ => f64::NAN,
+            };
+            let after = if unit.is_some() { after / largest } else { f64::NAN };
+            impacts.push((collision.state.vertical()?, after));
         }
-        let after = match collision.state.rebound(&system)? {
-            InitialCondition::Launch { angular_speed, .. }
-            | InitialCondition::Contact { angular_speed, .. } => angular_speed,
-            _ => f64::NAN,
-        };
-        let largest = system.twist_speed();
-        let after = if largest > 0.0 { after / largest } else { f64::NAN };
-        impacts.push((collision.state.vertical()?, after));
+        let spins: Vec<f64> = impacts.iter().map(|(_, spin)| *spin).collect();
+        let speeds: Vec<f64> = impacts.iter().map(|(state, _)| state.normalised_speed()).collect();
+        let settled = ![spins, speeds].iter().any(|values| is_settling(values, LONGEST_PERIOD, SETTLED));
+        let later = left_out + recorded;
+        if settled || later > patience || impacts.len() < recorded {
+            return Ok(Column { impacts, left_out, settled });
+        }
+        impacts.clear();
+        left_out = later;
     }
-    Ok(impacts)
 }
 
 /// The system with another amplitude: that of the forcing.

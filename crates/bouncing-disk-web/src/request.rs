@@ -122,6 +122,9 @@ pub(crate) struct DiagramRequest {
     pub(crate) start: ImpactStart,
     pub(crate) transient: usize,
     pub(crate) recorded: usize,
+    /// Most impacts that are left out of an orbit that has not settled after `transient` ones.
+    #[serde(default)]
+    pub(crate) patience: usize,
     /// Whether the rotation is computed, too: it costs some times the vertical motion.
     #[serde(default)]
     pub(crate) rotation: bool,

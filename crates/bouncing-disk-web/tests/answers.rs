@@ -282,7 +282,7 @@ fn branches_go_through_the_doublings_of_the_cascade() {
     assert!(at("doubling").iter().any(|forcing| (forcing - first).abs() < 1e-9), "{json}");
     // Every impact is on an orbit of its map: the closed form of one impact a period.
     let branches = json["branches"].as_array().expect("a list").len() as f64;
-    for row in reply.numbers().chunks(5) {
+    for row in reply.numbers().chunks(6) {
         assert!(
             (0.3..=0.62).contains(&row[0])
                 && row[3] < branches
@@ -294,6 +294,75 @@ fn branches_go_through_the_doublings_of_the_cascade() {
     refused(&json!({ "call": "branches", "restitution": 1.5, "axial_forcing": [0.3, 0.6] }));
     let (none, _) = answered(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.1, 0.2] }));
     assert_eq!(none["branches"], json!([]));
+}
+
+/// The branches in a window: kinds and forcings of their bifurcations, and the lines, each of its rows.
+fn branches_in(restitution: f64, window: [f64; 2]) -> (Vec<(String, f64)>, Vec<Vec<[f64; 6]>>) {
+    let request = json!({ "call": "branches", "restitution": restitution, "axial_forcing": window });
+    let (json, reply) = answered(&request);
+    let bifurcations = json["bifurcations"].as_array().expect("a list").iter().map(|one| {
+        (one["kind"].as_str().expect("a word").to_owned(), one["axial_forcing"].as_f64().expect("a number"))
+    });
+    let mut lines: Vec<Vec<[f64; 6]>> = Vec::new();
+    for row in reply.numbers().chunks(6) {
+        if row[5] as usize == lines.len() {
+            lines.push(Vec::new());
+        }
+        let row = row.try_into().expect("six columns");
+        lines.get_mut(row_line(row)).expect("the lines follow each other").push(row);
+    }
+    (bifurcations.collect(), lines)
+}
+
+fn row_line(row: [f64; 6]) -> usize {
+    row[5] as usize
+}
+
+#[test]
+fn a_window_may_begin_at_any_forcing() {
+    for restitution in [0.0, 0.1, 0.5, 0.9, 0.999999] {
+        for window in [[60.0, 60.1], [1e-3, 1e-2], [99.0, 100.0], [0.45, 0.45 + 1e-12], [0.7, 0.7 + 1e-12]] {
+            for row in branches_in(restitution, window).1.iter().flatten() {
+                assert!((window[0]..=window[1]).contains(&row[0]), "{restitution} {window:?}: {row:?}");
+            }
+        }
+    }
+    assert_eq!(branches_in(0.5, [60.0, 60.1]).1.len(), 3);
+}
+
+#[test]
+fn the_same_branches_are_seen_whichever_window_looks_at_them() {
+    let (all, _) = branches_in(0.5, [0.3, 0.62]);
+    for window in [[0.33, 0.34], [0.485, 0.4861], [0.49, 0.53], [0.54, 0.62], [0.5421, 0.5426]] {
+        let (here, lines) = branches_in(0.5, window);
+        let wanted: Vec<_> =
+            all.iter().filter(|(_, forcing)| (window[0]..=window[1]).contains(forcing)).collect();
+        assert_eq!(here.len(), wanted.len(), "{window:?}: {here:?}");
+        for ((kind, forcing), (known, there)) in here.iter().zip(wanted) {
+            assert!(kind == known && (forcing - there).abs() < 1e-12, "{window:?}: {kind} at {forcing}");
+        }
+        // Each line is a curve: no step of it is wider than a few pixels of a screen.
+        let width = window[1] - window[0];
+        for line in lines {
+            for pair in line.windows(2) {
+                assert!((pair[1][0] - pair[0][0]).abs() < 0.05 * width, "{window:?}: {pair:?}");
+            }
+        }
+    }
+    // Two impacts that attract, one orbit of one impact that does not, and the saddle of the pair: right through.
+    let (_, lines) = branches_in(0.5, [0.49, 0.53]);
+    let through = |line: &&Vec<[f64; 6]>| {
+        let (first, last) = (line.first().expect("a row"), line.last().expect("a row"));
+        (first[0] - last[0]).abs() > 0.04 - 1e-12
+    };
+    let stable = lines.iter().filter(through).filter(|line| line.iter().all(|row| row[4] > 0.5)).count();
+    let unstable = lines.iter().filter(through).filter(|line| line.iter().all(|row| row[4] < 0.5)).count();
+    assert_eq!((stable, unstable, lines.len()), (2, 2, 4));
+    // Right at a doubling, and between two points of a branch.
+    for (window, count) in [([0.48600, 0.48601], 4), ([0.45, 0.45 + 1e-12], 2)] {
+        let (_, lines) = branches_in(0.5, window);
+        assert_eq!(lines.len(), count, "{window:?}");
+    }
 }
 
 #[test]

@@ -12,9 +12,14 @@ use crate::read_checked;
 mod birth;
 mod tip;
 mod walker;
+mod within;
 
 pub use tip::BranchTip;
 use walker::Walker;
+
+/// By how much, relative, the forcing of a map may differ from the one that it was made for: the roundings of a product and a
+/// quotient with pi.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// In what, how far and how finely an orbit is continued.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -368,15 +373,15 @@ impl ImpactMap {
         orbit.check()?;
         within("restitution of a continuation", self.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
         let parameter = settings.parameter.of(self);
-        within(
-            "parameter of a continuation",
-            parameter,
-            settings.low,
-            settings.high,
-            "[low, high] of the `Continuation`",
-        )?;
+        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside it.
+        let rounding = ROUNDED * parameter;
+        if parameter < settings.low - rounding || parameter > settings.high + rounding || parameter.is_nan() {
+            let legal = "[low, high] of the `Continuation`";
+            within("parameter of a continuation", parameter, settings.low, settings.high, legal)?;
+        }
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
-        let (closing, at) = Closing::of(self, settings.parameter, &orbit.states)?;
+        let (closing, mut at) = Closing::of(self, settings.parameter, &orbit.states)?;
+        at.parameter = at.parameter.clamp(settings.low, settings.high);
         let (walker, located) = Walker::new(closing, at, settings, watch.work())?;
         let branch = walker.walk(located)?;
         watch.end();

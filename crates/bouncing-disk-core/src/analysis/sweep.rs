@@ -3,6 +3,7 @@
 mod orbit_diagram;
 mod run;
 mod runner;
+mod settling;
 
 use core::f64::consts::TAU;
 use core::ops::ControlFlow;
@@ -19,6 +20,7 @@ pub use orbit_diagram::{
     MAX_RECORDED, orbit_diagram, orbit_diagram_observed, survival_times, survival_times_observed,
 };
 pub use run::{PartialResults, SweepRun};
+pub use settling::is_settling;
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -98,7 +98,7 @@ function diagram(request: Extract<Request, { call: "diagram" }>): Answer {
       numbers.push(forcing, reduced(phase), speed * forcing, Math.cos(phase + system.phase_lag));
     }
   }
-  return { json: { resting: 0 }, numbers };
+  return { json: { resting: 0, unsettled: 0, left_out: transient }, numbers };
 }
 
 function sheetOf(system: SystemParameters, mass: number): MotorSheet {

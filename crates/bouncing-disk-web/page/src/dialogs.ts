@@ -62,6 +62,10 @@ const KEYS: readonly [string, string][] = [
   ["?", "this help"],
   ["↑ ↓", "in a number: one step; with Shift ten"],
   ["Esc", "in a number: back to the last legal value"],
+  ["+ − 0", "in a diagram or basins: nearer, farther, all"],
+  ["← → ↑ ↓", "there: move what is seen"],
+  ["Shift ← → ↑ ↓", "there: move the cross"],
+  ["Enter", "there: choose what is under the cross"],
 ];
 
 /** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */

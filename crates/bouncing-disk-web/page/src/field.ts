@@ -133,9 +133,12 @@ export class Field {
   }
 
   private words(refusal: Refusal, value: number): string {
-    const { quantity, range, message } = refusal;
-    if (quantity !== this.parameter.name || range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
-    return `${shown(value)} is refused: the ${this.parameter.label} has to be in ${range}.`;
+    const { quantity, message } = refusal;
+    const { label, name, refusedAs } = this.parameter;
+    const follows = refusedAs?.quantities.includes(quantity ?? "") === true;
+    const range = follows ? refusedAs.range : quantity === name ? refusal.range : null;
+    if (range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
+    return `${shown(value)} is refused: the ${label.split(",")[0]} has to be in ${range}.`;
   }
 
   /** What is wrong stays until something legal is typed, and so does the text. */

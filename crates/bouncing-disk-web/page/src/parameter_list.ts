@@ -3,6 +3,7 @@
 import type { Change, State } from "./contract";
 import { shown } from "./numbers";
 import type { Range, Summary, SystemParameters } from "./protocol";
+import { amplitudeOf } from "./views/forcing";
 
 export interface Parameter {
   /** The name in the state; refusals of the module use the same one. */
@@ -18,6 +19,8 @@ export interface Parameter {
   /** `null` until the module has said it. */
   value(state: State, summary: Summary | null): number | null;
   change(value: number, state: State): Change;
+  /** The legal range, where the module refuses not this quantity but one of those that follow from it. */
+  readonly refusedAs?: { readonly quantities: readonly string[]; readonly range: string };
   /** The same in another unit, for orientation. */
   hint?(value: number, state: State): string;
 }
@@ -25,6 +28,15 @@ export interface Parameter {
 export interface Group {
   readonly title: string;
   readonly parameters: readonly Parameter[];
+}
+
+/** The forcing with the fewest digits that sets the amplitude of a system: what was typed, if that set it. */
+function asTyped(axialForcing: number, system: Readonly<SystemParameters>): number {
+  for (let digits = 1; digits < 17; digits += 1) {
+    const shorter = Number(axialForcing.toPrecision(digits));
+    if (amplitudeOf(shorter, system) === system.amplitude) return shorter;
+  }
+  return axialForcing;
 }
 
 const inPi = (value: number): string => (value === 0 ? "" : `${shown(value / Math.PI, 4)} π`);
@@ -76,11 +88,11 @@ export const GROUPS: readonly Group[] = [
         label: "axial forcing, sets A",
         unit: "",
         slider: "logarithmic",
-        value: (_state, summary) => summary?.axial_forcing ?? null,
+        value: ({ system }, summary) => (summary === null ? null : asTyped(summary.axial_forcing, system)),
         // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
-        change: (value, { system }) => ({
-          system: { amplitude: (value * Math.PI * system.preload_acceleration) / system.angular_frequency ** 2 },
-        }),
+        change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
+        // The range of the library's `Vibration::from_axial_forcing`.
+        refusedAs: { quantities: ["amplitude", "peak_acceleration"], range: "[0, 3.18e7]" },
       },
       ofSystem("amplitude", { symbol: "A", label: "amplitude", unit: "m", slider: "logarithmic", hint: metres }),
       ofSystem("twist_amplitude", {

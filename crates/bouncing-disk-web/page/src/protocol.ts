@@ -85,13 +85,15 @@ export type Request =
       start: ImpactStart;
       transient: number;
       recorded: number;
+      /** Most impacts that are left out of an orbit that has not settled after `transient` ones. */
+      patience?: number;
       /** Whether angular speeds are computed, which takes longer; without it they are NaN. */
       rotation?: boolean;
     }
   /** What the orbit from a start does for good: `VerdictJson`. */
   | { call: "orbit"; axial_forcing: number; restitution: number; start: ImpactStart }
-  /** The branches of period 1 with its doublings, stable and unstable, over a range: `BranchesJson`; numbers: rows of
-   * `BRANCH_COLUMNS`. */
+  /** The branches of period 1 with its doublings, stable and unstable, as far as they lie in a range: `BranchesJson`;
+   * numbers: rows of `BRANCH_COLUMNS`. */
   | { call: "branches"; restitution: number; axial_forcing: Range }
   /** All attractors of a map with the shares of the starts that end on them: `AttractorsJson`. */
   | { call: "attractors"; axial_forcing: number; restitution: number }
@@ -151,8 +153,11 @@ export const EVENT_COLUMNS = [
 export const DIAGRAM_COLUMNS = ["axial_forcing", "impact_phase", "normalised_speed", "angular_speed"] as const;
 
 /** The forcing, phase (rad) and normalised speed of one impact of an orbit on a branch, the number of the branch, 1
- * where the orbit is stable. The rows of one impact follow each other along the branch. */
-export const BRANCH_COLUMNS = ["axial_forcing", "impact_phase", "normalised_speed", "branch", "stable"] as const;
+ * where the orbit is stable, and the number of the line: one impact along one part of the branch. The rows of a line
+ * follow each other. */
+export const BRANCH_COLUMNS = [
+  "axial_forcing", "impact_phase", "normalised_speed", "branch", "stable", "line",
+] as const; // prettier-ignore
 
 /** Time (s), mean angular speed over the members and its standard error (rad/s). */
 export const TRANSIENT_COLUMNS = ["time", "speed", "speed_error"] as const;
@@ -210,6 +215,9 @@ export interface MotionJson {
 export interface DiagramJson {
   /** Orbits that came to rest for ever in these columns, and have no impacts left. */
   resting: number;
+  /** Orbits that are still on their way to what they repeat, and the most impacts that were left out of one. */
+  unsettled: number;
+  left_out: number;
 }
 
 export interface VerdictJson {
@@ -230,7 +238,14 @@ export interface VerdictJson {
 
 export interface BranchesJson {
   branches: { impacts: number; platform_periods: number; end: string }[];
-  bifurcations: { kind: string; axial_forcing: number; branch: number }[];
+  /** Phase (rad) and normalised speed are those of the first impact. */
+  bifurcations: {
+    kind: string;
+    axial_forcing: number;
+    impact_phase: number;
+    normalised_speed: number;
+    branch: number;
+  }[];
 }
 
 export interface AttractorsJson {

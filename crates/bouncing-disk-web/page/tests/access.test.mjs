@@ -147,7 +147,7 @@ test("the orbit diagram by keyboard: zoom, shift, cross with its orbit, choice",
     await page.waitForFunction((old) => !location.hash.includes(`amplitude=${old}&`), amplitude);
     await page.waitForFunction(() => /^Forcing .* chosen$/.test(document.getElementById("announcer").textContent));
     await page.keyboard.press("0");
-    await page.waitForFunction(() => location.hash.includes("diagram_forcing=0.3,0.62"));
+    await page.waitForFunction(() => location.hash.includes("diagram_forcing=0.32,0.62"));
   }));
 
 test("basins by keyboard: the cross tells where a start ends, and Enter runs it", () =>

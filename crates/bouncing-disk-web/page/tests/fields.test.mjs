@@ -27,8 +27,9 @@ const TAKEN = null;
 const POSITIVE = { "0": /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
 const ATLEAST0 = { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
 const ANY = { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
+const FORCING = /is refused: the axial forcing has to be in \[0, 3\.18e7\]/;
 const FIELDS = {
-  axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": /\[0, inf\)/, "3e7": TAKEN, "4e7": /\[0, 1e8\]/ },
+  axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": FORCING, "3e7": TAKEN, "4e7": FORCING },
   amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
   twist_amplitude: { ...ATLEAST0, "1e90": TAKEN, "1e300": /1e100\]/ },
   angular_frequency: { ...POSITIVE, "1e-310": /legal range/, "1e-3": TAKEN, "1e5": TAKEN, "1e6": /\[0, 1e8\]/ },

@@ -338,6 +338,76 @@ fn a_branch_ends_at_its_limits_and_can_be_stopped() {
     assert!(empty.points.iter().all(|point| (point.parameter - at).abs() < 1e-12));
 }
 
+/// P/pi is not always the forcing that P was made of.
+#[test]
+fn an_orbit_of_a_map_made_for_an_end_of_the_range_lies_in_it() {
+    let mut rounded = 0;
+    for hundredths in 40..400 {
+        let end = f64::from(hundredths) / 100.0;
+        let map = map(end, 0.5);
+        rounded += usize::from(map.vibration().axial_forcing().to_bits() != end.to_bits());
+        let orbit = map.refine(&[map.period_one(1).expect("born")]).expect("settles");
+        for (range, rising) in [((end, end + 0.1), true), ((end - 0.01, end), false)] {
+            let branch = map.continued(&orbit, &forcing(range.0, range.1, rising)).expect("continued");
+            assert_eq!(branch.points[0].parameter.to_bits(), end.to_bits());
+        }
+    }
+    assert!(rounded > 20, "{rounded}");
+}
+
+/// Parts are curves of the branch, whatever the range: through folds, from a birth, and between two points.
+#[test]
+fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
+    let (map, orbit) = node(1, 0.5, 1e-3);
+    let back = map.continued(&orbit, &forcing(0.2, 0.6, false)).expect("continued");
+    let on = map.continued(&orbit, &forcing(0.2, 0.6, true)).expect("continued");
+    let doubled = on.switched(0, &forcing(0.2, 0.6, true)).expect("doubles");
+    let stem = doubled.map_at(doubled.points[0].parameter).expect("legal");
+    let stem = stem.continued(&doubled.points[0].orbit, &forcing(0.2, 0.6, false)).expect("continued");
+    assert_eq!(stem.bifurcations.last().map(|last| last.kind), Some(BifurcationKind::Birth));
+    let third = 1.0 / 3.0;
+    let doubling = ImpactMap::first_doubling_forcing(0.5);
+    for (branch, range, ends) in [
+        (&on, (0.45, 0.45 + 1e-12), (0.45, 0.45 + 1e-12)),
+        (&on, (0.4, 0.5), (0.4, 0.5)),
+        (&on, (0.55, 0.7), (0.55, 0.6)),
+        (&back, (0.33, 0.45), (orbit_forcing(&map), 0.45)),
+        (&back, (third - 1e-7, third + 1e-7), (third + 1e-7, third + 1e-7)),
+        (&stem, (doubling - 1e-7, doubling + 1e-7), (doubling + 1e-7, doubling)),
+        (&doubled, (0.5, 0.5 + 1e-9), (0.5, 0.5 + 1e-9)),
+    ] {
+        let parts = branch.within(range, 50).expect("found");
+        assert_eq!(parts.len(), 1, "{range:?}");
+        let (first, last) = (&parts[0][0], &parts[0][parts[0].len() - 1]);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        assert!(
+            near(first.parameter, ends.0) && near(last.parameter, ends.1),
+            "{range:?}: {} {}",
+            first.parameter,
+            last.parameter
+        );
+        assert!(range.1 - range.0 < 1e-8 || parts[0].len() >= 50, "{range:?}: {}", parts[0].len());
+        for point in &parts[0] {
+            assert!((range.0..=range.1).contains(&point.parameter));
+            let map = branch.map_at(point.parameter).expect("legal");
+            let mut state = point.orbit.states[0];
+            for next in point.orbit.states.iter().cycle().skip(1).take(point.orbit.period()) {
+                state = map.step(state).expect("flies").state();
+                let apart = state.phase().angle() - next.phase().angle();
+                assert!(crate::numerics::elementary::sin(apart).abs() < 1e-9, "{range:?}: {apart}");
+                state = *next;
+            }
+        }
+    }
+    assert_eq!(on.within((0.1, 0.3), 50), Ok(Vec::new()));
+    assert_eq!(on.within((0.7, 0.8), 50), Ok(Vec::new()));
+    assert!(on.within((0.4, 0.4), 50).is_err() && on.within((0.4, 0.5), 1).is_err());
+}
+
+fn orbit_forcing(map: &ImpactMap) -> f64 {
+    map.vibration().axial_forcing()
+}
+
 #[test]
 fn what_cannot_be_continued_is_refused() {
     let (own, orbit) = node(1, 0.5, 0.1);

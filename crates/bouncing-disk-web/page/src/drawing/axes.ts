@@ -109,7 +109,9 @@ export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
   pen.rect(left, top, width, height, { stroke: frame, width: 1 });
   const ink = colour("--picture-text");
   for (const { value, label } of plot.xTicks.major) {
-    pen.text(label, pixelX(plot, value), bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
+    // A long number at the end of the axis keeps out of the margin's edge.
+    const x = Math.min(pixelX(plot, value), right + size - pen.measure(label, size) / 2);
+    pen.text(label, x, bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
   }
   for (const { value, label } of plot.yTicks.major) {
     pen.text(label, left - size * 0.5, pixelY(plot, value), { colour: ink, size, anchor: "end", baseline: "middle" });

@@ -230,9 +230,23 @@ function boxOf(plot: Plot, from: { x: number; y: number }, to: { x: number; y: n
   return { left, top, width: Math.abs(x(from.x) - x(to.x)), height: Math.abs(y(from.y) - y(to.y)) };
 }
 
-/** A window no larger than `most` and no smaller than `least`, moved into `[low, high]`. */
-export function confined([low, high]: Range, [least, most]: Range, [bottom, top]: Range): Range {
+/**
+ * A window no larger than `most` and no smaller than `least`, moved into `[low, high]`. A zoom of the window `before` that
+ * reaches a limit stops there about its own centre: at the limit it moves nothing.
+ */
+export function confined(wanted: Range, [least, most]: Range, [bottom, top]: Range, before?: Range): Range {
+  const [low, high] = wanted;
   const width = clamp(high - low, least, Math.min(most, top - bottom));
-  const middle = clamp((low + high) / 2, bottom + width / 2, top - width / 2);
+  const middle = clamp(middleOf(wanted, width, before), bottom + width / 2, top - width / 2);
   return [middle - width / 2, middle + width / 2];
+}
+
+function middleOf([low, high]: Range, width: number, before: Range | undefined): number {
+  const middle = (low + high) / 2;
+  if (before === undefined || width === high - low) return middle;
+  const old = before[1] - before[0];
+  const factor = (high - low) / old;
+  if (!(Math.abs(factor - 1) > 1e-9)) return middle;
+  const centre = (low - factor * before[0]) / (1 - factor);
+  return centre + ((before[0] + before[1]) / 2 - centre) * (width / old);
 }

@@ -40,7 +40,8 @@ function linearTicks([low, high]: Range, count: number, factor: number): Ticks {
 
 function tickLabel(value: number, step: number, decimals: number): string {
   const bound = Math.abs(value) < step * 1e-6 ? 0 : value;
-  return decimals <= 12 ? minus(bound.toFixed(decimals)) : minus(bound.toPrecision(6));
+  // More decimals than a double has next to 1 are powers of ten of a small number.
+  return decimals <= 17 ? minus(bound.toFixed(decimals)) : minus(bound.toPrecision(6));
 }
 
 function logTicks([low, high]: Range, count: number, factor: number): Ticks {

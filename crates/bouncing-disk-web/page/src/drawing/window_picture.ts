@@ -105,7 +105,8 @@ export class WindowPicture {
       const lines = [x, plot.top, x, bottom, NaN, NaN, plot.left, y, right, y];
       pen.clipped(plot.left, plot.top, plot.width, plot.height, () => {
         pen.path(lines, { stroke: colour("--picture-paper"), width: 3, opacity: 0.6 });
-        pen.path(lines, { stroke: colour("--picture-cursor"), width: 1 });
+        // In no colour of data, and fine: a cross is not taken for a line of the picture.
+        pen.path(lines, { stroke: colour("--picture-text"), width: 1, dash: [1, 2] });
       });
     }
     if (box !== null) {

@@ -15,12 +15,13 @@ import { WindowPicture } from "../drawing/window_picture";
 import type { Range } from "../protocol";
 import { BranchLines } from "./diagram/branch_lines";
 import { computeColumns, RECORDED, TRANSIENT } from "./diagram/computation";
-import type { Wanted } from "./diagram/computation";
-import { describeDiagram } from "./diagram/description";
+import type { Told, Wanted } from "./diagram/computation";
+import { Description } from "./diagram/description";
 import { Dots } from "./diagram/dots";
 import { diagramOffers } from "./diagram/offers";
 import { DESCRIBED, QUANTITIES } from "./diagram/quantity";
 import { Verdict } from "./diagram/verdict";
+import { DEFAULT_STATE } from "../state";
 import { tellFailure } from "./failures";
 import { amplitudeOf, axialForcing } from "./forcing";
 
@@ -41,11 +42,13 @@ class DiagramView implements View {
   private readonly alternative = element("p", { class: "alternative" });
   private readonly note = element("p", { class: "remark", hidden: true });
   private branches!: BranchLines;
+  private spoken!: Description;
   private readonly dots = new Dots();
   private asked = "";
   private done = "";
   /** What was computed, when all is there. */
   private sentence = "";
+  private orbits: Told = { resting: 0, unsettled: 0, leftOut: TRANSIENT };
   private told = false;
   private readonly compute = debounced(60, () => void this.fetch());
 
@@ -53,6 +56,7 @@ class DiagramView implements View {
     this.context = context;
     this.verdict = new Verdict(context);
     this.branches = new BranchLines(context);
+    this.spoken = new Description(context);
     this.picture = new WindowPicture(
       {
         className: "picture-wide",
@@ -61,7 +65,7 @@ class DiagramView implements View {
         paint: (pen, plot) => this.paint(pen, plot),
         window: () => ({ x: this.state().diagram.axial_forcing, y: this.dots.range(this.state().diagram) }),
         move: (window, settled) => this.move(window, settled),
-        reset: () => context.change({ diagram: { axial_forcing: [0.3, 0.62], range: null } }),
+        reset: () => context.change({ diagram: { axial_forcing: DEFAULT_STATE.diagram.axial_forcing, range: null } }),
         point: (at) => {
           if (at !== null) this.verdict.point(at[0], this.state());
         },
@@ -105,7 +109,7 @@ class DiagramView implements View {
     const noRotation = state.diagram.quantity === "angular_speed";
     this.branchesBox.disabled = noRotation;
     this.note.hidden = !noRotation;
-    if (noRotation) setText(this.note, "Branches are those of the vertical motion, and have no angular speed.");
+    if (noRotation) setText(this.note, noteOf(state));
     this.picture.redraw();
     this.compute();
   }
@@ -115,6 +119,7 @@ class DiagramView implements View {
     this.verdict.stop();
     this.context.client.cancel("diagram");
     this.branches.cancel();
+    this.spoken.cancel();
     // What did not come is asked for when the view is shown again.
     if (this.asked !== this.done) this.asked = "";
     // The place for it is another view's now.
@@ -152,9 +157,9 @@ class DiagramView implements View {
   private move(window: Window2, settled: boolean): void {
     const { quantity } = this.state().diagram;
     const { widths, bounds } = DESCRIBED[quantity];
-    const forcing = confined(window.x, [1e-9, 100], FORCING_BOUNDS);
-    const range = confined(window.y, widths, bounds);
     const before = this.dots.range(this.state().diagram);
+    const forcing = confined(window.x, [1e-9, 100], FORCING_BOUNDS, this.state().diagram.axial_forcing);
+    const range = confined(window.y, widths, bounds, before);
     const same = range[0] === before[0] && range[1] === before[1];
     this.context.change(
       { diagram: { axial_forcing: forcing, range: same ? this.state().diagram.range : range } },
@@ -180,9 +185,20 @@ class DiagramView implements View {
     else if (this.dots.arrange(diagram, laid.rows, this.context.colour)) this.picture.redraw();
     // Whoever asked for the columns goes on when they are there.
     if (key !== this.done || key !== this.asked) return;
+    // The verdicts come from the other worker, at the same time.
+    const verdicts = this.spoken.fetch(this.state());
+    // That they did not come is told where they are waited for.
+    verdicts.catch(() => {});
     const lines = await this.branches.fetch(this.state());
     if (lines === "missing") return;
     if (lines === "came") this.picture.redraw();
+    try {
+      await verdicts;
+    } catch (error) {
+      tellFailure(this.context, error);
+      return;
+    }
+    if (key !== this.done || key !== this.asked) return;
     this.describe();
     if (lines === "came" || !this.told) this.context.status(this.sentence);
     this.told = true;
@@ -197,7 +213,7 @@ class DiagramView implements View {
     const began = performance.now();
     this.context.status("Computing the orbit diagram", "busy");
     try {
-      const resting = await computeColumns(this.context, wanted, (columns) => {
+      this.orbits = await computeColumns(this.context, wanted, (columns) => {
         this.dots.take(columns, this.state().diagram, rows, this.context.colour);
         this.picture.redraw();
       });
@@ -206,8 +222,10 @@ class DiagramView implements View {
       this.dots.end(this.state().diagram, rows, this.context.colour);
       this.picture.redraw();
       const seconds = ((performance.now() - began) / 1000).toFixed(2);
+      const { resting, leftOut } = this.orbits;
       const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
-      const impacts = `${RECORDED} impacts of each after ${TRANSIENT}`;
+      const longer = leftOut > TRANSIENT ? `\u2013${leftOut}` : "";
+      const impacts = `${RECORDED} impacts of each after ${TRANSIENT}${longer}`;
       this.sentence = `${wanted.count} forcings, ${impacts}, in ${seconds} s.${rest}`;
     } catch (error) {
       if (this.asked === key) this.asked = "";
@@ -247,10 +265,16 @@ class DiagramView implements View {
   }
 
   private describe(): void {
-    const { diagram, system } = this.state();
-    const seen = describeDiagram(this.dots.columns, diagram, system.restitution, this.dots.count);
+    const seen = this.spoken.words(this.state(), this.dots.count, this.orbits);
     setText(this.alternative, seen + this.branches.describe(this.state()));
   }
+}
+
+/** What there is to say below a diagram of angular speeds. */
+function noteOf({ system }: State): string {
+  const idle = system.friction === 0 ? "Without friction" : system.twist_amplitude === 0 ? "Without a twist" : null;
+  if (idle !== null) return `${idle} the platform hands no spin on to the disk: there is nothing to draw.`;
+  return "Branches are those of the vertical motion, and have no angular speed.";
 }
 
 /** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */

@@ -7,10 +7,13 @@ import { DIAGRAM_COLUMNS } from "../../protocol";
 import type { Columns } from "./computation";
 import { columnOf } from "./quantity";
 
-const NOTHING: Range = [0, 1];
+/** The axis where there is nothing to see: of spins, between those that the platform has. */
+const nothing = (quantity: Quantity): Range => (quantity === "angular_speed" ? [-1, 1] : [0, 1]);
+/** A range that is narrower than this would show rounding. */
+const NARROWEST = 1e-9;
 
 export class AutomaticRange {
-  private range = NOTHING;
+  private range: Range = [0, 1];
 
   get value(): Range {
     return this.range;
@@ -28,7 +31,7 @@ export class AutomaticRange {
 
   /** When all dots are there: what they ask for, whatever was seen before. */
   settle(columns: readonly Columns[], quantity: Quantity): void {
-    this.range = rangeOf(columns, quantity) ?? NOTHING;
+    this.range = rangeOf(columns, quantity) ?? nothing(quantity);
   }
 }
 
@@ -42,6 +45,7 @@ function rangeOf(columns: readonly Columns[], quantity: Quantity): Range | null 
     high = Math.max(high, part[1]);
   }
   if (!(low <= high)) return null;
+  if (high - low < NARROWEST) [low, high] = [low - NARROWEST, high + NARROWEST];
   // An impact speed is none below zero.
   return quantity === "normalised_speed" ? [0, padded([0, high])[1]] : padded([low, high]);
 }

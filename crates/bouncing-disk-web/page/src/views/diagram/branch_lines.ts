@@ -53,7 +53,7 @@ export class BranchLines {
 
   describe(state: State): string {
     const lines = this.of(state);
-    return lines === null ? "" : ` ${describeBifurcations(lines)}`;
+    return lines === null ? "" : ` ${describeBifurcations(lines, state.diagram.axial_forcing)}`;
   }
 
   /** Those of another window are the same lines; those of another coefficient of restitution are others. */

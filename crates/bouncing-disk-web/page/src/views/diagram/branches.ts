@@ -6,12 +6,15 @@ import type { Plot } from "../../drawing/axes";
 import type { Colours } from "../../drawing/colours";
 import type { Pen } from "../../drawing/pen";
 import { BRANCH_COLUMNS } from "../../protocol";
-import type { BranchesJson } from "../../protocol";
+import type { BranchesJson, Range } from "../../protocol";
+import { forcingText } from "./forcing_text";
 import { axisValue, columnOf } from "./quantity";
 
 const WIDTH = BRANCH_COLUMNS.length;
-const BRANCH = 3;
 const STABLE = 4;
+const LINE = 5;
+/** Length of a dash and of a gap. */
+const DASH = 4;
 
 export interface Branches {
   readonly json: BranchesJson;
@@ -25,54 +28,64 @@ export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity
   const { numbers } = branches;
   const field = columnOf(quantity);
   const low = plot.y.scale.domain[0];
-  // Impacts of one branch follow each other: a jump back over half of what is seen begins the next one.
-  const width = plot.width / 4;
-  const height = plot.height / 3;
-  let last: { x: number; y: number; branch: number } | null = null;
+  let last: { x: number; value: number; line: number } | null = null;
   for (let row = 0; row + WIDTH <= numbers.length; row += WIDTH) {
     const x = pixelX(plot, numbers[row] as number);
-    const y = pixelY(plot, axisValue(quantity, numbers[row + field] as number, low));
-    const branch = numbers[row + BRANCH] as number;
-    const jump =
-      last === null || last.branch !== branch || Math.abs(last.x - x) > width || Math.abs(last.y - y) > height;
-    if (!jump && last !== null) {
-      const line = numbers[row + STABLE] === 1 ? full : dashed;
-      const end = line.length;
+    const value = axisValue(quantity, numbers[row + field] as number, low);
+    const line = numbers[row + LINE] as number;
+    // A phase that leaves the axis at one end goes on at the other.
+    const around = last !== null && quantity === "impact_phase" && Math.abs(value - last.value) > 0.5;
+    if (last !== null && last.line === line && !around) {
+      const kind = numbers[row + STABLE] === 1 ? full : dashed;
+      const end = kind.length;
+      const y = pixelY(plot, value);
+      const before = pixelY(plot, last.value);
       // The pen goes on where the last piece of this kind ended here.
-      if (line[end - 2] === last.x && line[end - 1] === last.y) line.push(x, y);
-      else line.push(NaN, NaN, last.x, last.y, x, y);
+      if (kind[end - 2] === last.x && kind[end - 1] === before) kind.push(x, y);
+      else kind.push(NaN, NaN, last.x, before, x, y);
     }
-    last = { x, y, branch };
+    last = { x, value, line };
   }
-  pen.path(dashed, { stroke: colour("--branch-unstable"), width: 1.1, dash: [5, 3] });
+  pen.path(dashesOf(dashed, plot), { stroke: colour("--branch-unstable"), width: 1 });
   pen.path(full, { stroke: colour("--branch-stable"), width: 1.5 });
   paintBifurcations(pen, plot, branches, quantity, colour);
 }
 
-/** Each bifurcation is marked at the nearest computed orbit of its branch. */
-function paintBifurcations(
-  pen: Pen,
-  plot: Plot,
-  { json, numbers }: Branches,
-  quantity: Quantity,
-  colour: Colours,
-): void {
-  const field = columnOf(quantity);
+/** Dashes of lines, at places of the picture and not of the line: two that nearly coincide have their gaps in common, and
+ * do not fill each other's up. */
+function dashesOf(points: readonly number[], plot: Plot): number[] {
+  const dashes: number[] = [];
+  for (let index = 0; index + 3 < points.length; index += 2) {
+    const [fromX = NaN, fromY = NaN, toX = NaN, toY = NaN] = points.slice(index, index + 4);
+    if (Number.isNaN(fromX + toX)) continue;
+    const flat = Math.abs(toX - fromX) >= Math.abs(toY - fromY);
+    const [from, to] = flat ? [fromX, toX] : [fromY, toY];
+    if (from === to) continue;
+    // What is outside of the picture can be any number of dashes long.
+    const [first, last] = flat ? [plot.left, plot.left + plot.width] : [plot.top, plot.top + plot.height];
+    const low = Math.max(Math.min(from, to), first);
+    const high = Math.min(Math.max(from, to), last);
+    for (let dash = Math.floor(low / DASH); dash * DASH < high; dash += 1) {
+      if (dash % 2 !== 0) continue;
+      for (const place of [Math.max(dash * DASH, low), Math.min((dash + 1) * DASH, high)]) {
+        const share = (place - from) / (to - from);
+        dashes.push(fromX + (toX - fromX) * share, fromY + (toY - fromY) * share);
+      }
+      dashes.push(NaN, NaN);
+    }
+  }
+  return dashes;
+}
+
+/** Each bifurcation is marked at the first impact of its orbit. */
+function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Quantity, colour: Colours): void {
   const low = plot.y.scale.domain[0];
   const style = { stroke: colour("--bifurcation"), width: 1.3, fill: colour("--picture-paper") };
   for (const found of json.bifurcations) {
     const x = pixelX(plot, found.axial_forcing);
     if (x < plot.left || x > plot.left + plot.width) continue;
-    let nearest = Infinity;
-    let y = NaN;
-    for (let row = 0; row + WIDTH <= numbers.length; row += WIDTH) {
-      if (numbers[row + BRANCH] !== found.branch) continue;
-      const distance = Math.abs((numbers[row] as number) - found.axial_forcing);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      y = pixelY(plot, axisValue(quantity, numbers[row + field] as number, low));
-    }
-    if (Number.isNaN(y)) continue;
+    const of = quantity === "impact_phase" ? found.impact_phase : found.normalised_speed;
+    const y = pixelY(plot, axisValue(quantity, of, low));
     if (found.kind === "doubling") pen.circle(x, y, 3.5, style);
     else if (found.kind === "fold") pen.rect(x - 3, y - 3, 6, 6, style);
     else if (found.kind === "birth") pen.path([x, y - 4, x + 4, y, x, y + 4, x - 4, y], { ...style, close: true });
@@ -84,10 +97,11 @@ function paintBifurcations(
   }
 }
 
-/** "a doubling at 0.4860, a fold at 0.3333", for the text beside the picture; the first few. */
-export function describeBifurcations({ json }: Branches): string {
-  const words = json.bifurcations.map(({ kind, axial_forcing }) => `${kind} at ${axial_forcing.toFixed(4)}`);
+/** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
+export function describeBifurcations({ json }: Branches, window: Range): string {
+  const words = json.bifurcations.map(({ kind, axial_forcing }) => `${kind} at ${forcingText(axial_forcing, window)}`);
   const distinct = [...new Set(words)];
+  if (json.branches.length === 0) return "No branch that can be continued lies in this window.";
   if (distinct.length === 0) return "No bifurcation of the branches lies in this window.";
   const more = distinct.length > 6 ? `, and ${distinct.length - 6} more` : "";
   return `On the branches: ${distinct.slice(0, 6).join(", ")}${more}.`;

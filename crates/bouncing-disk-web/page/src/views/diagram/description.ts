@@ -1,51 +1,81 @@
-/** The orbit diagram in words, for those who do not see it. */
+/** The orbit diagram in words, for those who do not see it: what some of its orbits do for good, by the library's verdict. */
 
-import type { State } from "../../contract";
-import { brief, plain } from "../../drawing/numbers";
-import { DIAGRAM_COLUMNS } from "../../protocol";
-import type { Columns } from "./computation";
-import { columnOf, DESCRIBED } from "./quantity";
+import type { Context, State } from "../../contract";
+import { brief, grouped } from "../../drawing/numbers";
+import type { VerdictJson } from "../../protocol";
+import { RECORDED, TRANSIENT } from "./computation";
+import type { Told } from "./computation";
+import { endText, forcingText } from "./forcing_text";
+import { DESCRIBED } from "./quantity";
 
-const WIDTH = DIAGRAM_COLUMNS.length;
 const SAMPLES = 5;
-const MANY = 16;
-/** Values nearer to each other than this count as one. */
-const SAME = 1e-4;
 
-export function describeDiagram(
-  answers: readonly Columns[],
-  diagram: State["diagram"],
-  restitution: number,
-  count: number,
-): string {
+export class Description {
+  private key = "";
+  private verdicts: readonly VerdictJson[] = [];
+
+  constructor(private readonly context: Context) {}
+
+  /** Asks for the verdicts on the samples of a state, unless they are there. */
+  async fetch(state: State): Promise<void> {
+    const { impact_phase, normalised_speed } = state.start;
+    const { restitution } = state.system;
+    const key = JSON.stringify([state.diagram.axial_forcing, restitution, impact_phase, normalised_speed]);
+    if (key === this.key) return;
+    const start = { impact_phase, normalised_speed };
+    const answers = await Promise.all(
+      samplesOf(state).map((axial_forcing, index) =>
+        this.context.client.ask(`${SLOT}-${index}`, { call: "orbit", axial_forcing, restitution, start }),
+      ),
+    );
+    this.verdicts = answers.map(({ json }) => json as VerdictJson);
+    this.key = key;
+  }
+
+  cancel(): void {
+    for (let index = 0; index < SAMPLES; index += 1) this.context.client.cancel(`${SLOT}-${index}`);
+  }
+
+  words(state: State, count: number, told: Told): string {
+    const { axial_forcing, quantity } = state.diagram;
+    const [low, high] = axial_forcing;
+    const does = this.verdicts.map(
+      (verdict, index) => `${behaviour(verdict)} at ${forcingText(samplesOf(state)[index] ?? NaN, axial_forcing)}`,
+    );
+    return (
+      `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
+      `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
+      `of restitution of ${brief(state.system.restitution)}. What the vertical motion does for good: ` +
+      `${does.join(", ")}.${unsettled(count, told, quantity !== "angular_speed" && state.diagram.branches)}`
+    );
+  }
+}
+
+const SLOT = "diagram-words";
+
+function samplesOf({ diagram }: State): number[] {
   const [low, high] = diagram.axial_forcing;
-  const { name } = DESCRIBED[diagram.quantity];
-  const parts: string[] = [];
-  for (let sample = 0; sample < SAMPLES; sample += 1) {
-    const column = Math.round(((sample + 0.5) / SAMPLES) * (count - 1));
-    const answer = answers.find(({ coarse, from, to }) => !coarse && from <= column && column < to);
-    if (answer === undefined) continue;
-    const forcing = low + (high - low) * (column / (count - 1));
-    parts.push(`${values(distinct(answer.numbers, forcing, columnOf(diagram.quantity)))} at ${plain(forcing, 4)}`);
-  }
-  return (
-    `The ${name} of the orbits from the shared start, for Γ from ${brief(low)} to ${brief(high)} at a coefficient of ` +
-    `restitution of ${brief(restitution)}: ${parts.join(", ")}.`
-  );
+  return Array.from({ length: SAMPLES }, (_, sample) => low + ((high - low) * (sample + 0.5)) / SAMPLES);
 }
 
-function distinct(numbers: Float64Array, forcing: number, field: number): number {
-  const found: number[] = [];
-  for (let row = 0; row + WIDTH <= numbers.length && found.length <= MANY; row += WIDTH) {
-    if (Math.abs((numbers[row] as number) - forcing) > 1e-12 * forcing) continue;
-    const value = numbers[row + field] as number;
-    if (!Number.isNaN(value) && !found.some((known) => Math.abs(known - value) < SAME)) found.push(value);
-  }
-  return found.length;
+function leftOut({ leftOut }: Told): string {
+  return leftOut > TRANSIENT
+    ? `${TRANSIENT} (where that is not enough, up to ${grouped(String(leftOut))})`
+    : String(TRANSIENT);
 }
 
-function values(count: number): string {
-  if (count === 0) return "none";
-  if (count > MANY) return `more than ${MANY} values`;
-  return `${count} value${count === 1 ? "" : "s"}`;
+function unsettled(count: number, { unsettled: number, leftOut }: Told, lines: boolean): string {
+  if (number === 0) return "";
+  const some = `${number} of the ${count} orbits ${number === 1 ? "has" : "have"} not`;
+  const of = number === count ? "None of the orbits has" : some;
+  const end = lines ? "; the lines are where they end." : ".";
+  return ` ${of} settled after ${grouped(String(leftOut))} impacts: their dots are still on their way${end}`;
+}
+
+function behaviour({ kind, impacts }: VerdictJson): string {
+  const round = `${impacts ?? 0} impact${impacts === 1 ? "" : "s"}`;
+  if (kind === "periodic") return `period ${impacts ?? 0}`;
+  if (kind === "chaotic") return "chaos";
+  if (kind === "chattering") return `a rest every ${round}`;
+  return kind === "at-rest" ? "rest for ever" : "undecided";
 }

@@ -7,7 +7,7 @@ import type { Colours } from "../../drawing/colours";
 import { pictureOffers, PRINT_SIZE, rowsOf, tableOffers, TWO_COLUMNS } from "../../drawing/files";
 import type { Pen } from "../../drawing/pen";
 import { DIAGRAM_COLUMNS } from "../../protocol";
-import { RECORDED, TRANSIENT } from "./computation";
+import { PATIENCE, RECORDED, TRANSIENT } from "./computation";
 import type { Columns } from "./computation";
 
 export interface DiagramParts {
@@ -23,7 +23,9 @@ export function diagramOffers({ state, columns, plotAxes, paint }: DiagramParts)
   return [
     ...tableOffers({
       name: "orbit diagram",
-      parameters: { picture: "orbit diagram", system, start, diagram, transient: TRANSIENT, recorded: RECORDED },
+      parameters: {
+        picture: "orbit diagram", system, start, diagram, transient: TRANSIENT, recorded: RECORDED, patience: PATIENCE,
+      }, // prettier-ignore
       columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi"],
       *rows() {
         for (const { numbers } of fine) yield* rowsOf(numbers, DIAGRAM_COLUMNS.length);

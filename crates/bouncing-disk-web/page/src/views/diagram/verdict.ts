@@ -57,7 +57,8 @@ export class Verdict {
     this.facts.set("Period", round);
     this.facts.set("Multipliers", verdict.multipliers?.map(complex).join(", ") ?? "–");
     this.facts.set("Exponent per impact", withError(verdict.exponent, verdict.exponent_error));
-    setText(this.sentence, verdict.text);
+    // The library writes for terminals, too.
+    setText(this.sentence, verdict.text.replaceAll("+-", "±"));
     this.caution.hidden = !verdict.rounding_dependent;
     setText(
       this.caution,

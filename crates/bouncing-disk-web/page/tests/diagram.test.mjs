@@ -1,0 +1,113 @@
+/** The orbit diagram: what is said and drawn of a window, and how fast it is there. */
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { isFake, launch, opened, settled, stateOf, type } from "./browser.mjs";
+import { sourceOf } from "./sources.mjs";
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser.close());
+
+async function within(hash, act, size = {}) {
+  const { page, context, errors } = await opened(browser, { hash: `#view=diagram&${hash}`, ...size });
+  try {
+    await settled(page);
+    await act(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await context.close();
+  }
+}
+
+const words = (page) => page.textContent("#view-diagram .alternative");
+const real = { skip: isFake };
+
+test("a window of any place and width is answered", real, async () => {
+  for (const [window, restitution] of [
+    ["60,60.1", 0.5],
+    ["0.001,0.01", 0.5],
+    ["99,100", 0.5],
+    ["0.45,0.450000000001", 0.5],
+    ["0.9,1.2", 0],
+    ["0.3,0.62", 0.999999],
+  ])
+    await within(`diagram_forcing=${window}&restitution=${restitution}`, async (page) => {
+      assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
+      assert.match(await words(page), /for Γ from/);
+    });
+});
+
+test("what is said of a window is what its orbits do for good, and its bifurcations", real, async () => {
+  await within("diagram_forcing=0.484,0.487", async (page) => {
+    assert.match(await words(page), /for good: period 1 at 0\.484\d+, period 1 at .* period 2 at 0\.486\d+\./);
+    assert.match(await words(page), /orbits have not settled after 3,000 impacts.*the lines are where they end/);
+    assert.match(await words(page), /On the branches: doubling at 0\.48600/);
+  });
+  await within("diagram_forcing=0.54,0.62", async (page) => {
+    assert.match(await words(page), /doubling at 0\.5401, doubling at 0\.5421, doubling at 0\.5426/);
+  });
+  await within("diagram_forcing=0.45,0.450000000001", async (page) => {
+    assert.match(await words(page), /for Γ from 0\.45 to 0\.450000000001 /);
+  });
+});
+
+test("a disk that takes up no spin has a sentence and a range instead of rounding", real, async () => {
+  for (const nothing of ["friction=0", "twist_amplitude=0"])
+    await within(`diagram_quantity=angular_speed&${nothing}`, async (page) => {
+      assert.match(await page.textContent("#view-diagram .remark"), /hands no spin on to the disk/);
+    });
+});
+
+test("a forcing is shown as it was typed", async () => {
+  await within("", async (page) => {
+    for (const forcing of ["0.49", "0.34", "0.55", "0.7"]) {
+      await type(page, "axial_forcing", forcing);
+      await page.waitForFunction((text) => document.getElementById("field-axial_forcing").title === text, forcing);
+    }
+  });
+});
+
+test("a zoom that reaches the limit stays where it is", async () => {
+  const { confined } = await sourceOf("drawing/gestures.ts");
+  const limits = [
+    [1e-9, 100],
+    [1e-3, 1e3],
+  ];
+  const about = ([low, high], centre, factor) => [centre + (low - centre) * factor, centre + (high - centre) * factor];
+  let window = [0.3, 0.62];
+  for (let turn = 0; turn < 60; turn++) window = confined(about(window, window[0], 1.4), ...limits, window);
+  assert.ok(Math.abs(window[0] - 0.3) < 1e-6 && Math.abs(window[1] - 100.3) < 1e-6, String(window));
+  assert.deepEqual(confined([0.4, 0.5], ...limits, [0.4, 0.6]), [0.4, 0.5]);
+});
+
+test("the help has the keys of the picture", async () => {
+  await within("", async (page) => {
+    await page.keyboard.press("?");
+    assert.match(await page.textContent("dialog.help"), /nearer, farther, all.*move the cross.*under the cross/);
+  });
+});
+
+test("the ticks of the narrowest windows differ", async () => {
+  const { ticks } = await sourceOf("drawing/ticks.ts");
+  const { linearScale } = await sourceOf("drawing/scale.ts");
+  for (const width of [1e-9, 1e-12, 1e-13]) {
+    const labels = ticks(linearScale([0.45, 0.45 + width]), 5).major.map((tick) => tick.label);
+    assert.ok(labels.length > 1 && new Set(labels).size === labels.length, labels.join(" "));
+  }
+});
+
+test("a zoom is there in a moment", real, async () => {
+  await within("", async (page) => {
+    const { diagram_forcing } = await stateOf(page);
+    await page.focus("#view-diagram canvas[tabindex='0']");
+    await page.keyboard.press("+");
+    await page.waitForFunction((old) => !location.hash.includes(old), diagram_forcing);
+    await settled(page);
+    const seconds = Number(/in ([\d.]+) s/.exec(await page.textContent("#status"))[1]);
+    // A busy machine takes some times of the 0.1 s.
+    assert.ok(seconds < 1.5, `${seconds} s`);
+  });
+});
