@@ -112,6 +112,13 @@ test("a load that puts power in is not said to take it", () => {
   assert.doesNotMatch(efficiency, /best/);
 });
 
+test("points at zero stand inside the frame where there is nothing but zero", async () => {
+  const { loadCharts } = await sourceOf("views/motor/charts.ts");
+  const still = [operation({ efficiency: 0 }), operation({ load_torque: 1e-5 })];
+  const [, , efficiency] = loadCharts(still, [0, 1e-5], 1e-5, null);
+  assert.ok(efficiency.yRange[0] < 0, `${efficiency.yRange}`);
+});
+
 test("numbers that the error hides have no digits and no sign, others no more than are known", () => {
   assert.equal(numbers.withError(-8.1e-10, 4.2e-6), "0 ± 4.2 × 10⁻⁶");
   assert.equal(numbers.withError(-0.04, 0.012), "−0.040 ± 0.012");
