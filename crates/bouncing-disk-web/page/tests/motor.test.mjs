@@ -112,6 +112,13 @@ test("a load that puts power in is not said to take it", () => {
   assert.doesNotMatch(efficiency, /best/);
 });
 
+test("points at zero stand inside the frame where there is nothing but zero", async () => {
+  const { loadCharts } = await sourceOf("views/motor/charts.ts");
+  const still = [operation({ efficiency: 0 }), operation({ load_torque: 1e-5 })];
+  const [, , efficiency] = loadCharts(still, [0, 1e-5], 1e-5, null);
+  assert.ok(efficiency.yRange[0] < 0, `${efficiency.yRange}`);
+});
+
 test("numbers that the error hides have no digits and no sign, others no more than are known", () => {
   assert.equal(numbers.withError(-8.1e-10, 4.2e-6), "0 ± 4.2 × 10⁻⁶");
   assert.equal(numbers.withError(-0.04, 0.012), "−0.040 ± 0.012");
@@ -122,7 +129,14 @@ test("numbers that the error hides have no digits and no sign, others no more th
   const constant = words.timeConstant({ points: 9, rise, refusal: null }, null);
   assert.equal(constant, "835.03 ms (95 % interval 834.79 to 835.28 ms)");
   const lost = words.steadySpeed(operation({ status: 1, speed: 16.0763, speed_error: 8e-4, shortfall: "it drifts" }), 1);
-  assert.match(lost, /^about 16\.1 rad\/s without load, not settled: it drifts$/);
+  assert.match(lost, /^not settled, 16\.1 rad\/s so far without load; it drifts$/);
+});
+
+test("what has not settled has no error, which would not hold its drift", () => {
+  const row = operation({ status: 1, load_torque: 1e-5, mechanical_power: 4e-5, efficiency: 0.06, efficiency_error: 1e-4 });
+  const told = words.describeCurves([row], null);
+  for (const sentence of told) assert.match(sentence, /so far, not settled/);
+  assert.doesNotMatch(told.join(" "), /±/);
 });
 
 test("a trap is told with digits enough to find it", () => {

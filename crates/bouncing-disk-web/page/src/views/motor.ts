@@ -202,9 +202,10 @@ class MotorView implements View {
     try {
       await this.sweep(sheet, torques, rough, present);
       if (!present()) return;
-      await this.findStall(sheet, present);
-      if (!present()) return;
       await this.sweep(sheet, torques, fine, present);
+      if (!present()) return;
+      // It takes longest where nothing bounces, and is the last to be missed.
+      await this.findStall(sheet, present);
     } catch (error) {
       if (error instanceof Cancelled || !present()) throw error;
       this.problems.curve = messageOf(error);

@@ -10,7 +10,7 @@ export const MEMBERS = 16;
 const TRANSIENT_POINTS = 160;
 /** The curve is there soon, roughly, and then sharpens: a motor that settles late takes more impacts. */
 export const PASSES = [
-  { relative_error: 0.1, most_impacts: 2_000_000 },
+  { relative_error: 0.1, most_impacts: 5_000_000 },
   { relative_error: 0.02, most_impacts: 20_000_000 },
 ] as const;
 export type Pass = (typeof PASSES)[number];

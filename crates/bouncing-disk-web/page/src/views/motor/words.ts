@@ -18,11 +18,12 @@ const under = (load: number): string =>
 export function steadySpeed(own: Operation, largestTorque: number): string {
   if (own.status === 2) {
     const most = quantity(largestTorque, "N m");
-    return `none: the load of the sheet, ${quantity(own.load_torque, "N m")}, is more than the ${most} that friction holds at most`;
+    const load = quantity(own.load_torque, "N m");
+    return `none: the load of the sheet, ${load}, is more than the ${most} that friction holds at most`;
   }
   if (own.status === 1) {
-    const speed = `about ${plain(own.speed, 3)} rad/s ${under(own.load_torque)}`;
-    return `${speed}, not settled${own.shortfall === null ? "" : `: ${readable(own.shortfall)}`}`;
+    const why = own.shortfall === null ? "" : `; ${readable(own.shortfall)}`;
+    return `not settled, ${plain(own.speed, 3)} rad/s so far ${under(own.load_torque)}${why}`;
   }
   return `${withError(own.speed, own.speed_error)} rad/s ${under(own.load_torque)}`;
 }
@@ -104,11 +105,18 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const at = ({ load_torque }: Operation) => quantityWithError(load_torque, null, "N m");
   const speed = (row: Operation) =>
     row.status === 1
-      ? `about ${plain(row.speed, 3)} rad/s, not settled, at ${at(row)}`
+      ? `${plain(row.speed, 3)} rad/s so far, not settled, at ${at(row)}`
       : `${withError(row.speed, row.speed_error)} rad/s at ${at(row)}`;
   const stop = stall === null || stall.torque === null ? "" : ` The motor stalls at ${describeStall(stall)}.`;
   const powerful = known.reduce((best, row) => (row.mechanical_power > best.mechanical_power ? row : best));
-  const power = quantityWithError(powerful.mechanical_power, powerful.mechanical_power_error, "W");
+  // A drift is in no error: numbers of what is not settled stand without one.
+  const settled = ({ status }: Operation, known: string, rough: string) =>
+    status === 1 ? `${rough} so far, not settled` : known;
+  const power = settled(
+    powerful,
+    quantityWithError(powerful.mechanical_power, powerful.mechanical_power_error, "W"),
+    quantity(powerful.mechanical_power, "W"),
+  );
   const efficient = known
     .filter(({ efficiency }) => efficiency > 0)
     .reduce<Operation | null>((best, row) => (best === null || row.efficiency > best.efficiency ? row : best), null);
@@ -120,6 +128,10 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
     efficient === null
       ? "None of the loads computed takes power from the motor, which has no efficiency there."
       : "Of the loads computed, the best efficiency is " +
-        `${withError(efficient.efficiency, efficient.efficiency_error, 100)} % at ${at(efficient)}.`,
+        `${settled(
+          efficient,
+          `${withError(efficient.efficiency, efficient.efficiency_error, 100)} %`,
+          `${plain(100 * efficient.efficiency, 3)} %`,
+        )} at ${at(efficient)}.`,
   ];
 }
