@@ -104,7 +104,7 @@ pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, is_settling, orbit_diagram,
-    orbit_diagram_observed, survival_times, survival_times_observed, sweep, sweep_observed,
+    orbit_diagram_observed, repeats_every, survival_times, survival_times_observed, sweep, sweep_observed,
 };
 pub use analysis::verdict::{
     CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, verdicts, verdicts_observed,

@@ -1,6 +1,6 @@
 //! Columns of orbit diagrams.
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, is_settling, orbit_diagram};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, is_settling, orbit_diagram, repeats_every};
 use bouncing_disk::{
     CollisionEvent, CollisionState, Collisions, DimensionlessSystem, InitialCondition, System,
 };
@@ -21,6 +21,9 @@ const MOST_LEFT_OUT: usize = 1_000_000;
 /// recorded: in units of the normalised speed, and of the platform's largest angular speed.
 const LONGEST_PERIOD: usize = 32;
 const SETTLED: f64 = 1e-6;
+
+/// Normalised speeds that differ by less are those of one impact that repeats itself, or will.
+const NEARLY: f64 = 1e-3;
 
 /// In one impact a disk takes up the share 2/Gamma_T of the platform's largest angular speed at most, if it hits as fast as in
 /// the motion of one impact a period. So many times that share of an impact are left out before its spin is recorded.
@@ -156,7 +159,15 @@ fn rotating(
         }
         let spins: Vec<f64> = impacts.iter().map(|(_, spin)| *spin).collect();
         let speeds: Vec<f64> = impacts.iter().map(|(state, _)| state.normalised_speed()).collect();
-        let settled = ![spins, speeds].iter().any(|values| is_settling(values, LONGEST_PERIOD, SETTLED));
+        // The spin of a disk whose impacts repeat repeats with them, once it has settled.
+        let follows = match repeats_every(&speeds, LONGEST_PERIOD, NEARLY) {
+            Some(period) => {
+                let (first, last) = (&spins[..period], &spins[spins.len() / period * period - period..]);
+                !first.iter().zip(last).any(|(first, last)| (first - last).abs() > SETTLED)
+            }
+            None => !is_settling(&spins, LONGEST_PERIOD, SETTLED),
+        };
+        let settled = follows && !is_settling(&speeds, LONGEST_PERIOD, SETTLED);
         let later = left_out + recorded;
         if settled || later > patience || impacts.len() < recorded {
             return Ok(Column { impacts, left_out, settled });

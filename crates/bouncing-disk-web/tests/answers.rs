@@ -244,6 +244,44 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
     assert_eq!(refused(&huge)["quantity"], "recorded");
 }
 
+/// The two spins of an orbit of two impacts that slides in both, at an angular forcing of 100: some hundred impacts more than
+/// 300 bring them about.
+#[test]
+fn columns_are_followed_until_they_have_settled() {
+    let unit = answered(&json!({ "call": "check", "system": pizza() })).0["angular_forcing"].as_f64();
+    let system =
+        with(pizza(), json!({ "phase_lag": 0.0, "twist_amplitude": 100.0 / unit.expect("friction") }));
+    for (forcing, spins) in [(0.51, [0.9028, 0.9219]), (0.53, [0.9495, 0.9683])] {
+        let request = with(
+            diagram([0, 1], true),
+            json!({ "system": system, "axial_forcing": [forcing, forcing + 1e-9], "recorded": 200, "count": 2 }),
+        );
+        let (json, _) = answered(&request);
+        assert_eq!((&json["unsettled"], &json["left_out"]), (&json!(1), &json!(300)));
+        let (json, reply) = answered(&with(request, json!({ "patience": 3000 })));
+        assert_eq!(json["unsettled"], 0, "{json}");
+        assert!(json["left_out"].as_u64().is_some_and(|left_out| (500..2000).contains(&left_out)), "{json}");
+        for row in reply.numbers().chunks(4) {
+            assert!(spins.iter().any(|spin| (row[3] - spin).abs() < 1e-4), "{forcing}: {row:?}");
+        }
+    }
+    // Near a doubling no patience suffices, and the answer says so.
+    let near = json!({ "axial_forcing": [0.486, 0.48601], "count": 40, "patience": 3000, "recorded": 200 });
+    let (json, _) = answered(&with(diagram([0, 40], false), near));
+    assert_eq!((&json["unsettled"], &json["left_out"]), (&json!(40), &json!(3000)));
+    let (json, _) = answered(&with(diagram([0, 40], false), json!({ "patience": 3000, "recorded": 200 })));
+    assert!(json["unsettled"].as_u64().is_some_and(|unsettled| unsettled <= 1), "{json}");
+    // Without friction or twist there is no spin, and no rounding of one.
+    for idle in [json!({ "friction": 0.0 }), json!({ "twist_amplitude": 0.0 })] {
+        let (_, reply) = answered(&with(diagram([0, 40], true), json!({ "system": with(pizza(), idle) })));
+        assert!(!reply.numbers().is_empty() && reply.numbers().chunks(4).all(|row| row[3].is_nan()));
+    }
+    assert_eq!(
+        refused(&with(diagram([0, 40], true), json!({ "patience": 1e7 as u64 })))["quantity"],
+        "patience"
+    );
+}
+
 #[test]
 fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     let mut explorer = Explorer::new();

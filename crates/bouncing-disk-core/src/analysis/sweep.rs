@@ -20,7 +20,7 @@ pub use orbit_diagram::{
     MAX_RECORDED, orbit_diagram, orbit_diagram_observed, survival_times, survival_times_observed,
 };
 pub use run::{PartialResults, SweepRun};
-pub use settling::is_settling;
+pub use settling::{is_settling, repeats_every};
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -390,12 +390,11 @@ fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
         for point in &parts[0] {
             assert!((range.0..=range.1).contains(&point.parameter));
             let map = branch.map_at(point.parameter).expect("legal");
-            let mut state = point.orbit.states[0];
-            for next in point.orbit.states.iter().cycle().skip(1).take(point.orbit.period()) {
-                state = map.step(state).expect("flies").state();
-                let apart = state.phase().angle() - next.phase().angle();
+            let states = &point.orbit.states;
+            for (state, next) in states.iter().zip(states.iter().cycle().skip(1)) {
+                let impact = map.step(*state).expect("flies");
+                let apart = impact.phase.angle() - next.phase().angle();
                 assert!(crate::numerics::elementary::sin(apart).abs() < 1e-9, "{range:?}: {apart}");
-                state = *next;
             }
         }
     }

@@ -3,11 +3,14 @@
 /// Changes from round to round that are rounding, relative to the largest value.
 const ROUNDING: f64 = 1.0e-12;
 
+/// How much further than before a value may move on: of two motions that both settle, say spin and impact, one disturbs the other.
+const LARGEST_GROWTH: f64 = 1.05;
+
 /// The fewest rounds of which it can be said that they come nearer.
 const FEWEST_ROUNDS: usize = 4;
 
 /// Whether the values, one of each impact, are still on their way to values that repeat: every `period` impacts, for some period
-/// up to `longest_period`, each has moved on in the same direction as before and no further than before, and by more than
+/// up to `longest_period`, each has moved on in the same direction as before and hardly further than before, and by more than
 /// `tolerance` in all.
 ///
 /// Near a period doubling or a fold, where a multiplier is near 1 or -1, an orbit needs many impacts to settle, and what is
@@ -32,7 +35,7 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
             let before = values[index - period] - values[index - 2 * period];
             let after = values[index] - values[index - period];
             let goes_on = before * after >= 0.0 || after.abs() <= slack;
-            goes_on && after.abs() <= before.abs() * (1.0 + 1.0e-6) + slack
+            goes_on && after.abs() <= LARGEST_GROWTH * before.abs() + slack
         })
     };
     // What repeats every few impacts, or comes nearer to that, does so also every twice as many.
@@ -42,6 +45,22 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
     (0..period).any(|class| {
         let last = class + (values.len() - 1 - class) / period * period;
         (values[last] - values[class]).abs() > tolerance
+    })
+}
+
+/// The smallest period up to `longest_period` after which all values are the same again, within `tolerance`; `None` also where
+/// there are not four rounds of it.
+///
+/// ```
+/// use bouncing_disk_core::repeats_every;
+///
+/// assert_eq!(repeats_every(&[0.3, 0.7].repeat(50), 8, 1e-6), Some(2));
+/// assert_eq!(repeats_every(&[0.3, 0.7], 8, 1e-6), None);
+/// ```
+#[must_use]
+pub fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> Option<usize> {
+    (1..=longest_period.min(values.len() / FEWEST_ROUNDS)).find(|period| {
+        (*period..values.len()).rev().all(|index| (values[index] - values[index - period]).abs() <= tolerance)
     })
 }
 

@@ -109,8 +109,9 @@ export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
   pen.rect(left, top, width, height, { stroke: frame, width: 1 });
   const ink = colour("--picture-text");
   for (const { value, label } of plot.xTicks.major) {
-    // A long number at the end of the axis keeps out of the margin's edge.
-    const x = Math.min(pixelX(plot, value), right + size - pen.measure(label, size) / 2);
+    // A long number at an end of the axis stays in the picture.
+    const half = pen.measure(label, size) / 2;
+    const x = Math.max(Math.min(pixelX(plot, value), right + size - half), half);
     pen.text(label, x, bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
   }
   for (const { value, label } of plot.yTicks.major) {
