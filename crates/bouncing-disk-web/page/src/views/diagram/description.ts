@@ -12,24 +12,33 @@ const SAMPLES = 5;
 
 export class Description {
   private key = "";
+  private coming = Promise.resolve();
   private verdicts: readonly VerdictJson[] = [];
 
   constructor(private readonly context: Context) {}
 
-  /** Asks for the verdicts on the samples of a state, unless they are there. */
-  async fetch(state: State): Promise<void> {
+  /** Asks for the verdicts on the samples of a state, unless they are there or on their way. */
+  fetch(state: State): Promise<void> {
     const { impact_phase, normalised_speed } = state.start;
     const { restitution } = state.system;
     const key = JSON.stringify([state.diagram.axial_forcing, restitution, impact_phase, normalised_speed]);
-    if (key === this.key) return;
-    const start = { impact_phase, normalised_speed };
-    const answers = await Promise.all(
-      samplesOf(state).map((axial_forcing, index) =>
-        this.context.client.ask(`${SLOT}-${index}`, { call: "orbit", axial_forcing, restitution, start }),
-      ),
-    );
-    this.verdicts = answers.map(({ json }) => json as VerdictJson);
+    if (key === this.key) return this.coming;
     this.key = key;
+    const start = { impact_phase, normalised_speed };
+    const asked = samplesOf(state).map((axial_forcing, index) =>
+      this.context.client.ask(`${SLOT}-${index}`, { call: "orbit", axial_forcing, restitution, start }),
+    );
+    this.coming = Promise.all(asked).then(
+      (answers) => {
+        if (this.key === key) this.verdicts = answers.map(({ json }) => json as VerdictJson);
+      },
+      (error: unknown) => {
+        // What did not come is asked for when it is wanted again.
+        if (this.key === key) this.key = "";
+        throw error;
+      },
+    );
+    return this.coming;
   }
 
   cancel(): void {
