@@ -334,14 +334,17 @@ fn branches_go_through_the_doublings_of_the_cascade() {
     assert_eq!(none["branches"], json!([]));
 }
 
-/// The branches in a window: kinds and forcings of their bifurcations, and the lines, each of its rows.
-fn branches_in(restitution: f64, window: [f64; 2]) -> (Vec<(String, f64)>, Vec<Vec<[f64; 6]>>) {
+/// A line of a branch: its rows.
+type Line = Vec<[f64; 6]>;
+
+/// The branches in a window: kinds and forcings of their bifurcations, and the lines.
+fn branches_in(restitution: f64, window: [f64; 2]) -> (Vec<(String, f64)>, Vec<Line>) {
     let request = json!({ "call": "branches", "restitution": restitution, "axial_forcing": window });
     let (json, reply) = answered(&request);
     let bifurcations = json["bifurcations"].as_array().expect("a list").iter().map(|one| {
         (one["kind"].as_str().expect("a word").to_owned(), one["axial_forcing"].as_f64().expect("a number"))
     });
-    let mut lines: Vec<Vec<[f64; 6]>> = Vec::new();
+    let mut lines: Vec<Line> = Vec::new();
     for row in reply.numbers().chunks(6) {
         if row[5] as usize == lines.len() {
             lines.push(Vec::new());
