@@ -117,7 +117,8 @@ impl Motor {
     /// The load torque that stops the motor, bracketed: the true stall.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without load.
+    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without load,
+    /// [`Error::NotSettled`] if a speed that it is judged by still drifts after the impacts that it may take.
     pub fn stall_load(&self, settings: &OperatingSettings) -> Result<StallLoad, Error> {
         self.stall_load_observed(settings, &Unobserved)
     }

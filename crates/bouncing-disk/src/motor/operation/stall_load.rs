@@ -3,7 +3,7 @@
 use bouncing_disk_core::Observer;
 
 use super::ensemble::{LoadedMotor, operate};
-use super::point::{Estimate, Operation};
+use super::point::{Estimate, Operation, Shortfall};
 use super::settings::OperatingSettings;
 use crate::error::Error;
 
@@ -49,6 +49,7 @@ pub(crate) fn stall_load(
         let Estimate { value: speed, standard_error } = unloaded;
         return Err(Error::DoesNotTurn { speed, standard_error });
     }
+    check_settled(&first.operations[STEPS - 1..STEPS])?;
     let sign = 1.0_f64.copysign(unloaded.value);
     // Steps away from no load, in the direction that brakes.
     let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
@@ -68,6 +69,7 @@ pub(crate) fn stall_load(
     let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
     let above = speeds.iter().position(|speed| sure(speed, -sign)).unwrap_or(fine.len() - 1);
     let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
+    check_settled(&second.operations[below..=above])?;
     // Each member crosses zero for itself, on the straight line through its own speeds: they share their perturbations.
     let members = second.speeds[below].len();
     let crossings: Vec<f64> = (0..members)
@@ -83,6 +85,19 @@ pub(crate) fn stall_load(
         bracket: [sign * fine[below] * largest, sign * fine[above] * largest],
         no_load_speed: unloaded,
     })
+}
+
+/// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would
+/// have one that is too small.
+fn check_settled(operations: &[Operation]) -> Result<(), Error> {
+    let drifting = operations.iter().find_map(|operation| match operation {
+        Operation::Unsettled(point, Shortfall::Drift { .. }) => Some(point.speed),
+        _ => None,
+    });
+    match drifting {
+        Some(Estimate { value: speed, standard_error }) => Err(Error::NotSettled { speed, standard_error }),
+        None => Ok(()),
+    }
 }
 
 const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };

@@ -342,6 +342,16 @@ mod searches {
         }
     }
 
+    /// The many small impacts of a motor at 1 nm are not enough to be rid of the start-up: the loads that its speeds seem to
+    /// vanish at had errors of a ten-thousandth.
+    #[test]
+    fn a_stall_is_refused_where_speeds_still_drift() {
+        let motor = loaded(&motor(1e-9, 0.0), 0.0);
+        let settings = OperatingSettings { most_impacts: 1_000_000, ..OperatingSettings::default() };
+        let error = stall_load(&motor, &settings, &Unobserved).expect_err("it drifts");
+        assert!(matches!(error, Error::NotSettled { .. }), "{error}");
+    }
+
     #[test]
     fn a_motor_that_does_not_turn_has_neither_stall_nor_best_lag() {
         let settings =
