@@ -349,7 +349,9 @@ fn an_orbit_of_a_map_made_for_an_end_of_the_range_lies_in_it() {
         let orbit = map.refine(&[map.period_one(1).expect("born")]).expect("settles");
         for (range, rising) in [((end, end + 0.1), true), ((end - 0.01, end), false)] {
             let branch = map.continued(&orbit, &forcing(range.0, range.1, rising)).expect("continued");
-            assert_eq!(branch.points[0].parameter.to_bits(), end.to_bits());
+            let begun = branch.points[0].parameter;
+            assert!((range.0..=range.1).contains(&begun), "{begun} {range:?}");
+            assert!((begun - end).abs() <= ROUNDED * end, "{begun} {end}");
         }
     }
     assert!(rounded > 20, "{rounded}");
@@ -373,6 +375,7 @@ fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
         (&on, (0.55, 0.7), (0.55, 0.6)),
         (&back, (0.33, 0.45), (orbit_forcing(&map), 0.45)),
         (&back, (third - 1e-7, third + 1e-7), (third + 1e-7, third + 1e-7)),
+        (&back, (third - 1e-10, third + 1e-10), (third + 1e-10, third + 1e-10)),
         (&stem, (doubling - 1e-7, doubling + 1e-7), (doubling + 1e-7, doubling)),
         (&doubled, (0.5, 0.5 + 1e-9), (0.5, 0.5 + 1e-9)),
     ] {
@@ -386,7 +389,8 @@ fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
             first.parameter,
             last.parameter
         );
-        assert!(range.1 - range.0 < 1e-8 || parts[0].len() >= 50, "{range:?}: {}", parts[0].len());
+        let least = if last.orbit.period() == 2 && near(last.parameter, doubling) { 10 } else { 50 };
+        assert!(range.1 - range.0 < 1e-8 || parts[0].len() >= least, "{range:?}: {}", parts[0].len());
         for point in &parts[0] {
             assert!((range.0..=range.1).contains(&point.parameter));
             let map = branch.map_at(point.parameter).expect("legal");

@@ -14,6 +14,9 @@ const SMALLEST_STEP: f64 = 1.0e-9;
 /// A part has at most so many times the points that it should have.
 const PATIENCE: usize = 16;
 
+/// Most points on the way to the edge of a range.
+const MOST_TO_EDGE: usize = 10_000;
+
 /// A known point of the branch.
 struct Known {
     point: BranchPoint,
@@ -31,7 +34,8 @@ impl Known {
 impl Branch {
     /// The parts of the branch with their parameter in [`low`, `high`], in the order of the arclength, each continued
     /// anew with steps that are a share of it: at least `points` of them in [2, 1e4] on a part, however narrow the range is
-    /// (the smallest step is an arclength of 1e-9). The arclengths are those of the parts.
+    /// (the smallest step is an arclength of 1e-9). The arclengths are those of the parts. Fewer lie on a part that ends in a birth
+    /// by doubling and is short: close to it the two halves of the orbit cannot be told apart, and the birth follows at once.
     ///
     /// What of the branch lies in the range does not depend on it: no branch is begun or ended by the range. A birth by
     /// doubling, with which a branch ends, is part of it: as the halved orbit, gone through twice.
@@ -146,6 +150,12 @@ impl Branch {
             } else {
                 let (at, edge) = (known[from].at(), if rising { low } else { high });
                 let settings = Continuation::new(self.parameter, (at.min(edge), at.max(edge)), rising)?;
+                // At a fold the parameter goes with the square of the arclength: a longer step could leap over the range, and
+                // come back on the other side.
+                let gap = (known[to].point.arclength - known[from].point.arclength).abs();
+                let share = ((edge - known[to].at()) / (at - known[to].at())).abs();
+                let step = (0.5 * gap * share.sqrt()).clamp(SMALLEST_STEP, LARGEST_STEP);
+                let settings = settings.with_steps(step, step, MOST_TO_EDGE)?;
                 let map = self.map_at(at)?;
                 let to_edge = map.continued(&known[from].point.orbit, &settings)?;
                 to_edge.points.last().filter(|_| to_edge.end == BranchEnd::RangeLimit(edge)).cloned()
@@ -173,7 +183,9 @@ impl Branch {
         let settings = Continuation::new(self.parameter, (low, high), rising)?;
         let most = points * PATIENCE;
         let mut part = map.continued(&from.orbit, &settings.with_steps(FIRST_STEP, LARGEST_STEP, most)?)?;
-        let length = part.points.last().map_or(0.0, |last| last.arclength);
+        // A branch that ends in its birth may have no point but the first before it.
+        let ends = part.points.iter().chain(part.of_kind(BifurcationKind::Birth).map(|birth| &birth.point));
+        let length = ends.fold(0.0_f64, |most, end| most.max(end.arclength));
         if part.points.len() < points && length > 0.0 {
             let step = (length / points as f64).clamp(SMALLEST_STEP, LARGEST_STEP);
             part = map.continued(&from.orbit, &settings.with_steps(step, step, most)?)?;
