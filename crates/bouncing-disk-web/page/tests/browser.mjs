@@ -60,7 +60,8 @@ export const ready = (page) => page.waitForSelector('[role="tab"][aria-selected=
 
 /** Nothing is being computed any more; a motor's curves take longer than a test has to wait for. */
 export async function settled(page) {
-  await page.waitForTimeout(60);
+  // Views wait for 60 ms before they begin, so that a slider does not ask for all that it passes.
+  await page.waitForTimeout(150);
   const timeout = (await page.isVisible("#view-motor")) ? 4000 : 60_000;
   try {
     await page.waitForFunction(() => document.getElementById("status").dataset.kind !== "busy", undefined, { timeout });
