@@ -130,6 +130,9 @@ pub fn low_period_traps(motor: &Motor, preloads: &[f64]) -> Result<Vec<TrapVerdi
     low_period_traps_observed(motor, preloads, &Unobserved)
 }
 
+/// A motor is built in about the time of so many flights.
+const FLIGHTS_OF_BUILDING: u64 = 8;
+
 /// [`low_period_traps`] with an observer; the items are the preloads.
 ///
 /// # Errors
@@ -140,17 +143,19 @@ pub fn low_period_traps_observed(
     preloads: &[f64],
     observer: &dyn Observer,
 ) -> Result<Vec<TrapVerdict>, Error> {
+    let watch = Watch::begin(observer, 0, preloads.len() as u64)?;
+    let mut work = watch.work();
+    // All are built before any is judged, so that an illegal one is told at once.
     let motors = preloads
         .iter()
-        .map(|&preload| {
+        .map(|&preload| -> Result<Motor, Error> {
+            work.spend(FLIGHTS_OF_BUILDING)?;
             motor.with(|sheet| {
                 sheet.preload_force = None;
                 sheet.preload_acceleration = Some(preload);
             })
         })
         .collect::<Result<Vec<_>, _>>()?;
-    let watch = Watch::begin(observer, 0, preloads.len() as u64)?;
-    let mut work = watch.work();
     let mut verdicts = Vec::with_capacity(motors.len());
     for motor in &motors {
         verdicts.push(TrapVerdict::of_motor(motor, &mut work)?);
