@@ -1,9 +1,11 @@
 //! Digests of everything that determines a result, so that finished figures can be recognised as up to date.
 //!
-//! A figure depends on the libraries, on all shared code of this crate, on the lock file and the data, and on its
-//! own module, `src/figures/ID.rs` and the folder `src/figures/ID`. A module that names another one (`fig06::`, a shared helper) depends on that
-//! one too. Naming is what counts: depending on too much only recomputes too much. A user's own measurements are not
-//! known when this is built; `src/cache_key.rs` sees them when a figure is made.
+//! A figure depends on the libraries that this crate is built with, on all shared code of this crate, on the lock file
+//! and the data, and on its own module, `src/figures/ID.rs` and the folder `src/figures/ID`. A module that names another
+//! one (`fig06::`, a shared helper) depends on that one too, and a library on those that its manifest names. Naming is
+//! what counts: depending on too much only recomputes too much. The other crates do not count: what they write below
+//! their folders while they are built, such as the page's packages from npm, would make every figure look out of date.
+//! A user's own measurements are not known when this is built; `src/cache_key.rs` sees them when a figure is made.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -19,11 +21,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let package = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR")?);
     let root = package.parent().ok_or("the package lies in the workspace")?.to_owned();
     let figures = package.join("src/figures");
+    let mut libraries = BTreeSet::new();
+    named_libraries(&package, &root.join("crates"), &mut libraries)?;
+    let parts = ["Cargo.toml", "Cargo.lock", "data/cases", "data/literature", "data/paper", "experiments"];
     let mut shared = Vec::new();
-    for part in
-        ["Cargo.toml", "Cargo.lock", "crates", "data/cases", "data/literature", "data/paper", "experiments"]
-    {
-        let path = root.join(part);
+    for path in parts.iter().map(|part| root.join(part)).chain(libraries) {
         println!("cargo:rerun-if-changed={}", path.display());
         collect(&path, &mut shared)?;
     }
@@ -49,6 +51,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     code.push_str("];\n");
     let target = PathBuf::from(std::env::var("OUT_DIR")?).join("digests.rs");
     fs::write(target, code)?;
+    Ok(())
+}
+
+/// The folders of all crates in `crates` that the manifest of `package` names, and the manifests of those in turn.
+fn named_libraries(
+    package: &Path,
+    crates: &Path,
+    libraries: &mut BTreeSet<PathBuf>,
+) -> Result<(), Box<dyn Error>> {
+    let manifest = fs::read_to_string(package.join("Cargo.toml"))?;
+    let named: BTreeSet<_> =
+        manifest.lines().filter_map(|line| line.split(['.', '=']).next()).map(str::trim).collect();
+    for entry in fs::read_dir(crates)? {
+        let entry = entry?;
+        let path = entry.path();
+        if named.contains(entry.file_name().to_string_lossy().as_ref()) && libraries.insert(path.clone()) {
+            named_libraries(&path, crates, libraries)?;
+        }
+    }
     Ok(())
 }
 
