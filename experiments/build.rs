@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// The folders of all crates in `crates` that the manifest of `package` names, and the manifests of those in turn.
-fn named_libraries(
+pub(crate) fn named_libraries(
     package: &Path,
     crates: &Path,
     libraries: &mut BTreeSet<PathBuf>,

@@ -117,6 +117,8 @@ test("a motion goes on where it was left, and stays where somebody has stopped i
     await page.click("#tab-toss");
     await plays(page, "the same motion");
     await page.click(".controls .play");
+    // The last step of the clock is painted in the frame after it.
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
     const stopped = await now(page);
     assert.ok(stopped > 0);
     await page.click("#tab-diagram");

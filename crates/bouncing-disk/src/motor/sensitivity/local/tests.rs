@@ -11,15 +11,17 @@ fn near(one: &LocalSensitivity, truth: f64) -> bool {
     (one.derivative.value - truth).abs() <= 4.0 * one.derivative.standard_error + 1e-6
 }
 
+/// What the units relate.
+const RELATED: [P; 5] =
+    [P::Friction, P::PeakAngularSpeed, P::ContactRadius, P::GyrationRadius, P::LoadTorque];
+
 /// What follows from the units: the rotary motion knows friction, twist and radii only as mu and as Q = a_g^2
-/// Phi omega^2 /(a_e g), and a speed is Q times a function of Q/mu without load. The stall torque is mu m g
-/// a_e times such a function.
+/// Phi omega^2 /(a_e g), and a speed is Q times a function of Q/mu without load.
 #[test]
-fn exponents_obey_the_units() {
+fn exponents_of_the_speed_obey_the_units() {
     let motor = Motor::paper_70_khz();
-    let parameters = [P::Friction, P::PeakAngularSpeed, P::ContactRadius, P::GyrationRadius, P::LoadTorque];
     let speed =
-        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &parameters, &quick()).expect("turns");
+        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &RELATED, &quick()).expect("turns");
     let [friction, twist, contact, gyration, load] = speed.try_into().expect("as many as parameters");
     // Speed = omega Phi f(a_g^2 omega Phi/(mu a_e)).
     assert!(near(&twist, 1.0 - friction.derivative.value), "{twist:?} {friction:?}");
@@ -36,8 +38,14 @@ fn exponents_obey_the_units() {
         let error = (scatter * scatter + curvature * curvature).sqrt();
         assert!(STEPS.contains(&step) && (error - one.derivative.standard_error).abs() < 1e-12, "{one:?}");
     }
+}
+
+/// The stall torque is mu m g a_e times a function of the same Q/mu.
+#[test]
+fn exponents_of_the_stall_obey_the_units() {
+    let motor = Motor::paper_70_khz();
     let stall =
-        motor.local_sensitivities(SensitivityQuantity::StallTorque, &parameters, &quick()).expect("turns");
+        motor.local_sensitivities(SensitivityQuantity::StallTorque, &RELATED, &quick()).expect("turns");
     let [friction, twist, contact, gyration, load] = stall.try_into().expect("as many as parameters");
     assert!(near(&friction, 1.0 - twist.derivative.value), "{twist:?} {friction:?}");
     assert!(near(&contact, 1.0 - twist.derivative.value), "{contact:?} {twist:?}");
@@ -73,10 +81,9 @@ fn differences_are_those_of_whole_operations() {
     assert!(lag.derivative.value < -0.5, "{lag:?}");
 }
 
-/// The stall torque is proportional to the preload and does not know the amplitude; nor does the speed (Sec.
-/// V).
+/// The speed knows neither the preload nor the amplitude (Sec. V).
 #[test]
-fn the_vertical_motion_is_fitted_over_a_range() {
+fn the_speed_is_fitted_over_a_range_of_the_vertical_motion() {
     let motor = Motor::paper_70_khz();
     let parameters = [P::Preload, P::Amplitude];
     let speed =
@@ -86,6 +93,12 @@ fn the_vertical_motion_is_fitted_over_a_range() {
         assert!(points + traps == 8 && scatter < 0.2, "{one:?}");
         assert!(one.derivative.value.abs() < 0.2 + 3.0 * one.derivative.standard_error, "{one:?}");
     }
+}
+
+/// The stall torque is proportional to the preload.
+#[test]
+fn the_stall_is_fitted_over_a_range_of_preloads() {
+    let motor = Motor::paper_70_khz();
     let stall = motor
         .local_sensitivities(SensitivityQuantity::StallTorque, &[P::Preload], &quick())
         .expect("turns")[0];
