@@ -12,6 +12,8 @@ export class Address {
   private settled = "";
   private waiting: { hash: string; settled: boolean } | null = null;
   private timer: number | undefined;
+  /** The browser does not let the page write its address, which is then not the one written. */
+  private forbidden = false;
 
   /** `arrived` gets the state of an address that the page has not written itself. */
   constructor(private readonly arrived: (state: State, problems: string[]) => void) {
@@ -58,6 +60,8 @@ export class Address {
   }
 
   private put(hash: string, entry: boolean): void {
+    // Somebody has just gone to another address, whose event is still to come: that one counts.
+    if (location.hash !== this.written && !this.forbidden) return;
     if (hash === this.written && (!entry || hash === this.settled)) return;
     try {
       if (entry && this.written !== this.settled) history.replaceState(null, "", this.settled);
@@ -65,6 +69,7 @@ export class Address {
       else history.replaceState(null, "", hash);
     } catch {
       // Some browsers forbid this on the disk; the copied link is made from the state, not from the address.
+      this.forbidden = true;
     }
     this.written = hash;
     if (entry) this.settled = hash;

@@ -47,6 +47,10 @@ export class Store {
   private present: State = DEFAULT_STATE;
   private queue: Waiting[] = [];
   private pumping = false;
+  /** A state of an address is being checked; what is asked for meanwhile changes that one, and waits for it. */
+  private opening = false;
+  /** How many addresses there have been: what was asked for before the last one is of no interest any more. */
+  private addresses = 0;
   /** What follows from the system that was checked last. */
   private summary: Summary | null = null;
 
@@ -60,13 +64,13 @@ export class Store {
   }
 
   /** True while a change waits for the library's word. */
-  busy(): boolean {
-    return this.pumping;
+  private busy(): boolean {
+    return this.pumping || this.opening;
   }
 
   change(change: Change, options: ChangeOptions & { fromAddress?: boolean } = {}): void {
     const waiting = { change, options };
-    if (!this.pumping && !needsCheck(change)) {
+    if (!this.busy() && !needsCheck(change)) {
       this.commit(changed(this.present, change), [waiting]);
       return;
     }
@@ -76,6 +80,9 @@ export class Store {
 
   /** The first state of the page, or one of its address: what is refused has its default, with a sentence for each. */
   async open(state: State, fromAddress: boolean): Promise<void> {
+    const address = ++this.addresses;
+    this.opening = true;
+    this.queue = [];
     let candidate = state;
     for (let tries = 0; tries < MOST_MENDINGS; tries++) {
       const refusal = await this.refusalOf(candidate, {
@@ -84,6 +91,7 @@ export class Store {
         thrown: candidate.thrown,
         mass: candidate.mass,
       });
+      if (address !== this.addresses) return;
       if (refusal === null) break;
       if (refusal.kind === BROKEN) {
         this.listener.refused(refusal.message);
@@ -95,30 +103,41 @@ export class Store {
       );
       candidate = changed(candidate, { thrown: candidate.thrown, ...change });
     }
-    this.queue = [];
+    this.opening = false;
     this.commit(candidate, [{ change: {}, options: { fromAddress } }]);
+    void this.pump();
   }
 
   private async pump(): Promise<void> {
-    if (this.pumping) return;
+    if (this.busy()) return;
     this.pumping = true;
     try {
-      while (this.queue.length > 0) {
-        const batch = this.queue.splice(0);
-        // What waited is checked as one change; only where that is refused, one by one.
-        if (batch.length > 1 && !(await this.refusalOf(...this.applied(batch)))) {
-          this.commit(this.applied(batch)[0], batch);
-          continue;
-        }
-        for (const waiting of batch) await this.single(waiting);
-      }
+      while (this.queue.length > 0 && !this.opening) await this.take(this.queue.splice(0));
     } finally {
       this.pumping = false;
     }
   }
 
-  private async single(waiting: Waiting): Promise<void> {
+  /** What waited is checked as one change; only where that is refused, one by one. */
+  private async take(batch: readonly Waiting[]): Promise<void> {
+    const address = this.addresses;
+    if (batch.length > 1) {
+      const refusal = await this.refusalOf(...this.applied(batch));
+      if (address !== this.addresses) return;
+      if (refusal === null) {
+        this.commit(this.applied(batch)[0], batch);
+        return;
+      }
+    }
+    for (const waiting of batch) {
+      await this.single(waiting, address);
+      if (address !== this.addresses) return;
+    }
+  }
+
+  private async single(waiting: Waiting, address: number): Promise<void> {
     const refusal = await this.refusalOf(...this.applied([waiting]));
+    if (address !== this.addresses) return;
     if (refusal === null) this.commit(this.applied([waiting])[0], [waiting]);
     else if (waiting.options.refused) waiting.options.refused(refusal);
     else this.listener.refused(refusal.message);

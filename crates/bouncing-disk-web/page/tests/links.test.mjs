@@ -182,3 +182,56 @@ test("a link with nothing legal in it opens the defaults", async () => {
     await context.close();
   }
 });
+
+/** Types a number into a field of the form just before the page hears of an address, or just after. */
+const arrives = (page, hash, before, name, text) =>
+  page.evaluate(
+    ([address, first, id, value]) => {
+      const act = () => {
+        const field = document.getElementById(id);
+        field.value = value;
+        field.dispatchEvent(new Event("change", { bubbles: true }));
+      };
+      if (first) act();
+      else window.addEventListener("hashchange", act, { once: true });
+      location.hash = address;
+    },
+    [hash, before, `field-${name}`, text],
+  );
+
+const whenField = (page, name, text) =>
+  page.waitForFunction(([id, value]) => document.getElementById(id).title === value, [`field-${name}`, text]);
+
+test("what is typed while an address is being checked changes the state of that address", async () => {
+  const { page, context, errors } = await opened(browser);
+  await arrives(page, "friction=0.31&restitution=0.1", false, "restitution", "0.62");
+  await whenField(page, "restitution", "0.62");
+  assert.equal((await stateOf(page)).friction, "0.31");
+  // What the address has that is refused is refused all the same.
+  await arrives(page, "friction=-1&restitution=0.1", false, "restitution", "0.63");
+  await whenField(page, "restitution", "0.63");
+  await settled(page);
+  assert.equal(await page.isVisible("#problems"), true);
+  assert.ok((await stateOf(page)).friction >= 0);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("an address takes the place of what was typed before it, and the last of several is kept", async () => {
+  const { page, context, errors } = await opened(browser);
+  await arrives(page, "friction=0.33&restitution=0.25", true, "restitution", "0.66");
+  await whenField(page, "friction", "0.33");
+  await settled(page);
+  assert.equal((await stateOf(page)).restitution, "0.25");
+  await page.evaluate(async () => {
+    for (const friction of ["0.41", "0.42", "0.43", "-1", "0.44"]) {
+      location.hash = `friction=${friction}`;
+      await new Promise((done) => window.addEventListener("hashchange", done, { once: true }));
+    }
+  });
+  await whenField(page, "friction", "0.44");
+  await settled(page);
+  assert.equal((await stateOf(page)).friction, "0.44");
+  assert.deepEqual(errors, []);
+  await context.close();
+});

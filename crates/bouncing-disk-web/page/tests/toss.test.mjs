@@ -159,6 +159,8 @@ test("a throw is in the address, and a link of it shows the same motion", () =>
     await whenAddress(page, "throw", "none");
     await page.goBack();
     await whenAddress(page, "throw", state.throw);
+    // The address is there before its state is.
+    await page.getByRole("button", { name: "Start with the shared impact" }).waitFor();
     // Another start takes the place of a throw.
     await page.fill("#field-normalised_speed", "1.2");
     await page.press("#field-normalised_speed", "Enter");
