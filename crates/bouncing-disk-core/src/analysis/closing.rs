@@ -19,6 +19,10 @@ const MAX_CORRECTIONS: u32 = 12;
 /// A Newton step (scaled) after which one more reaches the rounding.
 const NEARLY: f64 = 1.0e-8;
 
+/// The share of the step before up to which a step is one of quadratic convergence, and the one from which on it is rounding.
+const FAST: f64 = 0.1;
+const STILL: f64 = 0.9;
+
 /// A Newton step that is rounding.
 const ROUNDING: f64 = 1.0e-15;
 
@@ -74,6 +78,11 @@ impl Closed {
     }
 }
 
+/// An angle less its whole turns, in [-pi, pi].
+pub(super) fn turned(angle: f64) -> f64 {
+    angle - TAU * nearest_whole(angle / TAU)
+}
+
 /// What the lengths of first impact and parameter are counted in.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
@@ -110,16 +119,10 @@ impl Closing {
     ) -> Result<(Self, Closed), Error> {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
         let n = states.len();
-        let mut impacts: Vec<DVec2> = Vec::with_capacity(n);
-        for (i, &state) in states.iter().enumerate() {
-            let mut phase = state.phase().angle();
-            // The halves of an orbit that is born by a doubling lie side by side, also across the seam at 2
-            // pi.
-            if n.is_multiple_of(2) && i >= n / 2 {
-                phase += TAU * nearest_whole((impacts[i - n / 2].x - phase) / TAU);
-            }
-            impacts.push(DVec2::new(phase, p * state.phase().cos() - r * state.velocity()));
-        }
+        let impact = |state: &ImpactState| {
+            DVec2::new(state.phase().angle(), p * state.phase().cos() - r * state.velocity())
+        };
+        let impacts: Vec<DVec2> = states.iter().map(impact).collect();
         let mut turns = Vec::with_capacity(n);
         for (i, &state) in states.iter().enumerate() {
             let between = impacts[(i + 1) % n].x - impacts[i].x;
@@ -152,14 +155,16 @@ impl Closing {
         Self { turns: [self.turns.as_slice(), &self.turns].concat(), ..self.clone() }
     }
 
-    /// The equations of the first half of the orbit, as if it closed.
-    pub(super) fn half(&self) -> Self {
-        Self { turns: self.turns[..self.turns.len() / 2].to_vec(), ..self.clone() }
-    }
-
-    /// Whether the flights of another sequence take other turns.
-    pub(super) fn turns_differ(&self, other: &Self) -> bool {
-        self.turns.iter().zip(&other.turns).any(|(a, b)| (a - b).abs() > 0.5)
+    /// The equations of the shorter orbit whose repetition both halves of this one are nearly, and the mean of both.
+    pub(super) fn half(&self, at: &Closed) -> (Self, Closed) {
+        let n = self.turns.len() / 2;
+        let (first, second) = at.impacts.split_at(n);
+        let mean = |(a, b): (&DVec2, &DVec2)| DVec2::new(a.x + 0.5 * turned(b.x - a.x), 0.5 * (a.y + b.y));
+        let impacts = first.iter().zip(second).map(mean).collect();
+        let mut turns = self.turns[..n].to_vec();
+        // The last flight of the first half ends on the first impact instead of on its copy.
+        turns[n - 1] += nearest_whole((second[0].x - first[0].x) / TAU);
+        (Self { turns, ..self.clone() }, Closed { impacts, parameter: at.parameter })
     }
 
     /// The number of flights.
@@ -175,8 +180,10 @@ impl Closing {
         }
     }
 
-    /// The map at this parameter.
+    /// The map at this parameter, or at the nearest one for which there is a map.
     pub(super) fn map_at(&self, parameter: f64) -> Result<ImpactMap, Error> {
+        let (least, most) = self.by.legal();
+        let parameter = parameter.clamp(least, most);
         match self.by {
             ContinuationParameter::Forcing => {
                 ImpactMap::new(Vibration::from_axial_forcing(parameter)?, self.map.restitution())
@@ -281,7 +288,9 @@ impl Closing {
                 return None;
             }
             at = at.moved(&Closed { impacts: steps, parameter: change }, 1.0);
-            if size <= ROUNDING || last <= NEARLY && size <= NEARLY {
+            // Next to a singular point the steps shrink slowly, and a small one does not tell of a small distance.
+            let settled = size <= FAST * last || size > STILL * last && size <= NEARLY;
+            if size <= ROUNDING || last <= NEARLY && settled {
                 return Some((at, step));
             }
             last = size;

@@ -6,7 +6,8 @@ use core::f64::consts::TAU;
 use glam::{DMat2, DVec2};
 
 use super::tip::BranchTip;
-use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
+use super::birth::Halves;
+use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
 use crate::analysis::closing::{Closed, Closing, Plane};
 use crate::analysis::periodic::PeriodicOrbit;
 use crate::error::Error;
@@ -33,6 +34,17 @@ pub(super) const SMALLEST_STEP: f64 = 1.0e-10;
 
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
 pub(super) const HALVINGS: u32 = 56;
+
+/// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a strongly unstable orbit,
+/// far below the distance of two curves that doubles can tell apart.
+pub(super) const NEIGHBOURS: f64 = 1.0e-9;
+
+/// Two durations of one flight differ by less, relative to 1 + duration: a landing at next to no speed is known to the root of the
+/// rounding.
+const SAME_FLIGHT: f64 = 1.0e-7;
+
+/// Roundings of (1 + m1)(1 + m2) for each impact, in units of the size of the derivative.
+const FLIP_ROUNDINGS: f64 = 8.0;
 
 /// A branch is not taken to be closed before so many points.
 const FEWEST_OF_CLOSED: usize = 8;
@@ -64,11 +76,14 @@ pub(super) struct Underway {
     pub(super) bifurcations: Vec<Bifurcation>,
 }
 
-/// What ends a branch where it is no orbit of the map any more.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Obstacle {
-    Graze { flight: usize },
-    VanishingImpact { impact: usize },
+/// What a branch does in one step.
+#[derive(Debug)]
+struct Stretch {
+    /// Where the step ends: at the next point, or where the branch ends before it.
+    last: Located,
+    /// The bifurcations up to there, in the order of the arclength.
+    found: Vec<Bifurcation>,
+    end: Option<BranchEnd>,
 }
 
 /// Continues one orbit.
@@ -98,6 +113,9 @@ impl<'s> Walker<'s> {
         let plane = Plane { normal: across, base, distance: 0.0 };
         let lost = Error::NoBranch { what: "the orbit to be continued", parameter: guess.parameter };
         let (at, corrections) = walker.closing.corrected(guess, &plane).ok_or(lost)?;
+        if walker.is_repeated(&at) {
+            return Err(lost);
+        }
         let direction = walker.closing.tangent(&at, across).ok_or(lost)?;
         Ok((walker, Located { at, direction, arclength: 0.0, corrections }))
     }
@@ -194,7 +212,9 @@ impl<'s> Walker<'s> {
                 break BranchEnd::PointLimit(points.len());
             }
             self.spend()?;
-            let Some(mut next) = self.next(&base, step) else {
+            let next = self.next(&base, step);
+            let stretch = next.as_ref().map(|next| self.stretch(&base, next)).transpose()?.flatten();
+            let (Some(next), Some(stretch)) = (next, stretch) else {
                 step *= 0.5;
                 if step < SMALLEST_STEP {
                     break BranchEnd::StepTooSmall(step);
@@ -202,51 +222,13 @@ impl<'s> Walker<'s> {
                 continue;
             };
             self.work.borrow().watch().finish(1);
-            let taken = step;
             step = match next.corrections {
                 ..=EASY => (GROWTH * step).min(settings.largest_step),
                 HARD.. => step / GROWTH,
                 _ => step,
             };
-            // Where it ends within this step, the step ends there.
-            let mut end = None;
-            if self.is_born(&base, &next) {
-                end = Some(match self.birth(&base, &next, taken)? {
-                    Some(birth) => {
-                        bifurcations.push(birth);
-                        BranchEnd::Bifurcation
-                    }
-                    None => BranchEnd::StepTooSmall(taken),
-                });
-                next = base.clone();
-            }
-            if end.is_none() {
-                let (low, high) = settings.range();
-                let inside = |located: &Located| (low..=high).contains(&located.at.parameter);
-                if !inside(&next) {
-                    end = Some(BranchEnd::RangeLimit(if next.at.parameter > high { high } else { low }));
-                    next = self.bracket(&base, taken, &next, |located| Ok(inside(located)))?.0;
-                }
-                let obstacle = if next.arclength > base.arclength { self.obstacle(&next.at)? } else { None };
-                if obstacle.is_some() {
-                    // Rarely an orbit is lost and regained within a step: what comes first counts.
-                    let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
-                    let (last, beyond) = self.bracket(&base, next.arclength - base.arclength, &next, free)?;
-                    self.on_the_way(&base, &last, &mut bifurcations)?;
-                    if let (Some(obstacle), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&last)?) {
-                        let kind = match obstacle {
-                            Obstacle::Graze { flight } => BifurcationKind::Graze { flight },
-                            Obstacle::VanishingImpact { impact } => {
-                                BifurcationKind::VanishingImpact { impact }
-                            }
-                        };
-                        bifurcations.push(Bifurcation { kind, point });
-                    }
-                    (next, end) = (last, Some(BranchEnd::Bifurcation));
-                } else {
-                    self.on_the_way(&base, &next, &mut bifurcations)?;
-                }
-            }
+            bifurcations.extend(stretch.found);
+            let (next, mut end) = (stretch.last, stretch.end);
             if end.is_none() && points.len() >= FEWEST_OF_CLOSED && self.passes(&base, &next, &start) {
                 end = Some(BranchEnd::Closed);
             }
@@ -261,49 +243,122 @@ impl<'s> Walker<'s> {
         Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end, tip })
     }
 
-    /// The doublings and folds between two points, in their order.
-    fn on_the_way(&self, base: &Located, next: &Located, found: &mut Vec<Bifurcation>) -> Result<(), Error> {
-        let step = next.arclength - base.arclength;
-        let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else { return Ok(()) };
-        let mut here = Vec::new();
-        let flip = |point: &BranchPoint| 1.0 + point.trace + point.determinant;
-        if (flip(&before) > 0.0) != (flip(&after) > 0.0) {
-            let as_before = |located: &Located| {
-                Ok(self.point(located)?.is_some_and(|point| (flip(&point) > 0.0) == (flip(&before) > 0.0)))
-            };
-            let (low, high) = self.bracket(base, step, next, as_before)?;
-            let nearer =
-                |a: BranchPoint, b: BranchPoint| if flip(&a).abs() <= flip(&b).abs() { a } else { b };
-            if let (Some(low), Some(high)) = (self.point(&low)?, self.point(&high)?) {
-                here.push(Bifurcation { kind: BifurcationKind::Doubling, point: nearer(low, high) });
+    /// What the branch does from `base` to `next`, as far as it goes. `None` if the step is too long to tell: every change
+    /// along a curve lies between two neighbouring points of it, and one that does not is a leap to another curve.
+    fn stretch(&self, base: &Located, next: &Located) -> Result<Option<Stretch>, Error> {
+        // Where the parameter turns back: only there it may leave its range and return to it within a step.
+        let turn = match self.halves(base, next)? {
+            Halves::Unclear => return Ok(None),
+            Halves::Meet(last, birth) => Some((last, birth)),
+            // At the very start of a doubled branch the parameter does not change: that is no fold.
+            Halves::Apart if base.direction.parameter * next.direction.parameter < 0.0 => {
+                let as_before =
+                    |located: &Located| Ok(located.direction.parameter * base.direction.parameter > 0.0);
+                let Some((last, _)) = self.change(base, next, as_before)? else { return Ok(None) };
+                let point = self.point(&last)?;
+                point.map(|point| (last, Bifurcation { kind: BifurcationKind::Fold, point }))
+            }
+            Halves::Apart => None,
+        };
+        let (low, high) = self.settings.range();
+        let (mut last, mut end) = (next.clone(), None);
+        let mut found = Vec::new();
+        if let Some((before, turn)) = turn {
+            let parameter = turn.point.parameter;
+            let rounding = ROUNDED * parameter;
+            let outside = parameter < low - rounding || parameter > high + rounding;
+            if outside || turn.kind == BifurcationKind::Birth {
+                last = before;
+                let limit = if parameter > high { high } else { low };
+                end = Some(if outside { BranchEnd::RangeLimit(limit) } else { BranchEnd::Bifurcation });
+            }
+            if !outside {
+                found.push(turn);
             }
         }
-        // At the very start of a doubled branch the parameter does not change: that is no fold.
-        let turns = base.direction.parameter * next.direction.parameter < 0.0;
-        if turns {
-            let as_before =
-                |located: &Located| Ok(located.direction.parameter * base.direction.parameter > 0.0);
-            let (low, _) = self.bracket(base, step, next, as_before)?;
-            here.extend(self.point(&low)?.map(|point| Bifurcation { kind: BifurcationKind::Fold, point }));
+        let inside = |located: &Located| (low..=high).contains(&located.at.parameter);
+        if !inside(&last) && end != Some(BranchEnd::Bifurcation) {
+            end = Some(BranchEnd::RangeLimit(if last.at.parameter > high { high } else { low }));
+            let Some((within, _)) = self.change(base, &last, |located| Ok(inside(located)))? else {
+                return Ok(None);
+            };
+            last = within;
         }
-        here.sort_by(|a, b| a.point.arclength.total_cmp(&b.point.arclength));
-        found.extend(here);
-        Ok(())
+        if last.arclength > base.arclength && self.obstacle(&last.at)?.is_some() {
+            // Rarely an orbit is lost and regained within a step: what comes first counts.
+            let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
+            let Some((free, beyond)) = self.change(base, &last, free)? else { return Ok(None) };
+            found.retain(|turn| turn.kind == BifurcationKind::Fold && turn.point.arclength <= free.arclength);
+            if let (Some(kind), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&free)?) {
+                found.push(Bifurcation { kind, point });
+            }
+            (last, end) = (free, Some(BranchEnd::Bifurcation));
+        }
+        let Some(doubling) = self.doubling(base, &last)? else { return Ok(None) };
+        found.extend(doubling);
+        found.sort_by(|a, b| a.point.arclength.total_cmp(&b.point.arclength));
+        // Next to its birth an orbit of 2m impacts is one of m as far as doubles tell.
+        if found.last().is_some_and(|last| last.kind == BifurcationKind::Birth) {
+            last = base.clone();
+        }
+        Ok(Some(Stretch { last, found, end }))
     }
 
-    /// The last point with a property that holds at `base`, and the first one without it, by halvings of a
-    /// step.
-    fn bracket(
+    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1 within rounding at the
+    /// second one, or is so at the start of the branch.
+    fn doubling(&self, base: &Located, next: &Located) -> Result<Option<Option<Bifurcation>>, Error> {
+        let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else { return Ok(Some(None)) };
+        let at = |point: BranchPoint| Ok(Some(Some(Bifurcation { kind: BifurcationKind::Doubling, point })));
+        let (first, last) = (flip(&before), flip(&after));
+        if first == 0.0 {
+            return if base.arclength == 0.0 { at(before) } else { Ok(Some(None)) };
+        }
+        if last == 0.0 {
+            return at(after);
+        }
+        if (first > 0.0) == (last > 0.0) {
+            return Ok(Some(None));
+        }
+        let as_before =
+            |located: &Located| Ok(self.point(located)?.is_some_and(|point| flip(&point) * first > 0.0));
+        let Some((low, high)) = self.change(base, next, as_before)? else { return Ok(None) };
+        match (self.point(&low)?, self.point(&high)?) {
+            (Some(low), Some(high)) => at(if flip(&low).abs() <= flip(&high).abs() { low } else { high }),
+            _ => Ok(Some(None)),
+        }
+    }
+
+    /// As [`Self::bracket`]; `None` where the two points are not neighbours on one curve.
+    fn change(
         &self,
         base: &Located,
-        step: f64,
+        next: &Located,
+        holds: impl FnMut(&Located) -> Result<bool, Error>,
+    ) -> Result<Option<(Located, Located)>, Error> {
+        let (last, beyond) = self.bracket(base, next, holds)?;
+        Ok((self.distance(&last.at, &beyond.at) <= NEIGHBOURS).then_some((last, beyond)))
+    }
+
+    /// The largest distance of impacts and parameter (scaled).
+    pub(super) fn distance(&self, a: &Closed, b: &Closed) -> f64 {
+        let scale = self.closing.scale;
+        let parameter = (a.parameter - b.parameter).abs() / scale.parameter;
+        a.impacts.iter().zip(&b.impacts).fold(parameter, |most, (a, b)| {
+            most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / scale.speed)
+        })
+    }
+
+    /// The last point with a property that holds at `base`, and the first one without it, by halvings of the way to
+    /// `next`. A point that is not found does not have it.
+    pub(super) fn bracket(
+        &self,
+        base: &Located,
         next: &Located,
         mut holds: impl FnMut(&Located) -> Result<bool, Error>,
     ) -> Result<(Located, Located), Error> {
         let (mut last, mut beyond) = (base.clone(), next.clone());
-        bisected_bracket(0.0, step, HALVINGS, |part| {
+        bisected_bracket(0.0, next.arclength - base.arclength, HALVINGS, |part| {
             self.spend()?;
-            // A point that is not found is taken to lie beyond.
             let Some(located) = self.at(base, part) else { return Ok::<_, Error>(false) };
             let held = holds(&located)?;
             if held {
@@ -316,28 +371,38 @@ impl<'s> Walker<'s> {
         Ok((last, beyond))
     }
 
-    /// What makes it no orbit of the map.
-    fn obstacle(&self, at: &Closed) -> Result<Option<Obstacle>, Error> {
+    /// What makes it no orbit of the map: a speed or a gap with the wrong sign, or, where rounding decides these, the flight that
+    /// the map itself finds.
+    fn obstacle(&self, at: &Closed) -> Result<Option<BifurcationKind>, Error> {
         let map = self.closing.map_at(at.parameter)?;
         let velocities = self.closing.velocities(at);
         for (impact, &(arrival, launch)) in velocities.iter().enumerate() {
             if !(arrival < 0.0 && launch > 0.0) {
-                return Ok(Some(Obstacle::VanishingImpact { impact }));
+                return Ok(Some(BifurcationKind::VanishingImpact { impact }));
             }
         }
         for (flight, &(_, speed)) in velocities.iter().enumerate() {
             let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
             let following = (flight + 1) % velocities.len();
+            let duration = self.closing.duration(&at.impacts, flight);
             let impact = Impact {
                 periods: 0,
-                remainder: self.closing.duration(&at.impacts, flight),
+                remainder: duration,
                 turns: 0,
                 phase: Phase::new(at.impacts[following].x)?,
                 velocity: velocities[following].0,
                 evaluations: 0,
             };
-            if map.vibration().graze_margin(launch, &impact) <= 0.0 {
-                return Ok(Some(Obstacle::Graze { flight }));
+            let found = map.vibration().first_impact(launch)?.duration();
+            let tolerance = SAME_FLIGHT * (1.0 + duration);
+            if found > duration + tolerance {
+                return Ok(Some(BifurcationKind::VanishingImpact { impact: following }));
+            }
+            if found < duration - tolerance && speed < SAME_FLIGHT * self.closing.scale.speed {
+                return Ok(Some(BifurcationKind::VanishingImpact { impact: flight }));
+            }
+            if found < duration - tolerance || map.vibration().graze_margin(launch, &impact) <= 0.0 {
+                return Ok(Some(BifurcationKind::Graze { flight }));
             }
         }
         Ok(None)
@@ -378,4 +443,13 @@ impl<'s> Walker<'s> {
         let step = next.arclength - base.arclength;
         along(from, goal) > 0.0 && along(goal, to) >= 0.0 && distance <= 1.1 * step
     }
+}
+
+/// (1 + m1)(1 + m2), or 0 where it is rounding.
+fn flip(point: &BranchPoint) -> f64 {
+    let flip = 1.0 + point.trace + point.determinant;
+    let PeriodicOrbit { states, monodromy, .. } = &point.orbit;
+    let size = 1.0 + monodromy.x_axis.length() + monodromy.y_axis.length();
+    let rounding = FLIP_ROUNDINGS * f64::EPSILON * size * states.len() as f64;
+    if flip.abs() <= rounding { 0.0 } else { flip }
 }
