@@ -7,7 +7,6 @@ pub(crate) mod cascade;
 pub(crate) mod closing;
 pub(crate) mod continuation;
 pub(crate) mod crisis;
-pub(crate) mod doublings;
 pub(crate) mod follow_attractor;
 pub(crate) mod lyapunov;
 pub(crate) mod manifold;

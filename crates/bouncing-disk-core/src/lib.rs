@@ -28,7 +28,7 @@
 //! | chattering | [`ImpactMap::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`ImpactMap::chatters_to_rest`] |
 //! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
 //! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
-//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`period_doublings`], [`follow_attractor`] |
+//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`follow_attractor`] |
 //! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
 //! | manifolds and crises | [`ImpactMap::manifold`], [`Manifold`], [`ImpactMap::step_back`]; [`CrisisSearch`], [`Crisis`], [`Crisis::lives`] |
 //! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::impact_speed_bound_at`], [`ImpactMap::flight_duration_bound`] |
@@ -42,7 +42,7 @@
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
-//! | `extended` | no | module `extended`: double-doubles, the cascade to 25 digits, cycles in as many digits as they take |
+//! | `extended` | no | module `extended`: double-doubles, the cascade to 25 digits |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
 //!
@@ -89,7 +89,6 @@ pub use analysis::continuation::{
 };
 pub use analysis::crisis::lifetimes::{CrisisLives, MeanLife};
 pub use analysis::crisis::{Crisis, CrisisSearch, NoCrisis};
-pub use analysis::doublings::{DoublingsRun, PeriodDoubling, period_doublings, period_doublings_observed};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::spectrum::{
     LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::{
     ATTACHED, Axis, BasinSettings, ChatterPolicy, Error, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
-    KnownOrbit, Launch, Multipliers, OrbitEvent, Phase, UNDECIDED, Vibration, period_doublings,
+    KnownOrbit, Launch, Multipliers, OrbitEvent, Phase, UNDECIDED, Vibration, doubling_cascade,
 };
 use dual_numbers::dual_derivative;
 use glam::{DMat2, DVec2};
@@ -239,7 +239,7 @@ fn the_impact_speed_of_period_one_does_not_depend_on_the_forcing() {
 
 #[test]
 fn cascade_agrees_with_the_closed_form_and_with_feigenbaum() {
-    let cascade = period_doublings(0.5, 6).expect("the cascade exists");
+    let cascade = doubling_cascade(0.5, 6).expect("the cascade exists");
     assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-12);
     let periods: Vec<_> = cascade.iter().map(|doubling| doubling.period).collect();
     assert_eq!(periods, [1, 2, 4, 8, 16, 32]);

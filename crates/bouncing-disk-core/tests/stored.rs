@@ -191,16 +191,6 @@ fn periodic_orbits() {
         &Multipliers::Complex { real: -0.5, imaginary: 0.25 },
         &[("/Complex/imaginary", json!(0.0), "imaginary part")],
     );
-    check(
-        &period_doublings(0.5, 1).expect("settles")[0],
-        &[("/axial_forcing", json!(-1.0), "axial_forcing"), ("/period", json!(0), "period")],
-    );
-    let mut run = DoublingsRun::new(0.5).expect("legal");
-    run.advance(2, &Unobserved).expect("settles");
-    check(
-        &run,
-        &[("/restitution", json!(0.0), "restitution"), ("/found/1/period", json!(3), "period of a doubling")],
-    );
 }
 
 #[test]
@@ -293,7 +283,6 @@ fn what_is_no_number_is_not_read() {
         refused(&Impact { remainder: number, ..impact }, "remainder");
         refused(&Accumulation { duration: number, ..accumulation }, "duration");
         refused(&Accumulation { error_bound: number, ..accumulation }, "error_bound");
-        refused(&PeriodDoubling { axial_forcing: 0.5, period: 1, residual: number }, "residual");
         refused(&Multipliers::Real(number, 0.0), "multiplier");
     }
 }

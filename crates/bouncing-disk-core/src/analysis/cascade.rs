@@ -1,7 +1,5 @@
 //! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
 //! Newton's iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
-//!
-//! `doublings.rs` has the search that settles on each orbit instead; its results are kept as they are.
 
 pub(crate) mod branch;
 pub(crate) mod feigenbaum;
@@ -9,19 +7,16 @@ mod recurrence;
 
 use self::branch::{FlipPoint, first_flip, next_flip, rounding};
 use super::periodic::MAX_PERIOD;
-use crate::error::{Error, finite, within};
+use crate::error::{Error, within};
 use crate::numerics::real::Real;
 use crate::observer::{Observer, Unobserved, Watch};
-use crate::platform::vibration::Vibration;
-use crate::read_checked;
 
 /// The largest number of doublings: the last one is that of the orbit of period [`MAX_PERIOD`].
 pub const MAX_DOUBLINGS: usize = 13;
 
 /// A period doubling of the cascade that starts from the orbit with one impact per period of the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCascadeDoubling"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CascadeDoubling {
     /// Its number n, from 1 on.
     pub number: usize,
@@ -38,27 +33,7 @@ pub struct CascadeDoubling {
     pub width: f64,
     /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none
     /// dips.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::stored::infinite_if_none"))]
     pub graze_margin: f64,
-}
-
-read_checked!(CascadeDoubling as UncheckedCascadeDoubling {
-    number: usize,
-    period: usize,
-    axial_forcing: f64,
-    forcing_error: f64,
-    multiplier: f64,
-    width: f64,
-    #[serde(deserialize_with = "crate::stored::infinite_if_none")]
-    graze_margin: f64,
-});
-
-impl CascadeDoubling {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let doubles = [self.axial_forcing, self.multiplier, self.width];
-        check_doubling((self.number, self.period), doubles, self.forcing_error, self.graze_margin)
-    }
 }
 
 /// `Gamma_3 = 0.5401020860760664, of the orbit of 4 impacts`; a precision given is the number of decimals.
@@ -70,25 +45,6 @@ impl core::fmt::Display for CascadeDoubling {
         core::fmt::Display::fmt(axial_forcing, formatter)?;
         write!(formatter, ", of the orbit of {period} {impacts}")
     }
-}
-
-/// Checks what is read of a doubling, in whatever numbers: number and period; forcing, multiplier and width;
-/// error and margin.
-pub(crate) fn check_doubling(
-    (number, period): (usize, usize),
-    [axial_forcing, multiplier, width]: [f64; 3],
-    forcing_error: f64,
-    graze_margin: f64,
-) -> Result<(), Error> {
-    within("number of a doubling", number as f64, 1.0, MAX_DOUBLINGS as f64, "[1, 13]")?;
-    let expected = (1_u64 << (number - 1)) as f64;
-    within("period of a doubling", period as f64, expected, expected, "2^(n - 1)")?;
-    Vibration::from_axial_forcing(axial_forcing)?;
-    within("error of a forcing", forcing_error, 0.0, f64::MAX, "[0, inf)")?;
-    finite("multiplier", multiplier)?;
-    within("width of an orbit", width, 0.0, f64::MAX, "[0, inf) (rad)")?;
-    within("graze margin", graze_margin, 0.0, f64::INFINITY, "[0, inf] (g/omega^2)")?;
-    Ok(())
 }
 
 /// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the

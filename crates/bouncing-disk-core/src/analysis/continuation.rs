@@ -193,8 +193,10 @@ pub enum BifurcationKind {
 pub struct Bifurcation {
     /// What happens.
     pub kind: BifurcationKind,
-    /// The orbit there; at a graze and at a vanishing impact the last one that is an orbit of the map. At a
-    /// birth it is the orbit that doubles its period, with half the impacts.
+    /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have the signs of an
+    /// orbit, as far as they are known: rounding decides which impact the map finds first, and the last of
+    /// [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its period, with
+    /// half the impacts.
     pub point: BranchPoint,
 }
 
@@ -203,7 +205,8 @@ pub struct Bifurcation {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum BranchEnd {
-    /// The parameter reaches this end of its range.
+    /// The parameter reaches this end of its range: the last orbit lies there, to the rounding, or to 1e-9 next to a birth just
+    /// beyond.
     RangeLimit(f64),
     /// The orbit ceases to exist or to be prime in the last bifurcation of the branch.
     Bifurcation,
@@ -225,7 +228,8 @@ pub struct Branch {
     pub parameter: ContinuationParameter,
     /// The map at the start of the branch: the other parameters.
     pub map: ImpactMap,
-    /// The orbits in the order of the arclength; the last one lies at the end.
+    /// The orbits in the order of the arclength; the last one lies at the end, or within a step of the birth that ends the
+    /// branch.
     pub points: Vec<BranchPoint>,
     /// The bifurcations on the way, in the order of the arclength.
     pub bifurcations: Vec<Bifurcation>,
@@ -354,7 +358,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NoBranch`] if `orbit` is none of this map, or not an isolated one: start beside a fold, not on it.
+    /// [`Error::NoBranch`] if `orbit` is none of this map, or not an isolated one: start beside a fold or a birth, not on it.
     pub fn continued(&self, orbit: &PeriodicOrbit, settings: &Continuation) -> Result<Branch, Error> {
         self.continued_observed(orbit, settings, &Unobserved)
     }

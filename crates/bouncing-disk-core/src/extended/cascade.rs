@@ -2,16 +2,14 @@
 
 use crate::analysis::cascade::branch::rounding;
 use crate::analysis::cascade::feigenbaum::{FeigenbaumEstimate, estimates};
-use crate::analysis::cascade::{check_doubling, flip_points};
+use crate::analysis::cascade::flip_points;
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::observer::{Observer, Unobserved};
-use crate::read_checked;
 
 /// A period doubling of the cascade that starts from the orbit with one impact per period of the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedDoubling"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ExtendedDoubling {
     /// Its number n, from 1 on.
     pub number: usize,
@@ -28,27 +26,7 @@ pub struct ExtendedDoubling {
     /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none
     /// dips. A graze within the rounding of a double would need a proof in more digits: a cascade with a
     /// margin below 1e-9 is refused.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::stored::infinite_if_none"))]
     pub graze_margin: f64,
-}
-
-read_checked!(ExtendedDoubling as UncheckedDoubling {
-    number: usize,
-    period: usize,
-    axial_forcing: DoubleDouble,
-    forcing_error: f64,
-    multiplier: DoubleDouble,
-    width: DoubleDouble,
-    #[serde(deserialize_with = "crate::stored::infinite_if_none")]
-    graze_margin: f64,
-});
-
-impl ExtendedDoubling {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let doubles = [self.axial_forcing, self.multiplier, self.width].map(DoubleDouble::high);
-        check_doubling((self.number, self.period), doubles, self.forcing_error, self.graze_margin)
-    }
 }
 
 /// `Gamma_3 = 0.5401020860760663669196152, of the orbit of 4 impacts`; a precision given is the number of

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    Followed, ImpactState, Launch, follow_attractor, lyapunov_exponents, orbit_diagram, period_doublings,
+    Followed, ImpactState, Launch, doubling_cascade, follow_attractor, lyapunov_exponents, orbit_diagram,
 };
 use bouncing_disk::{ChatteringCycle, MultiTossSettings, PAPER_CHATTER};
 use rayon::prelude::*;
@@ -214,7 +214,7 @@ impl Searches {
             progress.advance(1);
             let policies = chattering::policies(&some, inputs, settings)?;
             progress.advance(1);
-            let doublings = period_doublings(inputs.restitution, 7).map_err(ExperimentError::model)?;
+            let doublings = doubling_cascade(inputs.restitution, 7).map_err(ExperimentError::model)?;
             progress.advance(1);
             let below = walk.iter().rev().find(|at| at.axial_forcing <= explored::ZOOM.0);
             let zoom = explored::zoom(below.map_or(*first, |at| at.state), inputs, quality)?;

@@ -1,10 +1,8 @@
 //! Feigenbaum's two constants from the doublings of one cascade.
 
+use super::CascadeDoubling;
 use super::branch::{rounding, width_rounding};
-use super::{CascadeDoubling, MAX_DOUBLINGS};
-use crate::error::{Error, finite, not_negative, within};
 use crate::numerics::real::Real;
-use crate::read_checked;
 
 /// The first doubling of an estimate with an error: one ratio of distances less, one of widths; one step of
 /// extrapolation less, two of them; and two changes of these.
@@ -24,8 +22,7 @@ const ENLARGED_ROUNDING: f64 = 4.0;
 /// error is twice the larger one of the last two changes of the extrapolated value, and what rounding may
 /// add: no bound, but what the next doubling confirms.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEstimate"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FeigenbaumEstimate {
     /// The number n of the last doubling that was used.
     pub number: usize,
@@ -41,31 +38,6 @@ pub struct FeigenbaumEstimate {
     pub alpha: f64,
     /// How far alpha may be off.
     pub alpha_error: f64,
-}
-
-read_checked!(FeigenbaumEstimate as UncheckedEstimate {
-    number: usize,
-    forcing_ratio: f64,
-    width_ratio: f64,
-    delta: f64,
-    delta_error: f64,
-    alpha: f64,
-    alpha_error: f64,
-});
-
-impl FeigenbaumEstimate {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let (least, most) = (FIRST_ESTIMATE as f64, MAX_DOUBLINGS as f64);
-        within("number of the last doubling", self.number as f64, least, most, "[7, 13]")?;
-        finite("ratio of forcings", self.forcing_ratio)?;
-        finite("ratio of widths", self.width_ratio)?;
-        finite("delta", self.delta)?;
-        finite("alpha", self.alpha)?;
-        not_negative("error of delta", self.delta_error)?;
-        not_negative("error of alpha", self.alpha_error)?;
-        Ok(())
-    }
 }
 
 /// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings` in extended precision; a

@@ -1,23 +1,9 @@
 use super::*;
-use crate::analysis::doublings::period_doublings;
 use crate::analysis::periodic::Multipliers;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::platform::phase::Phase;
-use crate::testing::{StopAfter, stored};
-
-/// The search that settles on every orbit shares neither equations nor linear algebra with this one.
-#[test]
-fn the_forcings_are_those_of_the_settled_search() {
-    for restitution in [0.1, 0.5, 0.8] {
-        let settled = period_doublings(restitution, 7).expect("found");
-        let found = doubling_cascade(restitution, 7).expect("found");
-        for (settled, found) in settled.iter().zip(&found) {
-            let distance = (settled.axial_forcing - found.axial_forcing).abs();
-            assert!(distance < 1e-12, "{restitution}: {found:?} {settled:?}");
-            assert_eq!(settled.period, found.period);
-        }
-    }
-}
+use crate::platform::vibration::Vibration;
+use crate::testing::StopAfter;
 
 /// The impacts that were found are an orbit of the impact map, and its multiplier is that of the map's own
 /// derivative.
@@ -71,7 +57,7 @@ fn every_restitution_has_an_answer() {
             match doubling_cascade(restitution, count) {
                 Ok(found) => assert!(
                     found.len() == count
-                        && found.iter().all(|doubling| doubling.check().is_ok())
+                        && found.iter().all(|doubling| doubling.multiplier.is_finite())
                         && found.windows(2).all(|pair| pair[0].axial_forcing < pair[1].axial_forcing),
                     "{restitution:e}: {found:?}"
                 ),
@@ -97,26 +83,5 @@ fn a_cascade_can_be_stopped_anywhere() {
     for calls in 1..all.asked() {
         let stopped = doubling_cascade_observed(0.5, 12, &StopAfter::calls(calls));
         assert!(matches!(stopped, Err(Error::Stopped { total: 12, .. })), "{calls}: {stopped:?}");
-    }
-}
-
-#[test]
-fn a_doubling_is_stored_as_it_is() {
-    for doubling in doubling_cascade(0.5, 3).expect("found") {
-        assert_eq!(stored(&doubling), doubling);
-    }
-    let legal = doubling_cascade(0.5, 2).expect("found")[1];
-    let refused = [
-        CascadeDoubling { number: 0, ..legal },
-        CascadeDoubling { number: 14, ..legal },
-        CascadeDoubling { period: 3, ..legal },
-        CascadeDoubling { axial_forcing: f64::NAN, ..legal },
-        CascadeDoubling { forcing_error: -1.0, ..legal },
-        CascadeDoubling { multiplier: f64::NAN, ..legal },
-        CascadeDoubling { width: f64::INFINITY, ..legal },
-        CascadeDoubling { graze_margin: -1.0, ..legal },
-    ];
-    for refused in refused {
-        assert!(refused.check().is_err(), "{refused:?}");
     }
 }

@@ -77,7 +77,9 @@ impl Walker<'_> {
             let mut base = half.closing.scaled(&guess);
             base[2] = parameter / scale;
             let plane = Plane { normal: [0.0, 0.0, 1.0], base, distance: 0.0 };
-            let Some((at, corrections)) = half.closing.corrected(guess.clone(), &plane) else { return Ok(None) };
+            let Some((at, corrections)) = half.closing.corrected(guess.clone(), &plane) else {
+                return Ok(None);
+            };
             let located = Located { direction: at.clone(), at, arclength: last.arclength, corrections };
             Ok(half.point(&located)?.map(|point| (1.0 + point.trace + point.determinant, point)))
         };

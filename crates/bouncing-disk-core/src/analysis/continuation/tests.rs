@@ -1,5 +1,5 @@
 use super::*;
-use crate::analysis::doublings::period_doublings;
+use crate::analysis::cascade::doubling_cascade;
 use crate::analysis::periodic::search::OrbitSearch;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
@@ -27,12 +27,15 @@ fn node(k: u64, restitution: f64, above: f64) -> (ImpactMap, PeriodicOrbit) {
     (map, orbit)
 }
 
-/// Every point is an orbit of the map, and its invariants are those of its derivative.
+/// Every point is an orbit of the map, also the last one before a graze, and so is every bifurcation within the branch; the
+/// invariants of points are those of their derivatives.
 fn check_points(branch: &Branch) {
     let mut arclength = -1.0;
-    // Where a branch ends in a graze the rounding decides which impact is the first.
-    let certain = branch.points.len() - usize::from(branch.end == BranchEnd::Bifurcation);
-    for point in &branch.points[..certain] {
+    let within =
+        |kind| matches!(kind, BifurcationKind::Doubling | BifurcationKind::Fold | BifurcationKind::Birth);
+    let located = branch.bifurcations.iter().filter(|found| within(found.kind));
+    let located = located.map(|found| (&found.point, false));
+    for (point, is_next) in branch.points.iter().map(|point| (point, true)).chain(located) {
         let (map, states) = (branch.map_at(point.parameter).expect("legal"), &point.orbit.states);
         let n = states.len();
         for i in 0..n {
@@ -42,6 +45,9 @@ fn check_points(branch: &Branch) {
             // Next to a graze the end of a flight is as uncertain as the root of the rounding.
             assert!(turned.min(core::f64::consts::TAU - turned) < 1e-7, "{map}: {point:?}");
             assert!((impact.velocity - next.velocity()).abs() < 1e-7 * (1.0 + next.velocity().abs()));
+        }
+        if !is_next {
+            continue;
         }
         assert!(point.arclength > arclength, "{} after {arclength}", point.arclength);
         arclength = point.arclength;
@@ -98,7 +104,7 @@ fn folds_are_those_of_the_closed_form_to_1e_13() {
 /// From branch to doubled branch: the cascade, as the search of its own finds it by another way.
 #[test]
 fn doubled_branches_double_where_the_cascade_does() {
-    let cascade = period_doublings(0.5, 3).expect("found");
+    let cascade = doubling_cascade(0.5, 3).expect("found");
     let (map, orbit) = node(1, 0.5, 0.1);
     let settings = forcing(0.3, 0.6, true).with_steps(0.003, 0.02, 10_000).expect("legal");
     let mut branch = map.continued(&orbit, &settings).expect("continued");
@@ -136,6 +142,124 @@ fn a_doubled_orbit_is_born_in_the_doubling() {
     assert!((birth.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
     let last = branch.points.last().expect("points");
     assert!((last.parameter - birth.point.parameter).abs() < 1e-2 && last.orbit.period() == 2);
+}
+
+/// The largest and the smallest steps, near the elastic limit and far from it: a branch turns at its fold, however near to it its
+/// range ends beyond, and ends at the end of its range, however near before. A leap over the fold, to where no orbit is, is none.
+#[test]
+fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
+    for (r, k) in [(0.3, 1), (0.8, 2), (0.99, 1), (0.999_999, 1), (1.0 - 1e-9, 1), (1.0 - 1e-12, 3)] {
+        let (map, orbit) = node(k, r, 0.15);
+        let fold = birth(k, r);
+        for steps in [(0.01, 0.5), (1e-6, 0.05)] {
+            for low in [0.0, 0.5 * fold, fold - 1e-8, fold * (1.0 - 1e-10)] {
+                let Ok(settings) =
+                    Continuation::new(ContinuationParameter::Forcing, (low, fold + 0.3), false)
+                else {
+                    continue;
+                };
+                let settings = settings.with_steps(steps.0, steps.1, 10_000).expect("legal");
+                let branch = map.continued(&orbit, &settings).expect("continued");
+                let folds: Vec<_> = branch.of_kind(BifurcationKind::Fold).collect();
+                let place = format!("{r} {k} {low} {steps:?}: {:?}", branch.end);
+                assert_eq!(folds.len(), 1, "{place}");
+                assert!((folds[0].point.parameter - fold).abs() <= 1e-13 * (1.0 + fold), "{place}");
+                assert!(!matches!(branch.end, BranchEnd::StepTooSmall(_) | BranchEnd::PointLimit(_)));
+                assert_ne!(branch.end, BranchEnd::RangeLimit(low), "{place}");
+            }
+            for low in [fold * (1.0 + 1e-10) + 1e-13, fold + 1e-8] {
+                let settings = forcing(low, fold + 0.3, false).with_steps(steps.0, steps.1, 10_000);
+                let branch = map.continued(&orbit, &settings.expect("legal")).expect("continued");
+                let last = branch.points.last().expect("points").parameter;
+                assert_eq!(branch.end, BranchEnd::RangeLimit(low), "{r}");
+                assert_eq!(branch.of_kind(BifurcationKind::Fold).count(), 0, "{r}");
+                assert!((low..low + 1e-12).contains(&last), "{r}: {last} {low}");
+            }
+        }
+    }
+}
+
+/// The same of births, on doubled branches and on those that double again, with their doublings listed once.
+#[test]
+fn a_range_ends_a_doubled_branch_on_its_own_side_of_the_birth_only() {
+    for r in [0.1, 0.5, 0.8, 0.99] {
+        let cascade = doubling_cascade(r, 3).expect("found");
+        let (map, orbit) = node(1, r, 0.8 * (cascade[0].axial_forcing - birth(1, r)));
+        let settings = forcing(0.5 * birth(1, r), 1.5, true).with_steps(0.002, 0.02, 10_000).expect("legal");
+        let mut branch = map.continued(&orbit, &settings).expect("continued");
+        for known in &cascade {
+            let index = branch.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling);
+            branch = branch.switched(index.expect("doubles"), &settings).expect("switches");
+            let born = known.axial_forcing;
+            for start in branch.points.iter().take(12).step_by(8) {
+                let map = branch.map_at(start.parameter).expect("legal");
+                for steps in [(0.01, 0.05), (1.0, 1.0)] {
+                    for below in [0.1, 1e-8, 1e-12, -1e-9, -1e-8] {
+                        let low = born - below;
+                        let settings = forcing(low, 1.5, false).with_steps(steps.0, steps.1, 10_000);
+                        let settings = settings.expect("legal");
+                        if start.parameter <= low {
+                            continue;
+                        }
+                        let falling = map.continued(&start.orbit, &settings).expect("continued");
+                        let last = falling.points.last().expect("points").parameter;
+                        let kinds: Vec<_> = falling.bifurcations.iter().map(|found| found.kind).collect();
+                        let place = format!("{r} {} {below} {steps:?}: {kinds:?} {last}", known.number);
+                        let doublings = kinds.iter().filter(|kind| **kind == BifurcationKind::Doubling);
+                        assert!(doublings.count() <= 1 && !kinds.contains(&BifurcationKind::Fold), "{place}");
+                        if below > 0.0 {
+                            let birth = falling.bifurcations.last().expect("born");
+                            assert_eq!(
+                                (birth.kind, falling.end),
+                                (BifurcationKind::Birth, BranchEnd::Bifurcation)
+                            );
+                            assert!((birth.point.parameter - born).abs() < 1e-12, "{place}");
+                            assert_eq!(birth.point.orbit.period(), known.period);
+                        } else {
+                            assert_eq!(falling.end, BranchEnd::RangeLimit(low), "{place}");
+                            assert!((low..low + 1e-9).contains(&last), "{place}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The halves of this orbit lie on two sides of the seam at 2 pi.
+#[test]
+fn a_birth_across_the_seam_is_the_doubling_of_the_closed_form() {
+    let map = map(0.9, 0.8);
+    let search = OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal");
+    let found = map.periodic_orbits(&search).expect("no failure").orbits;
+    let orbit = found.iter().find(|orbit| orbit.period() == 2 && orbit.platform_periods == 2);
+    let branch = map.continued(orbit.expect("found"), &forcing(0.1, 1.5, false)).expect("continued");
+    let [doubling, birth] = branch.bifurcations.as_slice() else { panic!("{:?}", branch.bifurcations) };
+    assert_eq!((doubling.kind, birth.kind), (BifurcationKind::Doubling, BifurcationKind::Birth));
+    assert!((birth.point.parameter - ImpactMap::first_doubling_forcing(0.8)).abs() < 1e-15);
+    assert_eq!((branch.end, birth.point.orbit.period()), (BranchEnd::Bifurcation, 1));
+}
+
+/// At the end of a range, or at the start of a branch, a doubling is one within rounding.
+#[test]
+fn a_doubling_at_the_end_of_a_range_is_listed() {
+    for r in [0.1, 0.5, 0.8, 0.99, 1.0 - 1e-9] {
+        let first = ImpactMap::first_doubling_forcing(r);
+        let listed = |from: f64, range: (f64, f64)| {
+            let map = map(from, r);
+            let orbit = map.refine(&[map.period_one(1).expect("exists")]).expect("settles");
+            let branch =
+                map.continued(&orbit, &forcing(range.0, range.1, from < range.1)).expect("continued");
+            branch.of_kind(BifurcationKind::Doubling).count()
+        };
+        let low = 0.5 * (first + birth(1, r));
+        for (high, expected) in
+            [(first.next_down(), 1), (first, 1), (first.next_up(), 1), (first - 1e-11, 0), (first + 1e-11, 1)]
+        {
+            assert_eq!(listed(low, (low, high)), expected, "{r} {high}");
+        }
+        assert_eq!((listed(first, (low, first)), listed(first, (first, first + 0.1))), (1, 1), "{r}");
+    }
 }
 
 /// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is

@@ -5,8 +5,8 @@ use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
-use super::tip::BranchTip;
 use super::birth::Halves;
+use super::tip::BranchTip;
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
 use crate::analysis::closing::{Closed, Closing, Plane};
 use crate::analysis::periodic::PeriodicOrbit;
@@ -39,9 +39,8 @@ pub(super) const HALVINGS: u32 = 56;
 /// far below the distance of two curves that doubles can tell apart.
 pub(super) const NEIGHBOURS: f64 = 1.0e-9;
 
-/// Two durations of one flight differ by less, relative to 1 + duration: a landing at next to no speed is known to the root of the
-/// rounding.
-const SAME_FLIGHT: f64 = 1.0e-7;
+/// By how much the duration of a flight (rad) may differ from the one that the map finds.
+const SAME_FLIGHT: f64 = 1.0e-8;
 
 /// Roundings of (1 + m1)(1 + m2) for each impact, in units of the size of the derivative.
 const FLIP_ROUNDINGS: f64 = 8.0;
@@ -292,7 +291,10 @@ impl<'s> Walker<'s> {
             if let (Some(kind), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&free)?) {
                 found.push(Bifurcation { kind, point });
             }
-            (last, end) = (free, Some(BranchEnd::Bifurcation));
+            end = Some(BranchEnd::Bifurcation);
+            // There rounding decides which impact is the first: the points end with the last orbit that the map confirms.
+            let confirmed = |located: &Located| self.is_confirmed(&located.at);
+            last = if confirmed(&free)? { free } else { self.bracket(base, &free, confirmed)?.0 };
         }
         let Some(doubling) = self.doubling(base, &last)? else { return Ok(None) };
         found.extend(doubling);
@@ -307,7 +309,9 @@ impl<'s> Walker<'s> {
     /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1 within rounding at the
     /// second one, or is so at the start of the branch.
     fn doubling(&self, base: &Located, next: &Located) -> Result<Option<Option<Bifurcation>>, Error> {
-        let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else { return Ok(Some(None)) };
+        let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else {
+            return Ok(Some(None));
+        };
         let at = |point: BranchPoint| Ok(Some(Some(Bifurcation { kind: BifurcationKind::Doubling, point })));
         let (first, last) = (flip(&before), flip(&after));
         if first == 0.0 {
@@ -343,9 +347,10 @@ impl<'s> Walker<'s> {
     pub(super) fn distance(&self, a: &Closed, b: &Closed) -> f64 {
         let scale = self.closing.scale;
         let parameter = (a.parameter - b.parameter).abs() / scale.parameter;
-        a.impacts.iter().zip(&b.impacts).fold(parameter, |most, (a, b)| {
-            most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / scale.speed)
-        })
+        a.impacts
+            .iter()
+            .zip(&b.impacts)
+            .fold(parameter, |most, (a, b)| most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / scale.speed))
     }
 
     /// The last point with a property that holds at `base`, and the first one without it, by halvings of the way to
@@ -371,8 +376,7 @@ impl<'s> Walker<'s> {
         Ok((last, beyond))
     }
 
-    /// What makes it no orbit of the map: a speed or a gap with the wrong sign, or, where rounding decides these, the flight that
-    /// the map itself finds.
+    /// What makes it no orbit of the map.
     fn obstacle(&self, at: &Closed) -> Result<Option<BifurcationKind>, Error> {
         let map = self.closing.map_at(at.parameter)?;
         let velocities = self.closing.velocities(at);
@@ -384,28 +388,35 @@ impl<'s> Walker<'s> {
         for (flight, &(_, speed)) in velocities.iter().enumerate() {
             let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
             let following = (flight + 1) % velocities.len();
-            let duration = self.closing.duration(&at.impacts, flight);
             let impact = Impact {
                 periods: 0,
-                remainder: duration,
+                remainder: self.closing.duration(&at.impacts, flight),
                 turns: 0,
                 phase: Phase::new(at.impacts[following].x)?,
                 velocity: velocities[following].0,
                 evaluations: 0,
             };
-            let found = map.vibration().first_impact(launch)?.duration();
-            let tolerance = SAME_FLIGHT * (1.0 + duration);
-            if found > duration + tolerance {
-                return Ok(Some(BifurcationKind::VanishingImpact { impact: following }));
-            }
-            if found < duration - tolerance && speed < SAME_FLIGHT * self.closing.scale.speed {
-                return Ok(Some(BifurcationKind::VanishingImpact { impact: flight }));
-            }
-            if found < duration - tolerance || map.vibration().graze_margin(launch, &impact) <= 0.0 {
+            if map.vibration().graze_margin(launch, &impact) <= 0.0 {
                 return Ok(Some(BifurcationKind::Graze { flight }));
             }
         }
         Ok(None)
+    }
+
+    /// Whether the map itself finds these flights.
+    fn is_confirmed(&self, at: &Closed) -> Result<bool, Error> {
+        let map = self.closing.map_at(at.parameter)?;
+        for (flight, &(arrival, speed)) in self.closing.velocities(at).iter().enumerate() {
+            if !(arrival < 0.0 && speed > 0.0) {
+                return Ok(false);
+            }
+            let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
+            let found = map.vibration().first_impact(launch)?.duration();
+            if (found - self.closing.duration(&at.impacts, flight)).abs() > SAME_FLIGHT {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// The point in the form of the results; `None` where it is no orbit.
