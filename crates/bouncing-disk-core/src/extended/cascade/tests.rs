@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::{StopAfter, stored};
+use crate::testing::StopAfter;
 
 /// Feigenbaum's constants as they are published (K. Briggs, Math. Comp. 57, 435 (1991)).
 const DELTA: f64 = 4.669_201_609_102_99;
