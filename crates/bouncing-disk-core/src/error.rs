@@ -60,7 +60,9 @@ pub enum Error {
         residual: f64,
     },
     /// A periodic orbit is not proven to attract: it does not, or rounding leaves it open.
-    #[error("the orbit does not attract: largest multiplier {spectral_radius:?}, its trace known to {trace_error:?}")]
+    #[error(
+        "the orbit does not attract: largest multiplier {spectral_radius:?}, its trace known to {trace_error:?}"
+    )]
     NotAttracting {
         /// The larger modulus of its multipliers.
         spectral_radius: f64,

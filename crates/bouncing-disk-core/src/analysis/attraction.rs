@@ -139,8 +139,14 @@ impl Flight {
         let turns = ((first - (PI - separation - angle)) / TAU).ceil().max(0.0);
         let mut start = begin + TAU * turns;
         while start < last {
-            let (mut low, mut high) = (start.max(first), (start + PI - 2.0 * separation).min(last));
+            let end = start + PI - 2.0 * separation;
+            let (mut low, mut high) = (start.max(first), end.min(last));
+            // Where the launch lies in the stretch the gap rises from zero, throughout.
+            let from_launch = start <= -reach && end >= reach;
             start += TAU;
+            if from_launch {
+                continue;
+            }
             if slope(low) >= 0.0 {
                 high = low;
             } else if slope(high) <= 0.0 {
@@ -451,7 +457,8 @@ mod tests {
     use crate::testing::StopAfter;
 
     fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-        ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
+        ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
+            .expect("legal")
     }
 
     /// The orbit of one impact every k periods that attracts from its birth to its doubling.
@@ -484,7 +491,8 @@ mod tests {
             let restitution = [0.0, 0.3, 0.5, 0.8, 0.95][case % 5];
             let k = 1 + case as u64 % 9;
             let born = k as f64 * (1.0 - restitution) / (1.0 + restitution);
-            let height = 2.0 * (1.0 + restitution * restitution) / (PI * (1.0 + restitution) * (1.0 + restitution));
+            let height =
+                2.0 * (1.0 + restitution * restitution) / (PI * (1.0 + restitution) * (1.0 + restitution));
             let share = 0.02 + 0.95 * random.unit();
             let map = map((born * born + share * share * height * height).sqrt(), restitution);
             let pair = map.period_one_pair(k).expect("exists");

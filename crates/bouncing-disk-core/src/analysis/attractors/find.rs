@@ -232,7 +232,11 @@ impl<'a> Finder<'a> {
     }
 
     /// The starts whose attractor is not known but for those that rest or come back to these cells, and how many do.
-    fn compare(&mut self, cells: &VisitedCells, open: &[ImpactState]) -> Result<(Vec<ImpactState>, u64), Error> {
+    fn compare(
+        &mut self,
+        cells: &VisitedCells,
+        open: &[ImpactState],
+    ) -> Result<(Vec<ImpactState>, u64), Error> {
         let part = self.part();
         let back = part.whole(come_back(self.map, open, cells, self.search.transient(), &part))?;
         let (mut left, mut on_it) = (Vec::new(), 0);
