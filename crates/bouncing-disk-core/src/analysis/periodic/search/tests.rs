@@ -262,13 +262,6 @@ fn orbits_do_not_depend_on_the_number_of_threads() {
     assert_eq!((&one, &one), (&with(2), &with(7)));
 }
 
-#[test]
-fn a_search_can_be_stopped() {
-    let (map, search) = (map(0.9, 0.5), OrbitSearch::new(6, 6).expect("legal"));
-    let stopped = map.periodic_orbits_observed(&search, &StopAfter::calls(3));
-    assert!(matches!(stopped, Err(Error::Stopped { done: 0..9_216, total: 9_216 })), "{stopped:?}");
-}
-
 /// A platform at rest, without restitution, almost without loss, the strongest vibration: each has an answer.
 #[test]
 fn seams_have_answers() {
