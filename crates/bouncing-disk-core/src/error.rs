@@ -59,6 +59,22 @@ pub enum Error {
         /// Size of the last residual.
         residual: f64,
     },
+    /// A periodic orbit is not proven to attract: it does not, or rounding leaves it open.
+    #[error(
+        "the orbit does not attract: largest multiplier {spectral_radius:?}, its trace known to {trace_error:?}"
+    )]
+    NotAttracting {
+        /// The larger modulus of its multipliers.
+        spectral_radius: f64,
+        /// How far the trace of its derivative may be off.
+        trace_error: f64,
+    },
+    /// No region about an attracting orbit is proven to be attracted: an impact or a graze is too near.
+    #[error("nothing about the orbit is proven to be attracted, down to {region:?} rad")]
+    NothingProven {
+        /// The smallest region that was tried (rad).
+        region: f64,
+    },
     /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
     #[error(
         "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is no periodic orbit"
@@ -214,6 +230,8 @@ mod tests {
                 Error::FlightTooLong { relative_speed: number, duration: number, limit: number },
                 Error::NoConvergence { evaluations: 200, time: number, gap: number },
                 Error::NotSettled { what: "search", iterations: 7, residual: number },
+                Error::NotAttracting { spectral_radius: number, trace_error: number },
+                Error::NothingProven { region: number },
                 Error::ImpactWithoutSpeed { index: 3, phase: number },
                 Error::NoPlatformPeriods { impacts: 2, speed: number },
                 Error::EarlierImpact { index: 5, sought: number, found: number },

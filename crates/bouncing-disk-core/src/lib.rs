@@ -100,7 +100,7 @@ pub use analysis::manifold::{
 pub use analysis::orbit_batch::OrbitBatch;
 pub use analysis::periodic::pair::{PeriodOneOrbit, PeriodOnePair};
 pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
-pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit};
+pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, is_settling, orbit_diagram,
     orbit_diagram_observed, repeats_every, survival_times, survival_times_observed, sweep, sweep_observed,

@@ -6,7 +6,10 @@ pub(crate) mod block_cyclic;
 pub(crate) mod bordered_cyclic;
 pub mod circular;
 pub mod digest;
-#[cfg(feature = "extended")]
+#[cfg_attr(
+    not(feature = "extended"),
+    expect(dead_code, unreachable_pub, reason = "only the feature needs all of it")
+)]
 pub(crate) mod double_double;
 pub mod elementary;
 pub mod fraction;

@@ -35,16 +35,14 @@ fn panel(map: &ImpactMap) -> Panel {
     let add = |known: &mut Vec<KnownOrbit>, orbit, radius| {
         known.push(KnownOrbit::new(orbit, radius).expect("legal"));
     };
-    if let Some(radius) =
-        orbit.trapping_radius(map, 64).filter(|_| orbit.multipliers().spectral_radius() < 1.0)
-    {
+    if let Ok(radius) = orbit.trapping_radius(map, 64) {
         add(&mut known, orbit, radius);
     } else {
         let beside = Phase::new(state.phase().angle() + 1e-3).expect("finite");
         let beside = ImpactState::new(beside, state.velocity()).expect("legal");
         if let Some(after) = map.state_after(beside, 20_000, ChatterPolicy::Complete).expect("no failure") {
             let settled = map.settled_orbit(after, 0, 64, 1e-8).expect("no failure");
-            match settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64)?, orbit))) {
+            match settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64).ok()?, orbit))) {
                 Some((radius, orbit)) => add(&mut known, orbit, radius),
                 None => chaotic = true,
             }
@@ -58,7 +56,7 @@ fn panel(map: &ImpactMap) -> Panel {
             let start = ImpactState::from_normalised(angle, speed).expect("legal");
             let settled = map.settled_orbit(start, 4_000, 64, 1e-8).expect("no failure");
             if let Some((radius, orbit)) =
-                settled.and_then(|orbit| Some((orbit.attraction_radius(map)?, orbit)))
+                settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64).ok()?, orbit)))
             {
                 add(&mut known, orbit, radius);
                 continue 'search;

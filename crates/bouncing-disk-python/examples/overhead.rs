@@ -13,7 +13,7 @@ fn main() -> Result<(), Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     let start = ImpactState::from_normalised(1.2, 1.3)?;
     let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7)? else { return Ok(()) };
-    let Some(radius) = orbit.trapping_radius(&map, 64) else { return Ok(()) };
+    let Ok(radius) = orbit.trapping_radius(&map, 64) else { return Ok(()) };
     let known = [KnownOrbit::new(orbit, radius)?];
     let grid = Grid::new(Axis::new(0.0, 1.0, 1000)?, Axis::new(0.0, 3.0, 1000)?)?;
     let mut least = f64::INFINITY;

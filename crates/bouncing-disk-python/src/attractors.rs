@@ -1,6 +1,8 @@
 //! The attractors of a map, and their basins.
 
-use bouncing_disk::core::{AfterRest, AttractorKind, AttractorSearch, Attractors as Found, BasinSettings};
+use bouncing_disk::core::{
+    AfterRest, AttractorKind, AttractorSearch, Attractors as Found, BasinSettings, RestCycle,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -47,6 +49,10 @@ impl Attractors {
                     (orbit, radius) = (Some(PeriodicOrbit(known.orbit().clone())), known.radius());
                     "periodic"
                 }
+                AttractorKind::Marginal(own) => {
+                    orbit = Some(PeriodicOrbit(own.clone()));
+                    "marginal"
+                }
                 AttractorKind::Chaotic { exponent: growth, standard_error, .. } => {
                     (exponent, error) = (*growth, *standard_error);
                     "chaotic"
@@ -65,6 +71,7 @@ impl Attractors {
                 attractor.kind.lasts(),
                 leads_to,
                 attractor.kind.to_string(),
+                attractor.kind.rest_cycle().is_none_or(RestCycle::is_exact),
             );
             all.push(results::make(py, "Attractor", fields)?);
         }

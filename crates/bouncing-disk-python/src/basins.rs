@@ -1,7 +1,7 @@
 //! Basins of attraction on a grid.
 
 use bouncing_disk::core::{
-    Axis, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap as Map, KnownOrbit, Label,
+    Axis, BasinSettings, Basins, Grid, ImpactMap as Map, KnownOrbit, Label,
     PeriodicOrbit as Orbit,
 };
 use bouncing_disk::{Error, Observer, Progress};
@@ -116,13 +116,7 @@ fn known(
     let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
     let radius = match radius {
         Some(radius) => radius,
-        None => {
-            orbit.catching_radius_observed(map, SAMPLES, &quiet)?.ok_or_else(|| CoreError::NotSettled {
-                what: "starts near a known orbit",
-                iterations: SAMPLES,
-                residual: orbit.multipliers().spectral_radius(),
-            })?
-        }
+        None => orbit.trapping_radius_observed(map, SAMPLES, &quiet)?,
     };
     Ok(KnownOrbit::new(orbit, radius)?)
 }
@@ -145,8 +139,7 @@ fn known(
 /// known_orbits : iterable, optional
 ///     Attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the radius (rad)
 ///     within which a start counts as caught; without a radius it is the
-///     :meth:`PeriodicOrbit.trapping_radius`, or, of an orbit with strong shear that has none, one within
-///     which sampled starts end on the orbit.
+///     :meth:`PeriodicOrbit.trapping_radius`.
 /// max_impacts : int, default 2000
 ///     Impacts after which a start is left undecided.
 /// chatter : ChatterCut, optional

@@ -80,6 +80,10 @@ fn of_core(error: CoreError) -> Raised {
         CoreError::NotSettled { what, iterations, residual } => {
             Computation("not-settled", details![what, iterations, residual])
         }
+        CoreError::NotAttracting { spectral_radius, trace_error } => {
+            Computation("not-attracting", details![spectral_radius, trace_error])
+        }
+        CoreError::NothingProven { region } => Computation("nothing-proven", details![region]),
         CoreError::ImpactWithoutSpeed { index, phase } => {
             Computation("impact-without-speed", details![index, phase])
         }

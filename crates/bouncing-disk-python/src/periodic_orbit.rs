@@ -1,6 +1,6 @@
 //! Periodic orbits of the impact map.
 
-use bouncing_disk::core::{Multipliers, OrbitSearch, PeriodicOrbit as Orbit};
+use bouncing_disk::core::{Multipliers, OrbitSearch, PeriodicOrbit as Orbit, Stability};
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -72,13 +72,41 @@ impl PeriodicOrbit {
         results::array(py, complex(self.0.multipliers()).to_vec())
     }
 
-    /// Whether the orbit attracts: both multipliers lie inside of the unit circle.
+    /// Whether the orbit attracts: both multipliers lie inside of the unit circle by more than their uncertainty.
     #[getter]
     fn is_stable(&self) -> bool {
-        self.0.multipliers().spectral_radius() < 1.0
+        self.0.stability() == Stability::Stable
     }
 
-    /// A radius within which every orbit is taken to end on this one.
+    /// ``"attracts"``, ``"unstable"``, or ``"marginal"`` where a multiplier is 1 or -1 within rounding.
+    #[getter]
+    fn stability(&self) -> String {
+        self.0.stability().to_string()
+    }
+
+    /// A radius within which every orbit is proven to end on this one.
+    ///
+    /// Parameters
+    /// ----------
+    /// impact_map : ImpactMap
+    ///     The map that it is an orbit of.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     In radians (a radian counts as much as the peak velocity of the platform).
+    ///
+    /// Raises
+    /// ------
+    /// ComputationError
+    ///     ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a graze.
+    fn proven_radius(&self, py: Python<'_>, impact_map: &Bound<'_, ImpactMap>) -> PyResult<f64> {
+        let map = impact_map.get().map;
+        self.0.proven_radius(&map).map_err(|error| errors::of(py, error))
+    }
+
+    /// The radius within which a start counts as caught by this orbit: the proven one, or a larger one that samples
+    /// support.
     ///
     /// Parameters
     /// ----------
@@ -91,8 +119,14 @@ impl PeriodicOrbit {
     ///
     /// Returns
     /// -------
-    /// float or None
-    ///     In radians (a radian counts as much as the peak velocity of the platform); None if it traps none.
+    /// float
+    ///     In radians (a radian counts as much as the peak velocity of the platform).
+    ///
+    /// Raises
+    /// ------
+    /// ComputationError
+    ///     ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a graze, where samples find
+    ///     no radius, either.
     #[pyo3(signature = (impact_map, *, samples=Count::Fits(64), progress=ProgressCallable(None)),
            text_signature = "($self, /, impact_map, *, samples=64, progress=None)")]
     fn trapping_radius(
@@ -101,7 +135,7 @@ impl PeriodicOrbit {
         impact_map: &Bound<'_, ImpactMap>,
         samples: Count,
         progress: ProgressCallable,
-    ) -> PyResult<Option<f64>> {
+    ) -> PyResult<f64> {
         let samples = samples.at_most(py, "samples", 1 << 20, "[1, 1048576]")? as u32;
         let map = impact_map.get().map;
         long_call::run(py, progress.0, |observer| {
@@ -138,7 +172,11 @@ impl PeriodicOrbit {
     }
 
     fn __repr__(&self) -> String {
-        let stable = if self.is_stable() { "stable" } else { "unstable" };
+        let stable = match self.0.stability() {
+            Stability::Stable => "stable",
+            Stability::Marginal => "marginal",
+            Stability::Unstable => "unstable",
+        };
         let (impacts, periods) = (self.period(), self.platform_periods());
         let plural = |count: u64, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         format!(

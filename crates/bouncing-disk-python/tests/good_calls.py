@@ -117,6 +117,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
             [],
             {"impact_phase": 1.0, "normalised_speed": 1.0, "transient": 10, "tolerance": 1e-7},
         ),
+        (orbit.proven_radius, [MAP], {}),
         (orbit.trapping_radius, [MAP], {"samples": 4}),
         (bd.PeriodicOrbit.from_json, [orbit.to_json()], {}),
         (bd.orbit_diagram, [], starts | {"transient": 10, "recorded": 3, "chatter": None}),

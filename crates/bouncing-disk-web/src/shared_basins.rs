@@ -79,6 +79,10 @@ fn told(label: Option<u8>, attractor: &Attractor) -> AttractorJson {
             impact = known.orbit().states.first().map(ImpactStart::from);
             "periodic"
         }
+        AttractorKind::Marginal(orbit) => {
+            impact = orbit.states.first().map(ImpactStart::from);
+            "marginal"
+        }
         AttractorKind::Chaotic { .. } => "chaotic",
         _ => "unclassified",
     };

@@ -33,7 +33,7 @@ impl Workloads {
             if cfg!(target_arch = "wasm32") { InstructionSet::Simd128 } else { InstructionSet::Baseline };
         let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).ok()?, 0.5).ok()?;
         let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).ok()??;
-        let radius = orbit.trapping_radius(&map, 64)?;
+        let radius = orbit.trapping_radius(&map, 64).ok()?;
         Some(Self {
             orbits: OrbitBatch::with_instruction_set(states, set),
             map,

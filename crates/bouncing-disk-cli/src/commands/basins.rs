@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use bouncing_disk::core::{
     ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
-    UNDECIDED,
+    PeriodicOrbit, UNDECIDED,
 };
 use bouncing_disk::{Observer, Progress};
 use clap::Args;
@@ -250,21 +250,14 @@ fn legend(attractors: &Attractors) -> Vec<(Label, String)> {
         let Some(label) = attractors.label(number) else { continue };
         let words = match &attractor.kind {
             AttractorKind::Rest(AfterRest::StaysForEver) => "at rest for ever".to_owned(),
-            AttractorKind::Rest(AfterRest::RestsAgain(cycle)) => cycle.to_string(),
+            AttractorKind::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => cycle.to_string(),
+            AttractorKind::Rest(AfterRest::RestsAgain(_)) => "rest, in a cycle that rounding chooses".to_owned(),
             AttractorKind::Rest(AfterRest::LeadsTo(number)) => {
                 let to = attractors.label(*number).unwrap_or(ATTACHED);
                 format!("at rest, then to {to}")
             }
-            AttractorKind::Periodic(known) => {
-                let orbit = known.orbit();
-                let counted =
-                    |count: u64, thing: &str| format!("{count} {thing}{}", if count == 1 { "" } else { "s" });
-                format!(
-                    "{} in {}",
-                    counted(orbit.period() as u64, "impact"),
-                    counted(orbit.platform_periods, "period")
-                )
-            }
+            AttractorKind::Periodic(known) => of_orbit(known.orbit()),
+            AttractorKind::Marginal(orbit) => format!("{}, marginal", of_orbit(orbit)),
             AttractorKind::Chaotic { exponent, standard_error, .. } => {
                 format!("chaos, exponent {exponent:.4} +- {standard_error:.4}")
             }
@@ -275,11 +268,17 @@ fn legend(attractors: &Attractors) -> Vec<(Label, String)> {
     legend
 }
 
+fn of_orbit(orbit: &PeriodicOrbit) -> String {
+    let counted = |count: u64, thing: &str| format!("{count} {thing}{}", if count == 1 { "" } else { "s" });
+    format!("{} in {}", counted(orbit.period() as u64, "impact"), counted(orbit.platform_periods, "period"))
+}
+
 /// The impacts of the periodic attractors: label, phase (periods), normalised speed.
 fn impacts(attractors: &Attractors) -> Vec<(Label, f64, f64)> {
     let periodic =
         attractors.all().iter().enumerate().filter_map(|(number, attractor)| match &attractor.kind {
             AttractorKind::Periodic(known) => Some((attractors.label(number)?, known.orbit())),
+            AttractorKind::Marginal(orbit) => Some((attractors.label(number)?, orbit)),
             _ => None,
         });
     periodic

@@ -17,7 +17,7 @@ use crate::range::Range;
 const AFTER: &str = "\
 Orbits of one impact come from their closed form, all others from Newton's method on the impacts of a grid of starts: the \
 result says whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in \
-modulus. Phases are in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See \
+modulus by more than rounding may change it, and is marginal if rounding decides, as in a fold. Phases are in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See \
 docs/studying-the-dynamics.md, \"All periodic orbits\".
 
 Examples:
@@ -100,7 +100,7 @@ fn text(found: &OrbitsFound) -> String {
             first.map(|state| state.phase().cycles()).into(),
             first.map(|state| state.normalised_speed()).into(),
             radius.into(),
-            stability(radius).into(),
+            orbit.stability().to_string().into(),
         ]);
     }
     let coverage = &found.coverage;
@@ -112,10 +112,6 @@ fn text(found: &OrbitsFound) -> String {
         coverage.found_by_coarser,
         found.orbits.len()
     )
-}
-
-const fn stability(radius: f64) -> &'static str {
-    if radius < 1.0 { "attracts" } else { "unstable" }
 }
 
 fn table(found: &OrbitsFound) -> Table {
@@ -138,7 +134,7 @@ fn table(found: &OrbitsFound) -> Table {
                 orbit.period().into(),
                 orbit.platform_periods.into(),
                 radius.into(),
-                stability(radius).into(),
+                orbit.stability().to_string().into(),
                 (impact + 1).into(),
                 state.phase().angle().into(),
                 state.phase().cycles().into(),

@@ -1,6 +1,6 @@
 //! The impacts of periodic orbits in the plane of phase and speed.
 
-use bouncing_disk::core::OrbitsFound;
+use bouncing_disk::core::{OrbitsFound, Stability};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, Figure, Legend, Marker, Panel, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };
@@ -24,7 +24,7 @@ pub(crate) fn draw(axial_forcing: f64, restitution: f64, found: &OrbitsFound) ->
                 .orbits
                 .iter()
                 .filter(|orbit| orbit.period() == impacts)
-                .filter(|orbit| (orbit.multipliers().spectral_radius() < 1.0) == attracts)
+                .filter(|orbit| (orbit.stability() == Stability::Stable) == attracts)
                 .flat_map(|orbit| orbit.states.iter())
                 .map(|state| (state.phase().cycles(), state.normalised_speed()))
                 .collect::<Vec<_>>()
@@ -34,7 +34,7 @@ pub(crate) fn draw(axial_forcing: f64, restitution: f64, found: &OrbitsFound) ->
         let name = format!("{impacts} impact{}", if impacts == 1 { "" } else { "s" });
         if !open.is_empty() {
             let dots = Scatter::new(open).marker(Marker::Circle).size(3.6).width(0.8).colour(colour);
-            panel = panel.layer(dots.name(format!("{name}, unstable")));
+            panel = panel.layer(dots.name(format!("{name}, unstable or marginal")));
         }
         if !filled.is_empty() {
             let dots = Scatter::new(filled).marker(Marker::Dot).size(4.4).colour(colour);

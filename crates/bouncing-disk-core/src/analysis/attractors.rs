@@ -1,7 +1,6 @@
 //! The attractors of a map without being told, and basins from them (docs/numerics/dynamics.md, "Attractors").
 
 mod basins;
-mod catching;
 pub(crate) mod cells;
 mod find;
 mod follow;
@@ -10,6 +9,7 @@ pub(crate) mod settings;
 mod starts;
 
 use crate::analysis::basin::{KnownOrbit, Label};
+use crate::analysis::periodic::PeriodicOrbit;
 use crate::analysis::verdict::{RestCycle, UndecidedReason};
 use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -101,9 +101,13 @@ pub enum AttractorKind {
     /// The disk comes to rest on the platform. Every map has starts that do; the others are told apart by
     /// what follows.
     Rest(AfterRest),
-    /// A periodic orbit with multipliers inside the unit circle, and the radius within which a start counts as
-    /// caught; 0 where none was found in which starts on circles end on it.
+    /// A [stable](crate::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 where there is
+    /// none, as next to a graze.
     Periodic(KnownOrbit),
+    /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits are born: it
+    /// attracts from one side, or rounding decides whether it does. Starts come nearer to it without end in sight
+    /// and stay undecided in basins.
+    Marginal(PeriodicOrbit),
     /// Small perturbations grow: the exponent is more than three standard errors above zero.
     Chaotic {
         /// The largest Lyapunov exponent per impact.
@@ -126,6 +130,7 @@ pub enum AttractorKind {
 read_checked!(enum AttractorKind as UncheckedKind {
     Rest(after: AfterRest),
     Periodic(known: KnownOrbit),
+    Marginal(orbit: PeriodicOrbit),
     Chaotic { exponent: f64, standard_error: f64, recurrence: Recurrence },
     Unclassified { reason: UndecidedReason, recurrence: Recurrence },
 });
@@ -145,7 +150,17 @@ impl AttractorKind {
     pub const fn recurrence(&self) -> Option<&Recurrence> {
         match self {
             Self::Chaotic { recurrence, .. } | Self::Unclassified { recurrence, .. } => Some(recurrence),
-            Self::Rest(_) | Self::Periodic(_) => None,
+            Self::Rest(_) | Self::Periodic(_) | Self::Marginal(_) => None,
+        }
+    }
+
+    /// The cycle of a disk that comes to rest again and again: [`RestCycle::is_exact`] says whether its numbers are
+    /// those of exact arithmetic or rounding has chosen them.
+    #[must_use]
+    pub const fn rest_cycle(&self) -> Option<&RestCycle> {
+        match self {
+            Self::Rest(AfterRest::RestsAgain(cycle)) => Some(cycle),
+            _ => None,
         }
     }
 
@@ -163,12 +178,15 @@ impl core::fmt::Display for AttractorKind {
         let digits = formatter.precision().unwrap_or(4);
         match self {
             Self::Rest(AfterRest::StaysForEver) => formatter.write_str("comes to rest for ever"),
-            Self::Rest(AfterRest::RestsAgain(cycle)) => {
+            Self::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => {
                 write!(
                     formatter,
                     "comes to rest again and again: platform periods {}",
                     cycle.platform_periods
                 )
+            }
+            Self::Rest(AfterRest::RestsAgain(_)) => {
+                formatter.write_str("comes to rest again and again, in a cycle that rounding chooses")
             }
             Self::Rest(AfterRest::LeadsTo(other)) => {
                 write!(formatter, "comes to rest, then attractor {other}")
@@ -176,6 +194,10 @@ impl core::fmt::Display for AttractorKind {
             Self::Periodic(known) => {
                 let (impacts, periods) = (known.orbit().period(), known.orbit().platform_periods);
                 write!(formatter, "periodic orbit: impacts {impacts}, platform periods {periods}")
+            }
+            Self::Marginal(orbit) => {
+                let (impacts, periods) = (orbit.period(), orbit.platform_periods);
+                write!(formatter, "marginal periodic orbit: impacts {impacts}, platform periods {periods}")
             }
             Self::Chaotic { exponent, .. } => {
                 write!(formatter, "chaotic: exponent {exponent:.digits$} per impact")
@@ -200,7 +222,7 @@ pub struct Attractor {
 /// The attractors of a map: the disk at rest, and all others that were found.
 ///
 /// Their numbers are those of [`Self::all`]: the disk at rest has 0; then come the periodic ones by impacts,
-/// platform periods and falling speed, then all others in the order in which they were found.
+/// platform periods and falling speed, the marginal ones in the same order, then all others as they were found.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttractors"))]
@@ -230,7 +252,8 @@ impl Attractors {
         let rank = |attractor: &Attractor| match attractor.kind {
             AttractorKind::Rest(_) => 0,
             AttractorKind::Periodic(_) => 1,
-            AttractorKind::Chaotic { .. } | AttractorKind::Unclassified { .. } => 2_usize,
+            AttractorKind::Marginal(_) => 2,
+            AttractorKind::Chaotic { .. } | AttractorKind::Unclassified { .. } => 3_usize,
         };
         let rests = self.all.iter().filter(|attractor| rank(attractor) == 0).count();
         if rests != 1 {
@@ -320,7 +343,7 @@ impl ImpactMap {
     /// can leave, so that no window can miss one. Each is followed until it rests, or is seen to come ever
     /// nearer to a periodic orbit, which is then refined; of those that do neither, one is followed for
     /// long, and the others that come back to the cells that it has visited are on the same attractor.
-    /// Periodic orbits are the same if their impacts agree within 1e-6, wherever they begin.
+    /// Periodic orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
     ///
     /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
     /// finds are there in any case, however small their basins.

@@ -14,7 +14,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::fraction::Fraction;
-use crate::observer::{Observer, Unobserved, Watch};
+use crate::observer::{Observer, Unobserved};
 use crate::read_checked;
 
 pub use run::BasinRun;
@@ -191,7 +191,7 @@ read_checked!(KnownOrbit as UncheckedKnownOrbit { orbit: PeriodicOrbit, radius: 
 
 impl KnownOrbit {
     /// An orbit with the `radius` in radians (a radian counts as much as the speed P) within which it catches: see
-    /// [`PeriodicOrbit::catching_radius`].
+    /// [`PeriodicOrbit::trapping_radius`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`] would not
@@ -371,46 +371,25 @@ impl ImpactMap {
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<Label, Error> {
-        self.basin_label_observed(start, known, settings, &Unobserved)
-    }
-
-    /// [`Self::basin_label`] with an observer; the items are the impacts that are allowed.
-    ///
-    /// # Errors
-    /// Those of [`Self::basin_label`]; [`Error::Stopped`] if the observer breaks.
-    pub fn basin_label_observed(
-        &self,
-        start: ImpactState,
-        known: &[KnownOrbit],
-        settings: BasinSettings,
-        observer: &dyn Observer,
-    ) -> Result<Label, Error> {
         check_number_of(known)?;
-        let watch = Watch::begin(observer, 0, settings.max_impacts.into())?;
-        let (mut work, flights) = (watch.work(), flights_of_label(known));
-        let label = self.label_of(start, known, settings, |impacts| {
-            watch.set_done(impacts.into());
-            work.spend(flights)
-        })?;
-        watch.end();
-        Ok(label)
+        self.label_of(start, known, settings, || Ok(()))
     }
 
-    /// The label of a start; `follow` is told how many impacts are behind before each flight.
+    /// The label of a start; `follow` is called before each flight.
     fn label_of(
         &self,
         start: ImpactState,
         known: &[KnownOrbit],
         settings: BasinSettings,
-        mut follow: impl FnMut(u32) -> Result<(), Error>,
+        mut follow: impl FnMut() -> Result<(), Error>,
     ) -> Result<Label, Error> {
         let settles = |state: ImpactState| self.settles(state, known, settings.policy);
         if let Some(label) = settles(start) {
             return Ok(label);
         }
         let mut orbit = self.orbit(start, settings.policy);
-        for impacts in 0..settings.max_impacts {
-            follow(impacts)?;
+        for _ in 0..settings.max_impacts {
+            follow()?;
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
                     if let Some(label) = settles(impact.into()) {

@@ -231,7 +231,7 @@ impl Closing {
 
     /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight
     /// has no duration.
-    fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
+    pub(super) fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
         let n = at.impacts.len();
         let (p, r) = self.strengths(at.parameter);
         let mut equations = CyclicEquations::default();

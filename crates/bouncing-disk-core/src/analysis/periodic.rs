@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, finite, within};
+use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::{acos, ln};
@@ -14,6 +14,7 @@ use crate::platform::phase::Phase;
 use crate::read_checked;
 
 mod catalogue;
+mod margin;
 pub(in crate::analysis) mod newton;
 pub(crate) mod pair;
 pub(crate) mod search;
@@ -139,13 +140,43 @@ pub struct PeriodicOrbit {
     pub platform_periods: u64,
     /// The derivative of the map around the orbit, from its first impact.
     pub monodromy: DMat2,
+    /// How far rounding of the map's parameters, by a unit in the last place, and of the solution may have
+    /// moved the impacts (rad, and relative speed); next to a fold two orbits within it are one.
+    pub position_error: f64,
+    /// How far it may have moved the trace of the derivative.
+    pub trace_error: f64,
 }
 
 read_checked!(PeriodicOrbit as UncheckedOrbit {
     states: Vec<ImpactState>,
     platform_periods: u64,
     monodromy: DMat2,
+    position_error: f64,
+    trace_error: f64,
 });
+
+/// Whether a periodic orbit attracts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stability {
+    /// Both multipliers lie inside the unit circle by more than their uncertainty: the orbit attracts.
+    Stable,
+    /// A multiplier is 1 or -1 within its uncertainty, as in a fold or a doubling: the orbit is semi-stable, or
+    /// rounding decides whether it attracts and whether it exists.
+    Marginal,
+    /// A multiplier lies outside the unit circle by more than its uncertainty.
+    Unstable,
+}
+
+/// `attracts`, `marginal` or `unstable`.
+impl core::fmt::Display for Stability {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.pad(match self {
+            Self::Stable => "attracts",
+            Self::Marginal => "marginal",
+            Self::Unstable => "unstable",
+        })
+    }
+}
 
 impl PeriodicOrbit {
     /// Checks what is read: what [`ImpactMap::refine`] may find.
@@ -155,6 +186,8 @@ impl PeriodicOrbit {
         for entry in self.monodromy.to_cols_array() {
             finite("derivative around a periodic orbit", entry)?;
         }
+        not_negative("error of a periodic orbit", self.position_error)?;
+        not_negative("error of a trace", self.trace_error)?;
         self.check_motion()
     }
 
@@ -168,6 +201,41 @@ impl PeriodicOrbit {
             return Err(Error::NoPlatformPeriods { impacts: self.states.len(), speed });
         }
         Ok(())
+    }
+
+    /// An orbit of `map`, with its errors.
+    pub(in crate::analysis) fn of(
+        map: &ImpactMap,
+        states: Vec<ImpactState>,
+        platform_periods: u64,
+        monodromy: DMat2,
+    ) -> Self {
+        let (position_error, trace_error) = margin::errors(map, &states, monodromy);
+        Self { states, platform_periods, monodromy, position_error, trace_error }
+    }
+
+    /// Whether the orbit attracts, where rounding leaves no doubt of it. With the trace T and the determinant D < 1 both
+    /// multipliers lie inside the unit circle if |T| < 1 + D.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{ImpactMap, Stability, Vibration};
+    /// // The fold in which the orbits of one impact are born.
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(1.0 / 3.0)?, 0.5)?;
+    /// let orbit = map.refine(&[map.period_one(1).expect("exists")])?;
+    /// assert_eq!(orbit.stability(), Stability::Marginal);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        let trace = self.monodromy.x_axis.x + self.monodromy.y_axis.y;
+        let inside = 1.0 + self.monodromy.determinant() - trace.abs();
+        if inside > self.trace_error {
+            Stability::Stable
+        } else if inside < -self.trace_error {
+            Stability::Unstable
+        } else {
+            Stability::Marginal
+        }
     }
 
     /// Number of impacts in one period of the orbit.
@@ -198,12 +266,6 @@ struct Shooting {
     monodromy: DMat2,
     turns: u64,
     worst: f64,
-}
-
-/// A solution of the multiple shooting, unless it is a disk at rest.
-fn accepted(orbit: PeriodicOrbit) -> Result<PeriodicOrbit, Error> {
-    orbit.check_motion()?;
-    Ok(orbit)
 }
 
 /// The smaller way round the circle from `from` to `to`, in (-pi, pi].
@@ -335,13 +397,26 @@ impl ImpactMap {
         let mut residual = f64::INFINITY;
         // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
         let mut found = None;
+        let not_settled =
+            |iterations, residual| Error::NotSettled { what: "multiple shooting", iterations, residual };
+        let accepted = |orbit: PeriodicOrbit| {
+            orbit.check_motion()?;
+            let residual = orbit.position_error;
+            self.exact_orbit(orbit).ok_or_else(|| not_settled(MAX_NEWTON_STEPS, residual))
+        };
         for iterations in 1..=MAX_NEWTON_STEPS {
             tick(n as u64)?;
             let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
                 Ok(shooting) => shooting,
                 Err(error) => return found.map_or(Err(error), accepted),
             };
-            let orbit = || PeriodicOrbit { states: states.clone(), platform_periods: turns, monodromy };
+            let orbit = || PeriodicOrbit {
+                states: states.clone(),
+                platform_periods: turns,
+                monodromy,
+                position_error: worst,
+                trace_error: 0.0,
+            };
             // A step after the residual has stopped shrinking only stirs the rounding.
             if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
                 return accepted(orbit());
@@ -360,14 +435,10 @@ impl ImpactMap {
             });
             states = match moved.collect::<Result<_, _>>() {
                 Ok(states) => states,
-                Err(_) => {
-                    let singular = Error::NotSettled { what: "multiple shooting", iterations, residual };
-                    return found.map_or(Err(singular), accepted);
-                }
+                Err(_) => return found.map_or(Err(not_settled(iterations, residual)), accepted),
             };
         }
-        let error = Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual };
-        found.map_or(Err(error), accepted)
+        found.map_or(Err(not_settled(MAX_NEWTON_STEPS, residual)), accepted)
     }
 
     /// The equations of one step of the multiple shooting, and how far `states` are from an orbit.

@@ -252,7 +252,7 @@ export interface AttractorsJson {
   attractors: {
     /** What `basins` has in its cells; null beyond the 251 that a byte holds. */
     label: number | null;
-    kind: "rest" | "periodic" | "chaotic" | "unclassified";
+    kind: "rest" | "periodic" | "marginal" | "chaotic" | "unclassified";
     /** A sentence. */
     text: string;
     /** Share of the starts, and its 95 % interval. */

@@ -43,7 +43,7 @@ fn basins() -> Result<Digest, Error> {
     let start = ImpactState::from_normalised(1.2, 1.3)?;
     let mut digest = Digest::new();
     let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7)? else { return Ok(digest) };
-    let Some(radius) = orbit.trapping_radius(&map, 64) else { return Ok(digest) };
+    let radius = orbit.trapping_radius(&map, 64)?;
     digest.number(radius);
     let grid = Grid::new(Axis::new(0.0, 1.0, 200)?, Axis::new(0.0, 3.0, 150)?)?;
     let basins = map.basins(grid, &[KnownOrbit::new(orbit, radius)?], BasinSettings::default())?;

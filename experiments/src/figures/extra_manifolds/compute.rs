@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use bouncing_disk::core::{
     ATTACHED, Axis, BasinSettings, BifurcationKind, Branch, Continuation, ContinuationParameter, Error,
     FIRST_ORBIT, Grid, ImpactMap, ImpactState, KnownOrbit, Label, Manifold, ManifoldKind, ManifoldSettings,
-    OrbitSearch, PeriodicOrbit, Phase, Vibration,
+    OrbitSearch, PeriodicOrbit, Phase, Stability, Vibration,
 };
 
 use super::data::{ExtraManifoldsData, Panel, Spot, ThirdAttractor};
@@ -53,7 +53,7 @@ fn orbits(map: &ImpactMap) -> Result<Vec<PeriodicOrbit>, Error> {
 }
 
 fn attracts(orbit: &PeriodicOrbit) -> bool {
-    orbit.multipliers().spectral_radius() < 1.0
+    orbit.stability() == Stability::Stable
 }
 
 /// The basins at one forcing; with the third attractor also the manifold of the saddle that is born with it.
@@ -68,11 +68,7 @@ fn panel(
     let orbits = orbits(&map)?;
     let mut known = Vec::new();
     for orbit in orbits.iter().filter(|orbit| attracts(orbit)) {
-        // The third attractor attracts after long excursions only.
-        let radius = orbit.catching_radius(&map, 64);
-        if let Some(radius) = radius {
-            known.push(KnownOrbit::new(orbit.clone(), radius)?);
-        }
+        known.push(KnownOrbit::new(orbit.clone(), orbit.trapping_radius(&map, 64)?)?);
     }
     let settings = BasinSettings { max_impacts: IMPACTS, ..BasinSettings::default() };
     let grid = Grid::new(Axis::new(0.0, 1.0, cells)?, Axis::new(0.0, WINDOW_TOP, cells)?)?;

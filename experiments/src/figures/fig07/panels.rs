@@ -54,9 +54,7 @@ enum Route {
 fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
     let Some(period_one) = map.period_one(1) else { return Ok(Route::Gone) };
     let orbit = map.refine(&[period_one]).map_err(ExperimentError::model)?;
-    if Multipliers::of(orbit.monodromy).spectral_radius() < 1.0
-        && let Some(radius) = orbit.trapping_radius(map, 64)
-    {
+    if let Ok(radius) = orbit.trapping_radius(map, 64) {
         return KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model);
     }
     // Beyond the first doubling: leave the saddle along the phase.
@@ -66,7 +64,7 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
         map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let Some(state) = survivor else { return Ok(Route::Gone) };
     let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
-    let periodic = settled.and_then(|orbit| orbit.trapping_radius(map, 64).map(|radius| (orbit, radius)));
+    let periodic = settled.and_then(|orbit| orbit.trapping_radius(map, 64).ok().map(|radius| (orbit, radius)));
     let Some((orbit, radius)) = periodic else { return Ok(Route::Chaotic(state)) };
     KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model)
 }
@@ -83,7 +81,7 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
             let settled =
                 map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
             if let Some(orbit) = settled
-                && let Some(radius) = orbit.attraction_radius(map)
+                && let Ok(radius) = orbit.trapping_radius(map, 64)
             {
                 known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
                 continue 'search;

@@ -50,7 +50,7 @@ pub(super) fn along_window(
             let mut known = Vec::new();
             if let Some(state) = map.period_one(1) {
                 let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
-                if let Some(radius) = orbit.trapping_radius(&map, 64) {
+                if let Ok(radius) = orbit.trapping_radius(&map, 64) {
                     known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
                 }
             }

@@ -37,7 +37,7 @@ impl Cells {
         let mut known = Vec::new();
         if let Some(state) = map.period_one(1) {
             let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
-            if let Some(radius) = orbit.trapping_radius(&map, 64) {
+            if let Ok(radius) = orbit.trapping_radius(&map, 64) {
                 let first = KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?;
                 known = others(&map, &first)?;
                 known.insert(0, first);

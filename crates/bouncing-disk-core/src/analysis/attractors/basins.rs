@@ -328,21 +328,6 @@ impl Attractors {
         factor: u32,
         settings: BasinSettings,
     ) -> Result<Basins, Error> {
-        self.refined_basins_observed(coarse, grid, factor, settings, &Unobserved)
-    }
-
-    /// [`Self::refined_basins`] with an observer; the items are the rows of the finer grid.
-    ///
-    /// # Errors
-    /// Those of [`Self::refined_basins`]; [`Error::Stopped`] if the observer breaks.
-    pub fn refined_basins_observed(
-        &self,
-        coarse: &Basins,
-        grid: Grid,
-        factor: u32,
-        settings: BasinSettings,
-        observer: &dyn Observer,
-    ) -> Result<Basins, Error> {
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
         for (what, found, expected) in
             [("columns of basins", coarse.columns(), columns), ("rows of basins", coarse.rows(), rows)]
@@ -372,11 +357,9 @@ impl Attractors {
                 .filter(|(row, column)| !kept(*row, *column))
                 .map(|(row, column)| row * width + column)
                 .collect();
-            let part = Rows { observer, done: first as u64, total };
+            let part = Rows { observer: &Unobserved, done: first as u64, total };
             labelling.label_cells(&fine, &mut labels, &open, &part)?;
         }
-        // Whatever it says, there is nothing left to stop.
-        let _ = observer.observe(Progress { done: total, total });
         Basins::of_labels(labels, width)
     }
 }

@@ -1,13 +1,13 @@
 //! The search for attractors.
 
-use super::catching::catching_radius;
+use super::cells::VisitedCells;
 use super::follow::{Seen, come_back, first_look, long_look, overlap};
 use super::settings::AttractorSearch;
 use super::starts::starts;
 use super::{AfterRest, Attractor, AttractorKind, Attractors, MOST_ATTRACTORS, Recurrence};
 use crate::analysis::basin::KnownOrbit;
-use crate::analysis::periodic::PeriodicOrbit;
-use crate::analysis::periodic::newton::{SAME, same_orbit};
+use crate::analysis::periodic::newton::same_orbit;
+use crate::analysis::periodic::{PeriodicOrbit, Stability, phase_difference};
 use crate::analysis::verdict::Verdict;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -15,11 +15,17 @@ use crate::numerics::fraction::Fraction;
 use crate::observer::{Observer, Progress};
 use crate::platform::phase::Phase;
 
-use core::f64::consts::PI;
+use core::f64::consts::{PI, TAU};
 use core::ops::ControlFlow;
 
 /// Orbits of one impact that are tried as candidates, from those with the longest flights down.
 const MOST_PERIOD_ONE: u64 = 10_000;
+
+/// Starts on each circle by which the radius of an attractor is found.
+const SAMPLES: u32 = 64;
+
+/// How many cells away an orbit that creeps towards a marginal one may have been from it.
+const CELLS_AWAY: f64 = 1.5;
 
 /// Tells the observer of the whole search of the progress of a part: the items of the part, or none of them,
 /// after those that are done.
@@ -50,7 +56,7 @@ impl Part<'_> {
     }
 }
 
-/// An attractor that repeats itself, and the starts that ended on it.
+/// A stable or marginal orbit, and the starts that ended on it.
 struct Periodic {
     orbit: PeriodicOrbit,
     starts: u64,
@@ -106,8 +112,8 @@ pub(super) fn find(
         }
         finder.done += 1;
     }
-    finder.settle(open)?;
     finder.add_candidates()?;
+    finder.settle(open)?;
     let after = finder.after_rest()?;
     let found = finder.into_attractors(after)?;
     let total = 2 * u64::from(search.starts());
@@ -129,7 +135,7 @@ impl<'a> Finder<'a> {
         let known = self.periodic.iter_mut().find(|known| {
             known.orbit.period() as u64 == impacts
                 && known.orbit.platform_periods == platform_periods
-                && known.orbit.distance(state, scale) <= SAME
+                && known.orbit.distance(state, scale) <= known.orbit.position_error
         });
         if let Some(known) = known {
             known.starts += starts;
@@ -148,15 +154,32 @@ impl<'a> Finder<'a> {
             if states[i].velocity() < states[fastest].velocity() { i } else { fastest }
         });
         states.rotate_left(fastest);
-        self.map.refine(&states)
+        self.map.prime_orbit(&states)
     }
 
-    /// Adds an orbit unless it is known.
+    /// Adds an orbit that may attract, unless it is known.
     fn add(&mut self, orbit: PeriodicOrbit, starts: u64) {
         match self.periodic.iter_mut().find(|known| same_orbit(&known.orbit, &orbit)) {
             Some(known) => known.starts += starts,
+            None if orbit.stability() == Stability::Unstable => {}
             None => self.periodic.push(Periodic { orbit, starts }),
         }
+    }
+
+    /// The marginal orbit that an orbit has crept towards which has been in these cells.
+    fn marginal(&mut self, recurrence: &Recurrence) -> Option<&mut Periodic> {
+        let cells = &recurrence.cells;
+        let width = CELLS_AWAY / f64::from(cells.side());
+        let beside = |orbit: &PeriodicOrbit, (phase, velocity): (f64, f64)| {
+            orbit.states.iter().any(|state| {
+                phase_difference(state.phase().angle(), phase).abs() <= width * TAU
+                    && (state.velocity() - velocity).abs() <= width * cells.top()
+            })
+        };
+        self.periodic.iter_mut().find(|known| {
+            known.orbit.stability() == Stability::Marginal
+                && cells.centres().all(|centre| beside(&known.orbit, centre))
+        })
     }
 
     /// Finds the attractors of the starts that have neither rested nor repeated themselves.
@@ -178,10 +201,21 @@ impl<'a> Finder<'a> {
                 }
                 Seen::Verdict(verdict) => verdict,
             };
+            if self.marginal(&recurrence).is_some() {
+                let (left, back) = self.compare(&recurrence.cells, &open)?;
+                open = left;
+                if let Some(known) = self.marginal(&recurrence) {
+                    known.starts += 1 + back;
+                }
+                continue;
+            }
             let (number, new) = self.recurs(verdict, recurrence);
             self.recurrent[number].starts += 1;
             if new {
-                open = self.compare(number, &open)?;
+                let cells = self.recurrent[number].recurrence.cells.clone();
+                let (left, back) = self.compare(&cells, &open)?;
+                open = left;
+                self.recurrent[number].starts += back;
             }
         }
         Ok(())
@@ -197,16 +231,19 @@ impl<'a> Finder<'a> {
         (self.recurrent.len() - 1, true)
     }
 
-    /// Takes the starts that rest, or are on this attractor, from those whose attractor is not known.
-    fn compare(&mut self, number: usize, open: &[ImpactState]) -> Result<Vec<ImpactState>, Error> {
+    /// The starts whose attractor is not known but for those that rest or come back to these cells, and how many do.
+    fn compare(
+        &mut self,
+        cells: &VisitedCells,
+        open: &[ImpactState],
+    ) -> Result<(Vec<ImpactState>, u64), Error> {
         let part = self.part();
-        let cells = &self.recurrent[number].recurrence.cells;
         let back = part.whole(come_back(self.map, open, cells, self.search.transient(), &part))?;
-        let mut left = Vec::new();
+        let (mut left, mut on_it) = (Vec::new(), 0);
         for (start, back) in open.iter().zip(back) {
             match back {
                 None => self.rests += 1,
-                Some(true) => self.recurrent[number].starts += 1,
+                Some(true) => on_it += 1,
                 Some(false) => {
                     left.push(*start);
                     continue;
@@ -214,7 +251,7 @@ impl<'a> Finder<'a> {
             }
             self.done += 1;
         }
-        Ok(left)
+        Ok((left, on_it))
     }
 
     /// Adds attracting orbits that need no start.
@@ -226,13 +263,12 @@ impl<'a> Finder<'a> {
         let longest = longest.saturating_add(1);
         for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
             let Some(pair) = map.period_one_pair(k) else { continue };
-            if pair.node.multipliers().spectral_radius() >= 1.0 {
-                // At the fold rounding may have it so; all below have doubled.
-                if k < longest { break } else { continue }
+            let Some(orbit) = pair.node.orbit(map)? else { continue };
+            // All with shorter flights have doubled, too.
+            if orbit.stability() == Stability::Unstable {
+                break;
             }
-            if let Some(orbit) = pair.node.orbit(map)? {
-                self.add_candidate(orbit);
-            }
+            self.add_candidate(orbit);
         }
         if let Some(orbits) = self.search.orbits() {
             let part = self.part();
@@ -244,8 +280,7 @@ impl<'a> Finder<'a> {
     }
 
     fn add_candidate(&mut self, orbit: PeriodicOrbit) {
-        let attracts = orbit.multipliers().spectral_radius() < 1.0;
-        if attracts && !orbit.states.iter().any(|at| self.map.rests_after(*at)) {
+        if !orbit.states.iter().any(|at| self.map.rests_after(*at)) {
             self.add(orbit, 0);
         }
     }
@@ -280,8 +315,11 @@ impl<'a> Finder<'a> {
         }
         self.periodic.sort_by(|a, b| {
             let (first, second) = (a.orbit.states[0], b.orbit.states[0]);
-            (a.orbit.period(), a.orbit.platform_periods)
-                .cmp(&(b.orbit.period(), b.orbit.platform_periods))
+            let order = |orbit: &PeriodicOrbit| {
+                (orbit.stability() == Stability::Marginal, orbit.period(), orbit.platform_periods)
+            };
+            order(&a.orbit)
+                .cmp(&order(&b.orbit))
                 .then(first.velocity().total_cmp(&second.velocity()))
                 .then(first.phase().angle().total_cmp(&second.phase().angle()))
         });
@@ -299,9 +337,14 @@ impl<'a> Finder<'a> {
         let mut all = vec![attractor(AttractorKind::Rest(after), self.rests)?];
         let part = self.part();
         for Periodic { orbit, starts } in self.periodic {
-            let radius = catching_radius(self.map, &orbit, &part);
-            let known = KnownOrbit::new(orbit, part.whole(radius)?.unwrap_or(0.0))?;
-            all.push(attractor(AttractorKind::Periodic(known), starts)?);
+            let radius = part.whole(orbit.trapping_radius_observed(self.map, SAMPLES, &part));
+            let kind = match radius {
+                Ok(radius) => AttractorKind::Periodic(KnownOrbit::new(orbit, radius)?),
+                Err(Error::NotAttracting { .. }) => AttractorKind::Marginal(orbit),
+                Err(Error::NothingProven { .. }) => AttractorKind::Periodic(KnownOrbit::new(orbit, 0.0)?),
+                Err(error) => return Err(error),
+            };
+            all.push(attractor(kind, starts)?);
         }
         for Recurrent { verdict, recurrence, starts } in self.recurrent {
             let kind = match verdict {

@@ -2,7 +2,7 @@
 
 use super::settings::AttractorSearch;
 use super::{Attractor, AttractorKind, Attractors};
-use crate::analysis::periodic::phase_difference;
+use crate::analysis::periodic::{PeriodicOrbit, phase_difference};
 use crate::error::{Error, within};
 use crate::map::impact_map::ImpactMap;
 use crate::observer::{Observer, Progress, Unobserved, Watch};
@@ -111,12 +111,13 @@ pub(super) type Places = Vec<(f64, f64)>;
 
 /// The places of an attractor that moves; none of the disk at rest.
 pub(super) fn places(attractor: &Attractor) -> Option<Places> {
+    let impacts = |orbit: &PeriodicOrbit| {
+        Some(orbit.states.iter().map(|state| (state.phase().angle(), state.velocity())).collect())
+    };
     match &attractor.kind {
         AttractorKind::Rest(_) => None,
-        AttractorKind::Periodic(known) => {
-            let states = known.orbit().states.iter();
-            Some(states.map(|state| (state.phase().angle(), state.velocity())).collect())
-        }
+        AttractorKind::Periodic(known) => impacts(known.orbit()),
+        AttractorKind::Marginal(orbit) => impacts(orbit),
         AttractorKind::Chaotic { recurrence, .. } | AttractorKind::Unclassified { recurrence, .. } => {
             Some(recurrence.cells.centres().collect())
         }

@@ -52,6 +52,36 @@ fn the_attractors_along_the_paper_s_route() {
     assert_eq!((gone.all().len(), gone.all()[0].starts.count()), (1, 300));
 }
 
+/// Just above the first doubling two impacts attract, just below one does, and at the fold one orbit is semi-stable.
+#[test]
+fn marginal_orbits_are_neither_multiplied_nor_invented() {
+    let first = ImpactMap::first_doubling_forcing(0.5);
+    for (offset, expected) in [(1e-11, (2, 2)), (1e-12, (2, 2)), (-1e-12, (1, 1)), (-1e-10, (1, 1))] {
+        let own = found(first + offset, 0.5, 200);
+        let sheared = usize::from(periods(&own).contains(&(4, 2)));
+        assert_eq!(periods(&own)[0], expected, "{offset:e}");
+        assert_eq!(own.all().len(), 2 + sheared, "{offset:e}: {:?}", periods(&own));
+        assert_eq!(own.undecided().count(), 0, "{offset:e}");
+    }
+    let own = stored(&found(1.0 / 3.0, 0.5, 200));
+    let [rest, fold] = own.all() else { panic!("{own:?}") };
+    assert!(matches!(&fold.kind, AttractorKind::Marginal(orbit) if orbit.period() == 1), "{fold:?}");
+    assert!(fold.starts.count() > 0 && rest.starts.count() + fold.starts.count() == 200, "{own:?}");
+    assert_eq!(fold.kind.to_string(), "marginal periodic orbit: impacts 1, platform periods 1");
+}
+
+/// What comes to rest again and again says whether its numbers are those of exact arithmetic.
+#[test]
+fn a_cycle_that_rounding_chose_is_not_named() {
+    let own = found(0.9, 0.8, 20);
+    let cycle = own.all()[0].kind.rest_cycle().expect("rests again");
+    assert!(!cycle.is_exact(), "{cycle}");
+    assert!(!own.all()[0].kind.to_string().contains(&cycle.platform_periods.to_string()));
+    let exact = found(0.55, 0.5, 20);
+    let cycle = exact.all()[0].kind.rest_cycle().expect("rests again");
+    assert_eq!(cycle.is_exact(), exact.all()[0].kind.to_string().contains("platform periods"));
+}
+
 /// A window up to the speed 6 missed this one at 8.9.
 #[test]
 fn a_fast_orbit_is_found_with_its_share_of_the_region() {
@@ -277,7 +307,7 @@ fn a_search_and_its_basins_can_be_stopped() {
         .expect("legal");
     let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
     let all = StopAfter::calls(u64::MAX);
-    let basins = own.basins_observed(grid, settings, &all).expect("nobody stops it");
+    own.basins_observed(grid, settings, &all).expect("nobody stops it");
     assert_eq!((all.last().done, all.last().total), (100, 100));
     // How often an observer is asked depends on the threads; here it stops in the second half.
     let second_half = |most: u64| {
@@ -293,8 +323,6 @@ fn a_search_and_its_basins_can_be_stopped() {
     assert!(matches!(stopped, Err(Error::Stopped { done: 401.., total: 800 })), "{stopped:?}");
     let stopped = own.basins_observed(grid, settings, &second_half(50));
     assert!(matches!(stopped, Err(Error::Stopped { done: 50, total: 100 })), "{stopped:?}");
-    let stopped = own.refined_basins_observed(&basins, grid, 3, settings, &StopAfter::calls(3));
-    assert!(matches!(stopped, Err(Error::Stopped { total: 150, .. })), "{stopped:?}");
     let forcings = [0.5, 0.51, 0.52];
     let stopped = basin_fractions(&forcings, &StopAfter::calls(5));
     assert!(matches!(stopped, Err(Error::Stopped { total: 3, .. })), "{stopped:?}");

@@ -8,7 +8,6 @@ use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
 use crate::numerics::fraction::Fraction;
 use crate::observer::{Observer, Unobserved, Watch};
-use crate::read_checked;
 
 /// The fewest distances that a power law is fitted to.
 const FEWEST: usize = 3;
@@ -23,8 +22,7 @@ const SPREAD_OF_SLOPE: f64 = 0.2;
 
 /// The share of cells that are uncertain at some distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UncertainShare {
     /// The distance, in cells.
     pub distance: usize,
@@ -34,8 +32,7 @@ pub struct UncertainShare {
 
 /// Whether the share of uncertain cells is a power of their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedFit"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum BoundaryFit {
     /// It is, over the distances of the fit.
@@ -62,38 +59,9 @@ pub enum BoundaryFit {
     },
 }
 
-read_checked!(enum BoundaryFit as UncheckedFit {
-    PowerLaw { exponent: f64, standard_error: f64, dimension: f64, slopes: (f64, f64) },
-    NoPowerLaw { slopes: (f64, f64) },
-    TooFew { distances: usize },
-});
-
-impl BoundaryFit {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let number = |field, value| within(field, value, f64::MIN, f64::MAX, "finite");
-        match *self {
-            Self::PowerLaw { exponent, standard_error, dimension, slopes } => {
-                number("exponent", exponent)?;
-                within("standard error of an exponent", standard_error, 0.0, f64::MAX, "[0, inf)")?;
-                number("dimension", dimension)?;
-                within("smallest slope", slopes.0, f64::MIN, slopes.1, "up to the largest")?;
-            }
-            Self::NoPowerLaw { slopes } => {
-                within("smallest slope", slopes.0, f64::MIN, slopes.1, "up to the largest")?;
-            }
-            Self::TooFew { distances } => {
-                within("distances", distances as f64, 0.0, (FEWEST - 1) as f64, "[0, 2]")?;
-            }
-        }
-        Ok(())
-    }
-}
-
 /// How the share of uncertain cells depends on their distance.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BoundaryScaling {
     /// The shares by rising distance: all of the same cells.
     pub shares: Vec<UncertainShare>,
@@ -229,7 +197,6 @@ fn fit(points: &[(f64, f64)]) -> BoundaryFit {
 mod tests {
     use super::*;
     use crate::numerics::random::SplitMix64;
-    use crate::testing::stored;
 
     fn basins(columns: usize, rows: usize, label: impl Fn(usize, usize) -> Label) -> Basins {
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
@@ -237,7 +204,7 @@ mod tests {
     }
 
     fn dimension(basins: &Basins, distances: &[usize]) -> (f64, f64) {
-        match stored(&basins.boundary_scaling(distances).expect("fits")).fit {
+        match basins.boundary_scaling(distances).expect("fits").fit {
             BoundaryFit::PowerLaw { dimension, standard_error, .. } => (dimension, standard_error),
             other => panic!("{other:?}"),
         }
@@ -306,7 +273,7 @@ mod tests {
     fn what_is_no_power_law_says_so() {
         // Stripes: from half their width on everything is uncertain.
         let stripes = basins(200, 200, |_, column| Label::from(column / 8 % 2 == 0));
-        let scaling = stored(&stripes.boundary_scaling(&[1, 2, 4, 8, 16]).expect("fits"));
+        let scaling = stripes.boundary_scaling(&[1, 2, 4, 8, 16]).expect("fits");
         assert!(matches!(scaling.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.1 - slopes.0 > 0.3));
         // Nearly all cells are uncertain: 0.5, 0.75, 0.94 and 1 of them.
         let mut random = SplitMix64::new(2);
@@ -314,7 +281,7 @@ mod tests {
         let sparse = Basins::of_labels(sparse, 300).expect("legal");
         let sparse = sparse.boundary_scaling(&[1, 2, 4, 8]).expect("fits");
         assert!(matches!(sparse.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.0 < 0.01), "{sparse:?}");
-        let one = stored(&basins(50, 50, |_, _| 1).boundary_scaling(&[1, 2, 4, 8]).expect("fits"));
+        let one = basins(50, 50, |_, _| 1).boundary_scaling(&[1, 2, 4, 8]).expect("fits");
         assert_eq!(one.fit, BoundaryFit::TooFew { distances: 0 });
         assert!(
             one.shares.iter().all(|share| share.uncertain.count() == 0 && share.uncertain.of() == 34 * 34)

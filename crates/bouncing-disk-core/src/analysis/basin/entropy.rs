@@ -2,14 +2,12 @@
 //! Wagemakers, B. Georgeot, D. Guery-Odelin, M. A. F. Sanjuan, Sci. Rep. 6, 31416 (2016)).
 
 use super::{Basins, Label, UNDECIDED};
-use crate::error::{Error, not_negative, within};
+use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
-use crate::read_checked;
 
 /// The entropy of basins, in natural units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEntropy"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BasinEntropy {
     /// Cells along each side of a box.
     pub box_side: usize,
@@ -28,27 +26,6 @@ pub struct BasinEntropy {
     /// smooth curve between two basins cuts has ln 2 at most: a larger mean over boxes that are small beside the
     /// basins says that the boundary is not smooth, a smaller one says nothing.
     pub boundary_entropy: Option<f64>,
-}
-
-read_checked!(BasinEntropy as UncheckedEntropy {
-    box_side: usize,
-    boxes: u64,
-    boundary_boxes: u64,
-    undecided_cells: u64,
-    labels: u64,
-    entropy: f64,
-    boundary_entropy: Option<f64>,
-});
-
-impl BasinEntropy {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        within("cells along a box", self.box_side as f64, 2.0, 100_000.0, "[2, 100000]")?;
-        let (some, all) = (self.boundary_boxes as f64, self.boxes as f64);
-        within("boundary boxes", some, 0.0, all, "at most all boxes")?;
-        not_negative("entropy of basins", self.entropy)?;
-        not_negative("entropy of a boundary", self.boundary_entropy.unwrap_or(0.0)).map(|_| ())
-    }
 }
 
 impl Basins {
@@ -126,7 +103,6 @@ impl Basins {
 mod tests {
     use super::*;
     use crate::numerics::random::SplitMix64;
-    use crate::testing::stored;
 
     fn basins(columns: usize, rows: usize, label: impl Fn(usize, usize) -> Label) -> Basins {
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
@@ -140,7 +116,7 @@ mod tests {
             (0 | 1, 1) | (3, 3) | (_, 4) => 2,
             _ => 1,
         });
-        let entropy = stored(&basins.entropy(2).expect("fits"));
+        let entropy = basins.entropy(2).expect("fits");
         assert_eq!((entropy.boxes, entropy.boundary_boxes, entropy.labels), (4, 2, 2));
         let sum = ln(2.0) - (0.75 * ln(0.75) + 0.25 * ln(0.25));
         assert!((entropy.entropy - sum / 4.0).abs() < 1e-15, "{entropy:?}");

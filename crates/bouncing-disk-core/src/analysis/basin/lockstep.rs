@@ -55,7 +55,7 @@ impl ImpactMap {
             for (row, speed) in share.labels.chunks_mut(cells.phases.len()).zip(rows) {
                 for (label, phase) in row.iter_mut().zip(&cells.phases) {
                     let start = ImpactState::new(*phase, -speed)?;
-                    *label = self.label_of(start, known, settings, |_| work.spend(flights))?;
+                    *label = self.label_of(start, known, settings, || work.spend(flights))?;
                 }
             }
             cells.rows_done(&share);
@@ -182,7 +182,7 @@ mod tests {
             .settled_orbit(ImpactState::from_normalised(0.8, 1.3).expect("legal"), 4_000, 16, 1e-8)
             .expect("no failure");
         let known: Vec<_> = orbit
-            .and_then(|orbit| orbit.attraction_radius(&map).map(|radius| (orbit, radius)))
+            .and_then(|orbit| orbit.trapping_radius(&map, 64).ok().map(|radius| (orbit, radius)))
             .into_iter()
             // The same orbit again, with more room: the first one that catches a start has it.
             .flat_map(|(orbit, radius)| {

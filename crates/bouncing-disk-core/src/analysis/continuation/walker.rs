@@ -436,7 +436,7 @@ impl<'s> Walker<'s> {
         }
         let platform_periods = (total / TAU).round() as u64;
         let trace = monodromy.x_axis.x + monodromy.y_axis.y;
-        let orbit = PeriodicOrbit { states, platform_periods, monodromy };
+        let orbit = PeriodicOrbit::of(&map, states, platform_periods, monodromy);
         if orbit.check().is_err() {
             return Ok(None);
         }

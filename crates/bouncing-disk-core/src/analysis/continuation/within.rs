@@ -198,11 +198,13 @@ impl Branch {
 
 /// An orbit gone through twice: what a doubled one is at its birth.
 fn twice(point: &BranchPoint) -> BranchPoint {
-    let PeriodicOrbit { states, platform_periods, monodromy } = &point.orbit;
+    let PeriodicOrbit { states, platform_periods, monodromy, position_error, trace_error } = &point.orbit;
     let orbit = PeriodicOrbit {
         states: states.repeat(2),
         platform_periods: 2 * platform_periods,
         monodromy: *monodromy * *monodromy,
+        position_error: *position_error,
+        trace_error: 2.0 * point.trace.abs() * trace_error,
     };
     BranchPoint {
         parameter: point.parameter,

@@ -19,10 +19,6 @@ pub(super) struct Catalogue {
     entries: Vec<Entry>,
 }
 
-/// How far the sums of two orbits that count as one may differ, relative to the number of their impacts and
-/// to their speed: twice what the comparison of the impacts allows.
-const SAME_SUM: f64 = 2.0 * super::newton::SAME;
-
 impl Catalogue {
     /// Adds an orbit that was found so often, unless it is known.
     pub(super) fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
@@ -38,11 +34,12 @@ impl Catalogue {
     }
 
     fn insert(&mut self, entry: Entry) {
-        let room = SAME_SUM * (entry.orbit.period() as f64 + entry.sum.abs());
-        let known = self
-            .entries
-            .iter_mut()
-            .find(|known| (known.sum - entry.sum).abs() <= room && same_orbit(&known.orbit, &entry.orbit));
+        // The sums differ by twice what the comparison of the impacts allows at most.
+        let room = 2.0 * (entry.orbit.period() as f64 + entry.sum.abs());
+        let known = self.entries.iter_mut().find(|known| {
+            let errors = known.orbit.position_error + entry.orbit.position_error;
+            (known.sum - entry.sum).abs() <= room * errors && same_orbit(&known.orbit, &entry.orbit)
+        });
         match known {
             Some(known) => {
                 known.found += entry.found;

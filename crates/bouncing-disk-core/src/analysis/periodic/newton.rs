@@ -1,5 +1,6 @@
 //! Newton's method from a rough guess, as the search for periodic orbits uses it: it gives up early.
 
+use super::margin::next_to_margin;
 use super::{PeriodicOrbit, phase_difference};
 use crate::analysis::closing::{Closing, ContinuationParameter, Plane};
 use crate::error::Error;
@@ -16,7 +17,8 @@ const NEAR: f64 = 1.0e-5;
 /// The longest step of a phase (rad): a longer one is shortened, and all of that iteration with it.
 const LONGEST_STEP: f64 = 0.7;
 
-/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one.
+/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a multiplier
+/// is next to 1 or -1: then their own uncertainty decides.
 pub(in crate::analysis) const SAME: f64 = 1.0e-6;
 
 /// What became of a guess.
@@ -29,25 +31,26 @@ pub(super) enum Attempt {
     NotSettled,
 }
 
-/// Whether two impacts count as one.
-fn near(a: ImpactState, b: ImpactState) -> bool {
-    phase_difference(a.phase().angle(), b.phase().angle()).abs() <= SAME
-        && (a.velocity() - b.velocity()).abs() <= SAME * (1.0 + a.velocity().abs())
+/// Whether two impacts lie within this (rad, and relative speed) of each other.
+fn near(a: ImpactState, b: ImpactState, room: f64) -> bool {
+    phase_difference(a.phase().angle(), b.phase().angle()).abs() <= room
+        && (a.velocity() - b.velocity()).abs() <= room * (1.0 + a.velocity().abs())
 }
 
-/// Whether two orbits count as one, wherever they begin.
+/// Whether two orbits count as one, wherever they begin: their regions of uncertainty meet.
 pub(in crate::analysis) fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
     let n = a.period();
     if n != b.period() || a.platform_periods != b.platform_periods {
         return false;
     }
-    (0..n).any(|shift| (0..n).all(|i| near(a.states[i], b.states[(i + shift) % n])))
+    let room = a.position_error + b.position_error;
+    (0..n).any(|shift| (0..n).all(|i| near(a.states[i], b.states[(i + shift) % n], room)))
 }
 
-/// The number of impacts after which an orbit repeats itself: its period, if it is prime.
-pub(super) fn prime_period(states: &[ImpactState]) -> usize {
+/// The number of impacts after which a sequence repeats itself within `room`.
+pub(super) fn prime_period(states: &[ImpactState], room: f64) -> usize {
     let n = states.len();
-    let repeats = |shift: usize| (0..n).all(|i| near(states[i], states[(i + shift) % n]));
+    let repeats = |shift: usize| (0..n).all(|i| near(states[i], states[(i + shift) % n], room));
     (1..n).filter(|shift| n.is_multiple_of(*shift)).find(|shift| repeats(*shift)).unwrap_or(n)
 }
 
@@ -58,27 +61,36 @@ impl ImpactMap {
         self.vibration().accumulation(state.phase(), speed, self.restitution()).is_some()
     }
 
+    /// The periodic orbit near a guess, once around: of a guess that nearly repeats itself the shorter orbit,
+    /// unless that is next to its doubling and the guess leads to the doubled one.
+    pub(in crate::analysis) fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        let prime = prime_period(guess, SAME);
+        let mut orbit = self.refine(&guess[..prime])?;
+        let (_, doubling) = next_to_margin(orbit.monodromy, self.determinant_after(prime));
+        if doubling && guess.len().is_multiple_of(2 * prime) {
+            orbit = self.refine(&guess[..2 * prime]).unwrap_or(orbit);
+        }
+        let repeated = prime_period(&orbit.states, 2.0 * orbit.position_error);
+        if repeated < orbit.period() { self.refine(&orbit.states[..repeated]) } else { Ok(orbit) }
+    }
+
     /// The periodic orbit near a guess.
     pub(super) fn attempt(&self, guess: &[ImpactState], max_platform_periods: u64) -> Attempt {
         let Some(states) = self.approached(guess).or_else(|| self.approached_smoothly(guess)) else {
             return Attempt::NotSettled;
         };
-        let prime = prime_period(&states);
-        let mut orbit = match self.refine(&states[..prime]) {
+        let mut orbit = match self.prime_orbit(&states) {
             Ok(orbit) => orbit,
             Err(Error::ImpactWithoutSpeed { .. } | Error::NoPlatformPeriods { .. }) => {
                 return Attempt::Refused;
             }
             Err(_) => return Attempt::NotSettled,
         };
-        // The refinement may move near orbits together; what is left is prime or not what was sought.
         let too_long = orbit.platform_periods > max_platform_periods;
-        if too_long
-            || prime_period(&orbit.states) < prime
-            || orbit.states.iter().any(|&at| self.rests_after(at))
-        {
+        if too_long || orbit.states.iter().any(|&at| self.rests_after(at)) {
             return Attempt::Refused;
         }
+        let prime = orbit.period();
         let fastest = (1..prime).fold(0, |fastest, i| {
             if orbit.states[i].velocity() < orbit.states[fastest].velocity() { i } else { fastest }
         });

@@ -4,10 +4,9 @@
 use core::f64::consts::TAU;
 
 use super::{Multipliers, PeriodicOrbit};
-use crate::error::{Error, within};
+use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::platform::phase::Phase;
-use crate::read_checked;
 
 /// By how much, relative to the flight, the first impact may come early and still be the one that the closed
 /// form has. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight
@@ -16,8 +15,7 @@ const SAME_IMPACT: f64 = 1.0e-9;
 
 /// One of the two orbits with one impact every k periods of the platform, in closed form.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPeriodOne"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodOneOrbit {
     /// The impact: cos tau = k (1 - r)/((1 + r) Gamma), w_A = -2 pi k/(1 + r).
     pub state: ImpactState,
@@ -29,23 +27,7 @@ pub struct PeriodOneOrbit {
     pub determinant: f64,
 }
 
-read_checked!(PeriodOneOrbit as UncheckedPeriodOne {
-    state: ImpactState,
-    platform_periods: u64,
-    trace: f64,
-    determinant: f64,
-});
-
 impl PeriodOneOrbit {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        within("periods of the platform", self.platform_periods as f64, 1.0, f64::MAX, "[1, 2^64)")?;
-        within("impact velocity", self.state.velocity(), f64::MIN, -f64::MIN_POSITIVE, "(-inf, 0)")?;
-        within("trace", self.trace, f64::MIN, f64::MAX, "finite")?;
-        within("determinant", self.determinant, 0.0, 1.0, "[0, 1]")?;
-        Ok(())
-    }
-
     fn new(phase: Phase, platform_periods: u64, map: &ImpactMap) -> Option<Self> {
         let r = map.restitution();
         let state = ImpactState::new(phase, -TAU * platform_periods as f64 / (1.0 + r)).ok()?;
@@ -85,19 +67,14 @@ impl PeriodOneOrbit {
             return Ok(None);
         }
         let (_, monodromy) = map.step_with_derivative(self.state)?;
-        Ok(Some(PeriodicOrbit {
-            states: vec![self.state],
-            platform_periods: self.platform_periods,
-            monodromy,
-        }))
+        Ok(Some(PeriodicOrbit::of(map, vec![self.state], self.platform_periods, monodromy)))
     }
 }
 
 /// Both orbits with one impact every k periods of the platform. They are born together, in the fold at Gamma
 /// = k (1 - r)/(1 + r).
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodOnePair {
     /// The one with its phase in [0, pi/2]: a node or focus that attracts from the fold to its period
     /// doubling.
@@ -143,7 +120,6 @@ impl ImpactMap {
 mod tests {
     use super::*;
     use crate::platform::vibration::Vibration;
-    use crate::testing::stored;
 
     fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
         ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
@@ -162,7 +138,6 @@ mod tests {
                     let map = map(birth + above, r);
                     let pair = map.period_one_pair(k).expect("above its birth");
                     for orbit in [pair.node, pair.saddle] {
-                        assert_eq!(orbit, stored(&orbit));
                         let Some(found) = orbit.orbit(&map).expect("no failure") else { continue };
                         admissible += 1;
                         let monodromy = found.monodromy;
@@ -213,21 +188,5 @@ mod tests {
         let pair = plastic.period_one_pair(1).expect("exists from Gamma = 1 on");
         assert_eq!(pair.saddle.is_admissible(&plastic), Ok(false));
         assert_eq!(pair.node.determinant.to_bits(), 0.0_f64.to_bits());
-    }
-
-    #[cfg(feature = "serde")]
-    #[test]
-    fn a_stored_orbit_that_is_none_is_refused() {
-        let pair = map(0.45, 0.5).period_one_pair(1).expect("exists");
-        assert_eq!(pair, stored(&pair));
-        for (key, value) in [
-            ("platform_periods", serde_json::json!(0)),
-            ("determinant", serde_json::json!(1.5)),
-            ("extra", serde_json::json!(1)),
-        ] {
-            let mut wrong = serde_json::to_value(pair.node).expect("writes");
-            wrong[key] = value;
-            assert!(serde_json::from_value::<PeriodOneOrbit>(wrong).is_err(), "{key}");
-        }
     }
 }

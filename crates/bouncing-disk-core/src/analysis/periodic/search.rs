@@ -162,7 +162,8 @@ impl ImpactMap {
     /// what it did not find: [`OrbitCoverage`] says what was tried, and whether half the resolution would
     /// have found the same.
     ///
-    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one.
+    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a doubling
+    /// they do if their [errors](PeriodicOrbit::position_error) overlap.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, OrbitSearch, Vibration};

@@ -239,11 +239,11 @@ class Attractor(Result):
     Attributes
     ----------
     kind : str
-        ``"rest"``, ``"periodic"``, ``"chaotic"`` or ``"unclassified"``.
+        ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"unclassified"``.
     label : int
         Its label in :attr:`Basins.labels`.
     orbit : PeriodicOrbit or None
-        The orbit of a periodic one.
+        The orbit of a periodic or marginal one.
     radius : float
         The radius (rad) within which a start counts as caught by that orbit, else NaN.
     exponent, standard_error : float
@@ -258,6 +258,8 @@ class Attractor(Result):
         The number of the attractor that a rest leads to.
     meaning : str
         What it is, in words.
+    is_exact : bool
+        False of a disk that comes to rest again and again in a cycle which rounding has chosen.
     """
 
     kind: str
@@ -271,6 +273,7 @@ class Attractor(Result):
     lasts: bool
     leads_to: int | None
     meaning: str
+    is_exact: bool
 
 
 @dataclass(frozen=True, eq=False)

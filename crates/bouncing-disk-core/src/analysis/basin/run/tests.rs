@@ -136,18 +136,12 @@ fn many_known_orbits_are_compared_in_parts() {
     }
 }
 
-/// A start that is followed for ever, by itself and in lockstep.
+/// A start that is followed for ever.
 #[test]
 fn one_endless_start_can_be_stopped() {
     let chaos = ImpactMap::new(Vibration::from_axial_forcing(0.55).expect("legal"), 0.5).expect("legal");
     for policy in [ChatterPolicy::Complete, PAPER_POLICY] {
         let settings = BasinSettings { max_impacts: u32::MAX, policy };
-        let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-        let label = chaos.basin_label_observed(start, &[], settings, &StopAfter::calls(5));
-        assert!(
-            matches!(label, Err(Error::Stopped { done: 30_000..34_000, total: 4_294_967_295 })),
-            "{label:?}"
-        );
         let one =
             Grid::new(Axis::new(0.12, 0.13, 1).expect("legal"), Axis::new(1.29, 1.31, 1).expect("legal"));
         let basins = chaos.basins_observed(one.expect("legal"), &[], settings, &StopAfter::calls(5));

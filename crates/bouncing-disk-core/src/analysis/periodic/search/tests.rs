@@ -122,6 +122,8 @@ impl TwoFlights {
             states: states.to_vec(),
             platform_periods: self.k,
             monodromy: glam::DMat2::IDENTITY,
+            position_error: 5e-7,
+            trace_error: 0.0,
         })
     }
 }
@@ -221,7 +223,7 @@ fn what_is_found_is_prime_closed_and_sorted_and_the_coverage_adds_up() {
     let OrbitsFound { orbits, coverage } = found(&map, 4, 6, 64);
     assert!(orbits.len() > 10 && orbits.iter().any(|orbit| orbit.period() == 4), "{}", orbits.len());
     for (i, orbit) in orbits.iter().enumerate() {
-        assert_eq!(super::super::newton::prime_period(&orbit.states), orbit.period());
+        assert_eq!(super::super::newton::prime_period(&orbit.states, 1e-6), orbit.period());
         let (n, mut turns) = (orbit.period(), 0);
         for j in 0..n {
             let impact = map.step(orbit.states[j]).expect("flies");
@@ -258,13 +260,6 @@ fn orbits_do_not_depend_on_the_number_of_threads() {
     let one = with(1);
     assert!(!one.orbits.is_empty());
     assert_eq!((&one, &one), (&with(2), &with(7)));
-}
-
-#[test]
-fn a_search_can_be_stopped() {
-    let (map, search) = (map(0.9, 0.5), OrbitSearch::new(6, 6).expect("legal"));
-    let stopped = map.periodic_orbits_observed(&search, &StopAfter::calls(3));
-    assert!(matches!(stopped, Err(Error::Stopped { done: 0..9_216, total: 9_216 })), "{stopped:?}");
 }
 
 /// A platform at rest, without restitution, almost without loss, the strongest vibration: each has an answer.
