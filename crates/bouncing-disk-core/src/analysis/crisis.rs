@@ -178,7 +178,9 @@ impl Crisis {
 #[non_exhaustive]
 pub enum NoTangency {
     /// The orbits that came to rest passed no saddle of few impacts before.
-    #[error("{orbits} orbits that came to rest just beyond it passed no common saddle of at most 12 impacts")]
+    #[error(
+        "orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
+    )]
     NoSaddle {
         /// The orbits that were looked at.
         orbits: usize,
@@ -245,7 +247,9 @@ pub enum NoCrisis {
         life: u64,
     },
     /// What is lost is not chaotic: a periodic orbit that ends.
-    #[error("what is lost at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact")]
+    #[error(
+        "what is lost at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact"
+    )]
     NotChaotic {
         /// The last Gamma at which it lives.
         forcing: f64,
@@ -253,7 +257,9 @@ pub enum NoCrisis {
         exponent: f64,
     },
     /// Orbits do not live shorter farther away: it is not a crisis.
-    #[error("beyond Gamma = {forcing} lives do not shrink: {near:.0} impacts next to it, {far:.0} farther away")]
+    #[error(
+        "beyond Gamma = {forcing} lives do not shrink: {near:.0} impacts next to it, {far:.0} farther away"
+    )]
     LivesDoNotShrink {
         /// The last Gamma at which orbits live on.
         forcing: f64,
@@ -382,7 +388,11 @@ impl CrisisSearch {
         let limit = self.each() as u64;
         let lived = self.relaunched(end, limit)?;
         let long = lived == limit || lived as f64 > LONG * end.life;
-        Ok(if long { LifeAfterRest::Long { impacts: lived } } else { LifeAfterRest::Short { impacts: lived } })
+        Ok(if long {
+            LifeAfterRest::Long { impacts: lived }
+        } else {
+            LifeAfterRest::Short { impacts: lived }
+        })
     }
 }
 

@@ -33,8 +33,10 @@ const LONGEST_STEP: f64 = 1.0 / 64.0;
 /// The narrowest bracket, relative to Gamma: [`SHAKE`] must not carry orbits over it.
 const NARROWEST: f64 = 1.0e-9;
 
-/// The mean life over all impacts at which the bracket is narrow enough for them.
+/// The mean life over all impacts at which the upper end of the bracket is as near as they can tell, and how often
+/// the bracket is halved from then on.
 const TOLD: f64 = 1.0 / 16.0;
+const MORE_HALVINGS: u32 = 8;
 
 /// The fewest impacts of an orbit.
 const FEWEST_IMPACTS: usize = 200;
@@ -52,6 +54,9 @@ const FAR: f64 = 64.0;
 /// How far lives oscillate about their power law, as a factor.
 const OSCILLATION: f64 = 2.0;
 
+/// The least ratio of lives that a margin is taken from.
+const LEAST_SEEN: f64 = 1.1;
+
 /// The mean number of rests of which none is seen by chance in five of a hundred cases.
 const UNSEEN: f64 = 3.0;
 
@@ -67,14 +72,21 @@ struct Herd {
     states: Vec<ImpactState>,
 }
 
+/// An orbit that comes to rest.
+pub(super) struct Lost {
+    pub(super) forcing: f64,
+    pub(super) start: ImpactState,
+    pub(super) impacts: usize,
+}
+
 /// Where orbits begin to come to rest.
 pub(super) struct End {
     /// See [`super::Crisis::bracket`].
     pub(super) bracket: (f64, f64),
     /// Impacts on the attractor, next to its lower end.
     pub(super) attractor: Vec<ImpactState>,
-    /// Those from which an orbit comes to rest at the upper end, and after how many impacts.
-    pub(super) lost: Vec<(ImpactState, usize)>,
+    /// Orbits from there that come to rest at the upper end of the bracket, then those farther beyond.
+    pub(super) lost: Vec<Lost>,
     /// The mean life there.
     pub(super) life: f64,
 }
@@ -98,7 +110,7 @@ impl CrisisSearch {
         let (each, all) = (self.each(), self.each() as f64 * f64::from(self.samples));
         let longest = LONGEST_STEP * (self.high - reached[0].forcing);
         let mut step = longest;
-        let mut shortest_life = usize::MAX;
+        let (mut shortest_life, mut halvings) = (usize::MAX, MORE_HALVINGS);
         while let Some(here) = reached.last() {
             let next = here.forcing + step;
             let (forcing, most) =
@@ -118,7 +130,8 @@ impl CrisisSearch {
                 continue;
             }
             let width = forcing - here.forcing;
-            if width > NARROWEST * forcing && life.impacts < TOLD * all {
+            halvings -= u32::from(halvings > 0 && life.impacts >= TOLD * all);
+            if width > NARROWEST * forcing && halvings > 0 {
                 step = 0.5 * width;
                 continue;
             }
@@ -150,8 +163,8 @@ impl CrisisSearch {
         let (each, width) = (self.each(), forcing - below.forcing);
         let lived = self.follow(forcing, &below.states, each, watch)?;
         let near = life_of(&lived, each, width);
-        let far = self.follow(below.forcing + FAR * width, &below.states, each, watch)?;
-        let far = life_of(&far, each, FAR * width);
+        let lost_far = self.follow(below.forcing + FAR * width, &below.states, each, watch)?;
+        let far = life_of(&lost_far, each, FAR * width);
         // The exponent of lives, and its error.
         let power = ln(near.impacts / far.impacts) / ln(FAR);
         let error = (1.0 / near.ended.max(1) as f64 + 1.0 / far.ended.max(1) as f64).sqrt() / ln(FAR);
@@ -159,17 +172,19 @@ impl CrisisSearch {
             let (near, far) = (near.impacts, far.impacts);
             return Ok(Err(NoCrisis::LivesDoNotShrink { forcing: below.forcing, near, far }));
         }
-        // If the crisis lay lower, lives at the lower end would be shorter than what was followed there.
+        // If the crisis lay lower by the margin, a rest would have been seen at the lower end.
         let all = each as f64 * below.states.len() as f64;
-        let longer = (all / (UNSEEN * OSCILLATION * near.impacts * (1.0 + 2.0 * near.relative_error))).max(1.1);
-        let margin = width / (exp(ln(longer) / (power + 2.0 * error)) - 1.0);
-        let lost = below.states.iter().zip(&lived).filter(|(_, own)| own.0 < each);
-        Ok(Ok(End {
-            bracket: (below.forcing - margin, forcing),
-            lost: lost.map(|(state, own)| (*state, own.0)).collect(),
-            attractor: below.states,
-            life: near.impacts,
-        }))
+        let margin = [near, far].iter().fold(f64::MAX, |least, life| {
+            let seen = all / (UNSEEN * OSCILLATION * life.impacts * (1.0 + 2.0 * life.relative_error));
+            least.min(life.beyond / (exp(ln(seen.max(LEAST_SEEN)) / (power + 2.0 * error)) - 1.0))
+        });
+        let mut lost = Vec::new();
+        for (forcing, lived) in [(forcing, &lived), (below.forcing + FAR * width, &lost_far)] {
+            let ended = below.states.iter().zip(lived).filter(|(_, own)| own.0 < each);
+            lost.extend(ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }));
+        }
+        let bracket = (below.forcing - margin, forcing);
+        Ok(Ok(End { bracket, lost, attractor: below.states, life: near.impacts }))
     }
 
     /// Orbits on the attractor at the lower end of the range, or from where it is born.
@@ -306,7 +321,7 @@ impl CrisisSearch {
     /// How many impacts a disk has from its first separation after a rest to the next rest, at most so many.
     pub(super) fn relaunched(&self, end: &End, most: u64) -> Result<u64, Error> {
         let map = self.map(end.bracket.1)?;
-        let mut orbit = map.orbit(end.lost[0].0, ChatterPolicy::Complete);
+        let mut orbit = map.orbit(end.lost[0].start, ChatterPolicy::Complete);
         let mut impacts = None;
         while impacts.is_none_or(|impacts| impacts < most) {
             match (orbit.advance()?, impacts) {

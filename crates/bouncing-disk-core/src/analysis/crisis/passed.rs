@@ -1,7 +1,7 @@
 //! The saddle that orbits pass before they come to rest.
 
-use super::following::End;
 use super::CrisisSearch;
+use super::following::End;
 use crate::analysis::manifold::of_saddle;
 use crate::analysis::periodic::newton::same_orbit;
 use crate::analysis::periodic::{PeriodicOrbit, phase_difference};
@@ -28,9 +28,10 @@ impl CrisisSearch {
     pub(super) fn saddles_passed(&self, map: &ImpactMap, end: &End) -> Result<Vec<PeriodicOrbit>, Error> {
         let mut found: Vec<(PeriodicOrbit, usize)> = Vec::new();
         let mut orbits = 0;
-        for &(start, impacts) in end.lost.iter().take(ORBITS) {
+        for lost in end.lost.iter().take(ORBITS) {
             orbits += 1;
-            let Some(saddle) = passed(map, &last_impacts(map, start, impacts)?) else { continue };
+            let own = self.map(lost.forcing)?;
+            let Some(saddle) = passed(map, &last_impacts(&own, lost.start, lost.impacts)?) else { continue };
             match found.iter_mut().find(|(known, _)| same_orbit(known, &saddle)) {
                 Some((_, votes)) => *votes += 1,
                 None => found.push((saddle, 1)),

@@ -96,25 +96,29 @@ pub(super) fn tangencies(
                 continue;
             }
             for tip in sought.setting(bracket.1, 0)?.tips(&mut work)? {
-                match sought.solved(&tip, bracket.1)? {
-                    Ok((solution, flights)) => within.push((solution, sought, flights)),
-                    Err(other) => {
-                        // Of those elsewhere the nearest.
-                        let nearer = match (other, failure) {
-                            (NoTangency::Elsewhere { forcing: new }, NoTangency::Elsewhere { forcing }) => {
-                                off(new) < off(forcing)
-                            }
-                            (_, NoTangency::Elsewhere { .. }) => false,
-                            _ => true,
-                        };
-                        failure = if nearer { other } else { failure };
+                let other = match sought.solved(&tip, bracket.1)? {
+                    Ok((solution, flights)) if off(solution.forcing) <= solution.error => {
+                        within.push((solution, sought, flights));
+                        continue;
                     }
-                }
+                    Ok((Solution { forcing, .. }, _)) => NoTangency::Elsewhere { forcing },
+                    Err(other) => other,
+                };
+                // Of those elsewhere the nearest.
+                failure = match (other, failure) {
+                    (NoTangency::Elsewhere { forcing: new }, NoTangency::Elsewhere { forcing })
+                        if off(new) >= off(forcing) =>
+                    {
+                        failure
+                    }
+                    (NoTangency::Elsewhere { .. }, _) => other,
+                    (_, NoTangency::Elsewhere { .. }) => failure,
+                    _ => other,
+                };
                 work.spend(u64::from(PARTS * tip.flights) * 32)?;
             }
         }
     }
-    if std::env::var("DBG").is_ok() { for (s, w, _) in &within { eprintln!("  cand {} err {:e} side {:?} share {} curv {} in {} loses {:?}", s.forcing, s.error, w.side, s.tangency.share, s.tangency.curvature, s.tangency.inside.period(), w.loses(s, 100)); } eprintln!("  fail {failure:?}"); }
     within.sort_by(|a, b| a.0.forcing.total_cmp(&b.0.forcing));
     for (solution, sought, flights) in within {
         if sought.loses(&solution, flights)? {
