@@ -105,7 +105,8 @@ impl Crisis {
     /// Their relative velocities, not positive, in units of g/omega, shape (n,).
     #[getter]
     fn axial_impact_velocity<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        self.tangency().map(|own| results::array(py, own.orbit.iter().map(|state| state.velocity()).collect()))
+        self.tangency()
+            .map(|own| results::array(py, own.orbit.iter().map(|state| state.velocity()).collect()))
     }
 
     /// The side of the saddle on which the manifold begins: ``"later"`` or ``"earlier"``.

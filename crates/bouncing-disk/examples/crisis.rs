@@ -14,7 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("crisis at Gamma = {:.7} +- {:.0e}", crisis.forcing, crisis.forcing_error);
             if let Ok(tangency) = &crisis.tangency {
                 let saddle = &tangency.touched;
-                println!("it touches a saddle of {} impacts in {} periods", saddle.period(), saddle.platform_periods);
+                println!(
+                    "it touches a saddle of {} impacts in {} periods",
+                    saddle.period(),
+                    saddle.platform_periods
+                );
             }
             println!("life beyond it: power {:.4?}", crisis.life_exponent());
         }

@@ -8,7 +8,6 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::ln;
 use crate::observer::{Observer, Watch};
 use crate::platform::vibration::Vibration;
-use crate::read_checked;
 
 mod following;
 pub(crate) mod lifetimes;
@@ -20,8 +19,6 @@ use tangency::{Pair, tangencies};
 
 /// Where a crisis is sought, and how many impacts are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSearch"))]
 pub struct CrisisSearch {
     restitution: f64,
     low: f64,
@@ -29,14 +26,6 @@ pub struct CrisisSearch {
     samples: u32,
     impacts: u64,
 }
-
-read_checked!(CrisisSearch as UncheckedSearch {
-    restitution: f64,
-    low: f64,
-    high: f64,
-    samples: u32,
-    impacts: u64,
-});
 
 impl CrisisSearch {
     /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: below the crisis
@@ -79,18 +68,6 @@ impl CrisisSearch {
     fn map(&self, forcing: f64) -> Result<ImpactMap, Error> {
         ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution)
     }
-
-    /// Coefficient of restitution.
-    #[must_use]
-    pub const fn restitution(&self) -> f64 {
-        self.restitution
-    }
-
-    /// The values of Gamma between which a crisis is sought.
-    #[must_use]
-    pub const fn range(&self) -> (f64, f64) {
-        (self.low, self.high)
-    }
 }
 
 /// A crisis: a chaotic attractor whose orbits begin to come to rest.
@@ -126,7 +103,7 @@ pub enum LifeAfterRest {
         /// Impacts from one rest to the next.
         impacts: u64,
     },
-    /// It lives on as long as orbits on the attractor do, some hundredth of a mean life at least, or does not
+    /// It lives on for a hundredth of their mean life and 200 impacts at least, as orbits on the attractor do, or does not
     /// rest again within the impacts that were followed: rest has become a part of the attractor, or another
     /// attractor follows after it.
     Long {
@@ -197,8 +174,8 @@ pub enum NoTangency {
         /// Its last change.
         change: f64,
     },
-    /// The manifolds touch where the attractor lives on, or is gone: inside of the attractor, or later than
-    /// those of another saddle.
+    /// The manifolds touch where the attractor lives on, or is gone, or no orbit about it is lost: inside of the
+    /// attractor, or later than those of another saddle.
     #[error("the manifolds touch at Gamma = {forcing} instead")]
     Elsewhere {
         /// Gamma of their tangency.
@@ -208,7 +185,6 @@ pub enum NoTangency {
 
 /// Why no crisis was found, with what there was instead.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum NoCrisis {
     /// There is no periodic orbit yet that the attractor could come from.
@@ -258,7 +234,7 @@ pub enum NoCrisis {
     },
     /// Orbits do not live shorter farther away: it is not a crisis.
     #[error(
-        "beyond Gamma = {forcing} lives do not shrink: {near:.0} impacts next to it, {far:.0} farther away"
+        "beyond Gamma = {forcing} lives do not shrink: {near:.3e} impacts next to it, {far:.3e} farther away"
     )]
     LivesDoNotShrink {
         /// The last Gamma at which orbits live on.
@@ -278,9 +254,10 @@ pub enum NoCrisis {
     },
 }
 
-/// Impacts after a rest that make a life a long one, over the mean life: a life is shorter than this by chance
-/// in one of a hundred cases.
+/// Impacts after a rest that make a life a long one: more than this share of the mean life, which one in a hundred
+/// lives falls short of by chance, and more than rounds from rest to rest have.
 const LONG: f64 = 0.01;
+const LONG_ROUND: u64 = 200;
 
 impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
@@ -315,7 +292,6 @@ impl CrisisSearch {
         saddles: Option<(&PeriodicOrbit, &PeriodicOrbit)>,
         observer: &dyn Observer,
     ) -> Result<Result<Crisis, NoCrisis>, Error> {
-        self.check()?;
         for orbit in saddles.iter().flat_map(|(inside, touched)| [inside, touched]) {
             of_saddle(orbit.multipliers())?;
         }
@@ -387,7 +363,7 @@ impl CrisisSearch {
     fn after_rest(&self, end: &End) -> Result<LifeAfterRest, Error> {
         let limit = self.each() as u64;
         let lived = self.relaunched(end, limit)?;
-        let long = lived == limit || lived as f64 > LONG * end.life;
+        let long = lived == limit || lived > LONG_ROUND && lived as f64 > LONG * end.life;
         Ok(if long {
             LifeAfterRest::Long { impacts: lived }
         } else {

@@ -3,8 +3,8 @@
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, CrisisSearch, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit,
-    LyapunovOutcome, ManifoldKind, ManifoldSettings, OrbitSearch, Unobserved, Verdict,
-    VerdictSettings, Vibration, lyapunov_spectra, orbit_diagram, verdicts,
+    LyapunovOutcome, ManifoldKind, ManifoldSettings, OrbitSearch, Unobserved, Verdict, VerdictSettings,
+    Vibration, lyapunov_spectra, orbit_diagram, verdicts,
 };
 use bouncing_disk::{
     Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,

@@ -24,13 +24,6 @@ pub(super) fn claims(data: &ExtraCrisisData) -> Vec<Claim> {
         Claim::statement(
             ID,
             PLACE,
-            "the forcing of the crisis is known to 1e-6",
-            crisis.forcing_error < 1e-6,
-            format!("{:.12}, with an error of some {:.0e}", crisis.forcing, crisis.forcing_error),
-        ),
-        Claim::statement(
-            ID,
-            PLACE,
             "the tangency is quadratic, of the stable and the unstable manifold of one saddle",
             tangency.curvature.abs() > 0.0 && tangency.inside.states == tangency.touched.states,
             format!("second derivative by the share of the first piece {:.3}", tangency.curvature),

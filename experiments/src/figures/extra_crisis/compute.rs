@@ -1,8 +1,8 @@
 //! The computation of the figure.
 
 use bouncing_disk::core::{
-    ChatterPolicy, CrisisSearch, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings, NoCrisis, NoTangency,
-    PeriodicOrbit, Unobserved, Vibration, orbit_diagram,
+    ChatterPolicy, CrisisSearch, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings, NoCrisis,
+    NoTangency, PeriodicOrbit, Unobserved, Vibration, orbit_diagram,
 };
 
 use super::data::{ExtraCrisisData, Spot};

@@ -36,7 +36,10 @@ const NARROWEST: f64 = 1.0e-9;
 /// The mean life over all impacts at which the upper end of the bracket is as near as they can tell, and how often
 /// the bracket is halved from then on.
 const TOLD: f64 = 1.0 / 16.0;
-const MORE_HALVINGS: u32 = 8;
+const MORE_HALVINGS: u32 = 5;
+
+/// The fewest orbits that rest at the upper end of the bracket.
+const FEWEST_RESTS: u64 = 8;
 
 /// The fewest impacts of an orbit.
 const FEWEST_IMPACTS: usize = 200;
@@ -160,15 +163,23 @@ impl CrisisSearch {
         if exponent.is_nan() || exponent <= 5.0 * ln(impacts) / impacts {
             return Ok(Err(NoCrisis::NotChaotic { forcing: below.forcing, exponent }));
         }
-        let (each, width) = (self.each(), forcing - below.forcing);
-        let lived = self.follow(forcing, &below.states, each, watch)?;
-        let near = life_of(&lived, each, width);
+        let (each, mut width) = (self.each(), forcing - below.forcing);
+        // As far up as rests are not chance.
+        let (near, lived) = loop {
+            let lived = self.follow(below.forcing + width, &below.states, each, watch)?;
+            let near = life_of(&lived, each, width);
+            if near.ended >= FEWEST_RESTS || width > self.high - self.low {
+                break (near, lived);
+            }
+            width *= 4.0;
+        };
+        let forcing = below.forcing + width;
         let lost_far = self.follow(below.forcing + FAR * width, &below.states, each, watch)?;
         let far = life_of(&lost_far, each, FAR * width);
         // The exponent of lives, and its error.
         let power = ln(near.impacts / far.impacts) / ln(FAR);
         let error = (1.0 / near.ended.max(1) as f64 + 1.0 / far.ended.max(1) as f64).sqrt() / ln(FAR);
-        if power.is_nan() || power <= 2.0 * error || near.ended == 0 {
+        if power.is_nan() || power <= 2.0 * error || near.ended < FEWEST_RESTS {
             let (near, far) = (near.impacts, far.impacts);
             return Ok(Err(NoCrisis::LivesDoNotShrink { forcing: below.forcing, near, far }));
         }

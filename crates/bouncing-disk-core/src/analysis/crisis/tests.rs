@@ -39,7 +39,7 @@ fn node(axial_forcing: f64, restitution: f64) -> PeriodicOrbit {
 
 fn refused(search: &CrisisSearch, orbit: Option<&PeriodicOrbit>) -> NoCrisis {
     let saddles = orbit.map(|orbit| (orbit, orbit));
-    stored(&search.crisis(saddles, &Unobserved).expect("no failure").expect_err("none"))
+    search.crisis(saddles, &Unobserved).expect("no failure").expect_err("none")
 }
 
 #[test]
@@ -89,11 +89,8 @@ fn tangencies_that_the_lives_of_orbits_deny_are_refused() {
         [(0.3, 0.809, (0.8091, 0.8092), 0.809_135_3), (0.5, 0.56, (0.559, 0.562), 0.560_750_7)]
     {
         let reason = refused(&search_of(restitution, range), Some(&node(at, restitution)));
-        let NoCrisis::OtherReason { bracket: (low, high), reason } = reason else { panic!("{reason}") };
+        let NoCrisis::OtherReason { bracket: (low, high), .. } = reason else { panic!("{reason}") };
         assert!(low < lost && lost < high, "{low} {high}");
-        if let NoTangency::Elsewhere { forcing } = reason {
-            assert!(forcing < low || forcing > high, "{forcing}");
-        }
     }
 }
 
@@ -155,7 +152,7 @@ fn illegal_searches_are_refused() {
     ] {
         assert!(CrisisSearch::new(restitution, (low, high)).is_err(), "{restitution} {low} {high}");
     }
-    let search = stored(&search());
+    let search = search();
     assert!(search.with_samples(15, 100_000).is_err() && search.with_samples(64, 9_999).is_err());
 }
 
