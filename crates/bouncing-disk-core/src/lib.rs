@@ -88,7 +88,7 @@ pub use analysis::continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchTip, Continuation,
 };
 pub use analysis::crisis::lifetimes::{CrisisLives, MeanLife};
-pub use analysis::crisis::{Crisis, CrisisSearch, NoCrisis};
+pub use analysis::crisis::{Crisis, CrisisSearch, LifeAfterRest, NoCrisis, NoTangency, Tangency};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::spectrum::{
     LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,

@@ -1,19 +1,18 @@
 //! Crises, and lives beyond them.
 
-use bouncing_disk::core::{Crisis as Core, CrisisSearch, NoCrisis};
+use bouncing_disk::core::{Crisis as Core, CrisisSearch, LifeAfterRest, NoCrisis, Tangency};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, row};
-use crate::manifold::{side, side_name};
+use crate::manifold::side_name;
 use crate::names::{Name, name};
 use crate::periodic_orbit::PeriodicOrbit;
 use crate::real::{Pair, Real};
 use crate::text::Json;
 use crate::{errors, long_call, results, text};
 
-/// The crisis in which an attractor is lost to rest: where the unstable manifold of a saddle on it first touches
-/// the stable manifold of a saddle beside it.
+/// The crisis in which a chaotic attractor begins to lose orbits to rest.
 ///
 /// Made by :func:`crisis`.
 #[pyclass(frozen, eq, module = "bouncing_disk")]
@@ -39,6 +38,12 @@ const LIVES: [Name; 4] = [
     name("axial_forcing", &["beyond"]),
 ];
 
+impl Crisis {
+    fn tangency(&self) -> Option<&Tangency> {
+        self.0.tangency.as_ref().ok()
+    }
+}
+
 #[pymethods]
 impl Crisis {
     /// Coefficient of restitution.
@@ -47,65 +52,79 @@ impl Crisis {
         self.0.restitution
     }
 
-    /// Axial forcing parameter Gamma of the tangency.
+    /// Axial forcing parameter Gamma of the tangency; without one the middle of the bracket.
     #[getter]
     fn axial_forcing(&self) -> f64 {
         self.0.forcing
     }
 
-    /// An estimate of its error.
+    /// The error of that: half of the bracket, or its part below the tangency.
     #[getter]
     fn forcing_error(&self) -> f64 {
         self.0.forcing_error
     }
 
-    /// The last two values of Gamma of the search by rest: at the first no sample came to rest, at the second some
-    /// did.
+    /// The values of Gamma between which the crisis lies by the lives of orbits, the first one in 95 of 100 searches.
     #[getter]
     fn bracket(&self) -> (f64, f64) {
         self.0.bracket
     }
 
-    /// The saddle on the attractor, at the crisis.
+    /// Whether the disk soon rests again after it came to rest, and so for ever: the attractor is lost. Otherwise it
+    /// lives on after a rest, which has become a part of the attractor.
     #[getter]
-    fn inside(&self) -> PeriodicOrbit {
-        PeriodicOrbit(self.0.inside.clone())
+    fn is_boundary_crisis(&self) -> bool {
+        matches!(self.0.after_rest, LifeAfterRest::Short { .. })
+    }
+
+    /// Why no tangency is known that is the reason; None where one is.
+    #[getter]
+    fn no_tangency(&self) -> Option<String> {
+        self.0.tangency.as_ref().err().map(ToString::to_string)
+    }
+
+    /// The saddle on the attractor, at the crisis; None without a tangency, as all below.
+    #[getter]
+    fn inside(&self) -> Option<PeriodicOrbit> {
+        self.tangency().map(|own| PeriodicOrbit(own.inside.clone()))
     }
 
     /// The saddle whose stable manifold is touched, at the crisis.
     #[getter]
-    fn touched(&self) -> PeriodicOrbit {
-        PeriodicOrbit(self.0.touched.clone())
+    fn touched(&self) -> Option<PeriodicOrbit> {
+        self.tangency().map(|own| PeriodicOrbit(own.touched.clone()))
     }
 
     /// Phases of the impacts of the orbit of tangency (rad), shape (n,).
     #[getter]
-    fn impact_phase<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        results::array(py, self.0.orbit.iter().map(|state| state.phase().angle()).collect())
+    fn impact_phase<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.tangency()
+            .map(|own| results::array(py, own.orbit.iter().map(|state| state.phase().angle()).collect()))
     }
 
     /// Their relative velocities, not positive, in units of g/omega, shape (n,).
     #[getter]
-    fn axial_impact_velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        results::array(py, self.0.orbit.iter().map(|state| state.velocity()).collect())
+    fn axial_impact_velocity<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.tangency()
+            .map(|own| results::array(py, own.orbit.iter().map(|state| state.velocity()).collect()))
     }
 
     /// The side of the saddle on which the manifold begins: ``"later"`` or ``"earlier"``.
     #[getter]
-    fn side(&self) -> &'static str {
-        side_name(self.0.side)
+    fn side(&self) -> Option<&'static str> {
+        self.tangency().map(|own| side_name(own.side))
     }
 
     /// Share of the first piece of the unstable manifold at which the orbit of tangency begins, in [0, 1].
     #[getter]
-    fn share(&self) -> f64 {
-        self.0.share
+    fn share(&self) -> Option<f64> {
+        self.tangency().map(|own| own.share)
     }
 
     /// How the escaping share of the first piece opens: sqrt(8 (Gamma - Gamma_c)/abs(curvature)).
     #[getter]
-    fn curvature(&self) -> f64 {
-        self.0.curvature
+    fn curvature(&self) -> Option<f64> {
+        self.tangency().map(|own| own.curvature)
     }
 
     /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, by the multipliers of the
@@ -202,26 +221,27 @@ impl Crisis {
     }
 }
 
-/// Where an attractor is lost to rest as the forcing rises.
+/// Where a chaotic attractor begins to lose orbits to rest as the forcing rises.
+///
+/// Orbits on the attractor are followed to a bracket; a tangency of manifolds within it refines the result.
 ///
 /// Parameters
 /// ----------
-/// inside : PeriodicOrbit
-///     A saddle on the attractor, or at its edge, of a map in the range.
+/// inside : PeriodicOrbit, optional
+///     A saddle on the attractor, or at its edge. By default the attractor is the one that the period-1 orbit leads
+///     to, and the saddles are looked for.
 /// touched : PeriodicOrbit, optional
 ///     The saddle whose stable manifold is touched; by default the same.
 /// restitution : float
 ///     Coefficient of restitution, in (0, 1).
 /// axial_forcing : (float, float)
 ///     Gamma below the crisis and beyond it.
-/// side : {"later", "earlier"}, default "later"
-///     On which side of the saddle's first impact its unstable manifold begins.
-/// samples : int, default 2048
-///     Samples of that manifold, in [64, 1e6].
-/// impacts : int, default 200
-///     Impacts over which each is followed, in [10, 1e5].
+/// samples : int, default 64
+///     Orbits that are followed at each forcing, in [16, 1e6].
+/// impacts : int, default 2000000
+///     Impacts of all of them together, in [1e4, 1e12]; 200 at least of each. More make the bracket narrower.
 /// progress : callable, optional
-///     Called as ``progress(done, total)`` with the number of samples.
+///     Called as ``progress(done, total)`` with the number of impacts.
 ///
 /// Returns
 /// -------
@@ -230,45 +250,38 @@ impl Crisis {
 /// Raises
 /// ------
 /// ComputationError
-///     There is none, with the reason as its kind: ``"none-rests"``, ``"rests-before"``, ``"no-fold"`` or
-///     ``"not-settled"``.
+///     There is none, with the reason as its kind: ``"not-born"``, ``"not-followed"``, ``"none-rests"``,
+///     ``"rests-before"``, ``"not-chaotic"``, ``"lives-do-not-shrink"`` or ``"other-reason"``.
 ///
 /// Examples
 /// --------
 /// >>> import bouncing_disk as bd
-/// >>> bouncing = bd.ImpactMap(axial_forcing=0.56, restitution=0.5)
-/// >>> orbits = bd.periodic_orbits(bouncing, max_impacts=3, max_platform_periods=3)
-/// >>> saddle = next(orbit for orbit in orbits if orbit.period == orbit.platform_periods == 3
-/// ...     and orbit.multipliers.real.min() > 0.0)
-/// >>> found = bd.crisis(saddle, restitution=0.5, axial_forcing=(0.559, 0.562))
+/// >>> found = bd.crisis(restitution=0.5, axial_forcing=(0.559, 0.562), impacts=400_000)
 /// >>> round(found.axial_forcing, 5)
 /// 0.56075
 #[pyfunction]
 #[pyo3(signature = (
-    inside, touched=None, *, restitution, axial_forcing, side="later", samples=Count::Fits(2048),
-    impacts=Count::Fits(200), progress=ProgressCallable(None)
-), text_signature = "(inside, touched=None, *, restitution, axial_forcing, side='later', samples=2048, impacts=200, \
+    inside=None, touched=None, *, restitution, axial_forcing, samples=Count::Fits(64),
+    impacts=Count::Fits(2_000_000), progress=ProgressCallable(None)
+), text_signature = "(inside=None, touched=None, *, restitution, axial_forcing, samples=64, impacts=2000000, \
                      progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn crisis(
     py: Python<'_>,
-    inside: &Bound<'_, PeriodicOrbit>,
+    inside: Option<&Bound<'_, PeriodicOrbit>>,
     touched: Option<&Bound<'_, PeriodicOrbit>>,
     restitution: Real,
     axial_forcing: Pair,
-    side: &str,
     samples: Count,
     impacts: Count,
     progress: ProgressCallable,
 ) -> PyResult<Crisis> {
-    let side = self::side(side)?;
-    let (samples, impacts) = (samples.u32(py, "samples")?, impacts.u32(py, "impacts")?);
+    let (samples, impacts) = (samples.u32(py, "samples")?, impacts.u64(py, "impacts")?);
     let search = CrisisSearch::new(restitution.0, axial_forcing.both())
-        .and_then(|search| search.with_samples(side, samples, impacts))
+        .and_then(|search| search.with_samples(samples, impacts))
         .map_err(|error| errors::of_named(py, error, &NAMES))?;
-    let (inside, touched) = (&inside.get().0, &touched.unwrap_or(inside).get().0);
-    let found = long_call::run_named(py, progress.0, &NAMES, |observer| {
-        Ok(search.crisis_observed(inside, touched, observer)?)
-    })?;
+    let saddles = inside.or(touched).map(|inside| (&inside.get().0, &touched.unwrap_or(inside).get().0));
+    let found =
+        long_call::run_named(py, progress.0, &NAMES, |observer| Ok(search.crisis(saddles, observer)?))?;
     found.map(Crisis).map_err(|reason: NoCrisis| errors::no_crisis(py, &reason))
 }

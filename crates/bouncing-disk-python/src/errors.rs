@@ -254,10 +254,17 @@ pub(crate) fn no_events(py: Python<'_>) -> PyErr {
 /// Why there is no crisis.
 pub(crate) fn no_crisis(py: Python<'_>, reason: &NoCrisis) -> PyErr {
     let (kind, details) = match *reason {
-        NoCrisis::NoneRests { forcing, samples } => ("none-rests", details![forcing, samples]),
+        NoCrisis::NotBorn { forcing, birth } => ("not-born", details![forcing, birth]),
+        NoCrisis::NotFollowed { forcing, reached } => ("not-followed", details![forcing, reached]),
+        NoCrisis::NoneRests { forcing, samples, impacts } => {
+            ("none-rests", details![forcing, samples, impacts])
+        }
         NoCrisis::RestsBefore { forcing, life } => ("rests-before", details![forcing, life]),
-        NoCrisis::NoFold { forcing, nearest } => ("no-fold", details![forcing, nearest]),
-        NoCrisis::NotSettled { forcing, change } => ("not-settled", details![forcing, change]),
+        NoCrisis::NotChaotic { forcing, exponent } => ("not-chaotic", details![forcing, exponent]),
+        NoCrisis::LivesDoNotShrink { forcing, near, far } => {
+            ("lives-do-not-shrink", details![forcing, near, far])
+        }
+        NoCrisis::OtherReason { bracket: (low, high), .. } => ("other-reason", details![low, high]),
         _ => ("other", Vec::new()),
     };
     raise(py, format!("there is no crisis: {reason}"), Raised::Computation(kind, details))

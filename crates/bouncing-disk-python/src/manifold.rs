@@ -27,15 +27,6 @@ const NAMES: [Name; 9] = [
     name("restitution of an inverse", &["impact_map.restitution"]),
 ];
 
-/// The side of an argument.
-pub(crate) fn side(name: &str) -> PyResult<Side> {
-    match name {
-        "later" => Ok(Side::Later),
-        "earlier" => Ok(Side::Earlier),
-        _ => Err(PyValueError::new_err(format!("side must be \"later\" or \"earlier\", and is {name:?}"))),
-    }
-}
-
 /// The name of a side.
 pub(crate) const fn side_name(side: Side) -> &'static str {
     match side {

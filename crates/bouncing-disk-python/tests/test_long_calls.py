@@ -54,7 +54,7 @@ ENDLESS = {
     "sensitivities": "bd.local_sensitivities(MOTOR, relative_error=1e-6, most_impacts=10**15)",
     "sobol": "bd.sobol_indices(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
     "effects": "bd.elementary_effects(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
-    "crisis": "bd.crisis(SADDLE, restitution=0.5, axial_forcing=(0.55, 0.56), samples=10**6, impacts=10**5)",
+    "crisis": "bd.crisis(restitution=0.5, axial_forcing=(0.55, 0.56), impacts=10**12)",
     "parameter fit": "bd.fit_parameters(MOTOR, transients=[(TIMES, RISE, 9.8)], ranges={'friction': (0.05, 0.2),"
     " 'restitution': (0.3, 0.7)}, members=4096)",
 }

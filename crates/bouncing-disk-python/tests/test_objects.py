@@ -43,24 +43,13 @@ def saddle() -> bd.PeriodicOrbit:
     return next(orbit for orbit in orbits if abs(orbit.multipliers[0]) > 1.0)
 
 
-def edge_crisis() -> bd.Crisis:
-    bouncing = bd.ImpactMap(axial_forcing=0.56, restitution=0.5)
-    orbits = bd.periodic_orbits(bouncing, max_impacts=3, max_platform_periods=3)
-    inside = next(
-        orbit
-        for orbit in orbits
-        if orbit.period == orbit.platform_periods == 3 and orbit.multipliers.real.min() > 0.0
-    )
-    return bd.crisis(inside, restitution=0.5, axial_forcing=(0.559, 0.562))
-
-
 def everything() -> dict[str, Any]:
     """One of each kind of object."""
     found = bd.attractors(MAP, starts=64, impacts=1000)
     branch = bd.continued(MAP, orbit(), parameter_range=(0.1, 0.6))
     runs = bd.ensemble(bd.System.motor(), members=6, duration=4.0, intervals=80)
     times = runs.times[:, 0]
-    crisis = edge_crisis()
+    crisis = bd.crisis(restitution=0.5, axial_forcing=(0.559, 0.562), impacts=400_000)
     return {
         "System": bd.System.pizza_toss(),
         "ImpactMap": MAP,

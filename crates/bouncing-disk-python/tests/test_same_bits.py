@@ -137,20 +137,9 @@ def manifolds() -> Digest:
     return digest
 
 
-def saddle() -> bd.PeriodicOrbit:
-    bouncing = bd.ImpactMap(axial_forcing=0.56, restitution=0.5)
-    orbits = bd.periodic_orbits(bouncing, max_impacts=3, max_platform_periods=3)
-    return next(
-        orbit
-        for orbit in orbits
-        if orbit.period == orbit.platform_periods == 3
-        and not orbit.multipliers.imag.any()
-        and orbit.multipliers.real.min() > 0.0
-    )
-
-
 def crisis() -> Digest:
-    found = bd.crisis(saddle(), restitution=0.5, axial_forcing=(0.559, 0.562))
+    found = bd.crisis(restitution=0.5, axial_forcing=(0.559, 0.562), impacts=400_000)
+    assert found.share is not None and found.curvature is not None
     digest = Digest()
     digest.numbers(found.axial_forcing, found.forcing_error, found.share, found.curvature)
     digest.numbers(*found.lives(beyond=[1e-4, 1e-3], orbits=50, impacts=20_000).impacts)

@@ -5,27 +5,24 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{CrisisSearch, ImpactMap, OrbitSearch, Vibration};
+use bouncing_disk::core::{CrisisSearch, Unobserved};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let map = ImpactMap::new(Vibration::from_axial_forcing(0.56)?, 0.5)?;
-    // The saddle at the edge of the attractor: of three impacts in three periods of the platform, with
-    // positive multipliers.
-    let orbits = map.periodic_orbits(&OrbitSearch::new(3, 3)?)?.orbits;
-    let saddle = orbits
-        .iter()
-        .find(|orbit| {
-            let trace = orbit.monodromy.x_axis.x + orbit.monodromy.y_axis.y;
-            orbit.period() == 3 && orbit.platform_periods == 3 && trace > 2.0
-        })
-        .expect("found");
-    match CrisisSearch::new(0.5, (0.559, 0.562))?.crisis(saddle, saddle)? {
+    // Where do orbits on the attractor that the period-1 orbit leads to begin to come to rest?
+    match CrisisSearch::new(0.5, (0.559, 0.562))?.crisis(None, &Unobserved)? {
         Ok(crisis) => {
-            println!("crisis at Gamma = {:.10} +- {:.0e}", crisis.forcing, crisis.forcing_error);
-            println!("its tangency returns to the saddle in {} impacts", crisis.orbit.len());
+            println!("crisis at Gamma = {:.7} +- {:.0e}", crisis.forcing, crisis.forcing_error);
+            if let Ok(tangency) = &crisis.tangency {
+                let saddle = &tangency.touched;
+                println!(
+                    "it touches a saddle of {} impacts in {} periods",
+                    saddle.period(),
+                    saddle.platform_periods
+                );
+            }
             println!("life beyond it: power {:.4?}", crisis.life_exponent());
         }
-        Err(reason) => println!("none: {reason:?}"),
+        Err(reason) => println!("none: {reason}"),
     }
     Ok(())
 }

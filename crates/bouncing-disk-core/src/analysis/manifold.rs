@@ -2,7 +2,7 @@
 //! manifolds of saddles").
 
 use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
-use crate::error::{Error, finite, not_negative, within};
+use crate::error::{Error, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::observer::{Observer, Unobserved, Watch};
 use crate::read_checked;
@@ -16,7 +16,7 @@ use saddle::Saddle;
 
 /// Which of the two manifolds of a saddle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ManifoldKind {
     /// What tends to the saddle: it grows by [`ImpactMap::step_back`].
     Stable,
@@ -122,7 +122,7 @@ impl ManifoldSettings {
 
 /// Where a piece of a manifold begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum PieceEnd {
     /// At the saddle.
@@ -139,8 +139,7 @@ pub enum PieceEnd {
 
 /// A part of a manifold without a jump.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ManifoldPiece {
     /// Its impacts in their order, one at least; between neighbours the phase may pass 2 pi.
     pub states: Vec<ImpactState>,
@@ -152,7 +151,7 @@ pub struct ManifoldPiece {
 
 /// Why a branch of a manifold is not longer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum ManifoldEnd {
     /// It is as long as was asked for.
@@ -169,8 +168,7 @@ pub enum ManifoldEnd {
 
 /// One of the branches of a manifold, on one side of one impact of the saddle.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedBranch"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ManifoldBranch {
     /// The impact of the saddle at which it begins.
     pub impact: usize,
@@ -186,29 +184,9 @@ pub struct ManifoldBranch {
     pub end: ManifoldEnd,
 }
 
-read_checked!(ManifoldBranch as UncheckedBranch {
-    impact: usize,
-    side: Side,
-    pieces: Vec<ManifoldPiece>,
-    arclength: f64,
-    generations: u32,
-    end: ManifoldEnd,
-});
-
-impl ManifoldBranch {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        not_negative("arclength of a branch", self.arclength)?;
-        let shortest = self.pieces.iter().map(|piece| piece.states.len()).min();
-        within("impacts of a piece", shortest.unwrap_or(1) as f64, 1.0, f64::MAX, "one at least")?;
-        Ok(())
-    }
-}
-
 /// A manifold of a saddle.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedManifold"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Manifold {
     /// Which one.
     pub kind: ManifoldKind,
@@ -218,18 +196,7 @@ pub struct Manifold {
     pub branches: Vec<ManifoldBranch>,
 }
 
-read_checked!(Manifold as UncheckedManifold {
-    kind: ManifoldKind,
-    multiplier: f64,
-    branches: Vec<ManifoldBranch>,
-});
-
 impl Manifold {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        finite("multiplier of a manifold", self.multiplier).map(|_| ())
-    }
-
     /// The pieces of all branches.
     pub fn pieces(&self) -> impl Iterator<Item = &ManifoldPiece> {
         self.branches.iter().flat_map(|branch| &branch.pieces)

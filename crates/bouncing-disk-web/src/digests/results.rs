@@ -3,8 +3,8 @@
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, CrisisSearch, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit,
-    LyapunovOutcome, ManifoldKind, ManifoldSettings, Multipliers, OrbitSearch, PeriodicOrbit, Verdict,
-    VerdictSettings, Vibration, lyapunov_spectra, orbit_diagram, verdicts,
+    LyapunovOutcome, ManifoldKind, ManifoldSettings, OrbitSearch, Unobserved, Verdict, VerdictSettings,
+    Vibration, lyapunov_spectra, orbit_diagram, verdicts,
 };
 use bouncing_disk::{
     Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
@@ -149,19 +149,11 @@ fn manifolds() -> Result<Digest, Error> {
 }
 
 fn crisis() -> Result<Digest, Error> {
-    let map = ImpactMap::new(Vibration::from_axial_forcing(0.56)?, 0.5)?;
     let mut digest = Digest::new();
-    let orbits = map.periodic_orbits(&OrbitSearch::new(3, 3)?)?.orbits;
-    let is_saddle = |orbit: &&PeriodicOrbit| {
-        let positive =
-            matches!(orbit.multipliers(), Multipliers::Real(one, other) if one > 0.0 && other > 0.0);
-        positive && orbit.period() == 3 && orbit.platform_periods == 3
-    };
-    let Some(saddle) = orbits.iter().find(is_saddle) else { return Ok(digest) };
-    let Ok(crisis) = CrisisSearch::new(0.5, (0.559, 0.562))?.crisis(saddle, saddle)? else {
-        return Ok(digest);
-    };
-    for number in [crisis.forcing, crisis.forcing_error, crisis.share, crisis.curvature] {
+    let search = CrisisSearch::new(0.5, (0.559, 0.562))?.with_samples(64, 400_000)?;
+    let Ok(crisis) = search.crisis(None, &Unobserved)? else { return Ok(digest) };
+    let Ok(tangency) = &crisis.tangency else { return Ok(digest) };
+    for number in [crisis.forcing, crisis.forcing_error, tangency.share, tangency.curvature] {
         digest.number(number);
     }
     for life in crisis.lives(&[1e-4, 1e-3], 50, 20_000)?.lives {

@@ -1,8 +1,8 @@
 //! The computation of the figure.
 
 use bouncing_disk::core::{
-    ChatterPolicy, CrisisSearch, Error, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings,
-    PeriodicOrbit, Vibration, orbit_diagram,
+    ChatterPolicy, CrisisSearch, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings, NoCrisis,
+    NoTangency, PeriodicOrbit, Unobserved, Vibration, orbit_diagram,
 };
 
 use super::data::{ExtraCrisisData, Spot};
@@ -13,8 +13,6 @@ use crate::progress::Progress;
 
 /// Γ between which the crisis is sought.
 const RANGE: (f64, f64) = (0.5595, 0.5615);
-/// The saddle at its edge, roughly: phase in periods and normalised speed of its impacts.
-const SADDLE: [(f64, f64); 3] = [(0.120_64, 1.498_95), (0.252_71, 1.097_92), (0.954_82, 1.403_15)];
 /// The largest distance in Γ at which lives are counted; each next one is half of it.
 const FARTHEST: f64 = 1.0e-3;
 
@@ -23,24 +21,29 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
     progress.start(4, "parts");
     let model = ExperimentError::model;
     let search = CrisisSearch::new(restitution, RANGE).map_err(model)?;
-    let below = map(0.5 * (RANGE.0 + RANGE.1), restitution)?;
-    let saddle = below.refine(&guess().map_err(model)?).map_err(model)?;
     let none = || ExperimentError::NoData { quantity: "a crisis".to_owned() };
-    let crisis = search.crisis(&saddle, &saddle).map_err(model)?.map_err(|_| none())?;
+    let crisis = search.crisis(None, &Unobserved).map_err(model)?.map_err(|_| none())?;
+    let tangency = crisis.tangency.clone().map_err(|_| none())?;
+    let below = map(0.5 * (RANGE.0 + RANGE.1), restitution)?;
     let node = below.period_one(1).ok_or_else(none)?;
     let node = below.refine(&[node]).map_err(model)?;
-    let midst = search.crisis(&node, &saddle).map_err(model)?.map_err(|_| none())?;
+    let midst = search.crisis(Some((&node, &tangency.touched)), &Unobserved).map_err(model)?;
+    let midst_forcing = match midst {
+        Ok(midst) => midst.forcing,
+        Err(NoCrisis::OtherReason { reason: NoTangency::Elsewhere { forcing }, .. }) => forcing,
+        Err(_) => return Err(none()),
+    };
     progress.advance(1);
     let at = map(crisis.forcing, restitution)?;
     let recorded = quality.choose(4_000, 40_000);
-    let middle = crisis.orbit.len() / 2;
-    let start = *crisis.orbit.get(middle).ok_or_else(none)?;
+    let middle = tangency.orbit.len() / 2;
+    let start = *tangency.orbit.get(middle).ok_or_else(none)?;
     let attractor =
         orbit_diagram(&[at.orbit(start, ChatterPolicy::Complete)], 200, recorded).map_err(model)?;
     progress.advance(1);
     let grown = |kind: ManifoldKind, arclength: f64| {
         let settings = ManifoldSettings::new(arclength, 100_000)?.with_resolution(0.03, 0.1)?;
-        at.manifold(&crisis.touched, kind, &settings)
+        at.manifold(&tangency.touched, kind, &settings)
     };
     let (stable, unstable) = quality.choose((30.0, 6.0), (120.0, 16.0));
     let stable = lines(&grown(ManifoldKind::Stable, stable).map_err(model)?, spot);
@@ -54,17 +57,18 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
     let lives = crisis.lives(&beyond, orbits, most_impacts).map_err(model)?;
     progress.advance(1);
     Ok(ExtraCrisisData {
-        midst_forcing: midst.forcing,
+        midst_forcing,
         attractor: attractor.iter().flatten().map(|state| spot(*state)).collect(),
         stable,
         unstable,
-        saddle: crisis.touched.states.iter().map(|state| spot(*state)).collect(),
-        tangency: crisis.orbit.iter().map(|state| spot(*state)).collect(),
-        magnified: magnified(&crisis.orbit, &crisis.touched).ok_or_else(none)?,
+        saddle: tangency.touched.states.iter().map(|state| spot(*state)).collect(),
+        tangency: tangency.orbit.iter().map(|state| spot(*state)).collect(),
+        magnified: magnified(&tangency.orbit, &tangency.touched).ok_or_else(none)?,
         lives,
         orbits,
         most_impacts,
         expected_exponent: crisis.life_exponent(),
+        tangency,
         crisis,
     })
 }
@@ -72,13 +76,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
 fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
     ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
-}
-
-fn guess() -> Result<Vec<ImpactState>, Error> {
-    SADDLE
-        .iter()
-        .map(|&(cycles, speed)| ImpactState::from_normalised(cycles * std::f64::consts::TAU, speed))
-        .collect()
 }
 
 fn spot(state: ImpactState) -> Spot {

@@ -1,6 +1,6 @@
 //! The data of the figure.
 
-use bouncing_disk::core::{Crisis, CrisisLives};
+use bouncing_disk::core::{Crisis, CrisisLives, Tangency};
 use serde::{Deserialize, Serialize};
 
 /// An impact: phase in periods, in [-1/2, 1/2), and normalised speed |w_A Γ/(ωA)|.
@@ -9,8 +9,9 @@ pub(super) type Spot = (f64, f64);
 /// The data of the crisis.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct ExtraCrisisData {
-    /// The tangency.
     pub(super) crisis: Crisis,
+    /// The tangency that is its reason.
+    pub(super) tangency: Tangency,
     /// Γ at which the unstable manifold of the period-1 orbit, in the midst of the attractor, touches the same
     /// stable manifold.
     pub(super) midst_forcing: f64,
@@ -45,15 +46,15 @@ impl ExtraCrisisData {
         let expected =
             self.expected_exponent.map_or_else(String::new, |exponent| format!("; dashed, {:.3}", -exponent));
         format!(
-            "The crisis of the attractor of Fig. 6 at restitution {}: at Γ = {:.10} the unstable manifold (red) of a saddle of {} impacts in {} \
+            "The crisis of the attractor of Fig. 6 at restitution {}: at Γ = {:.7} the unstable manifold (red) of a saddle of {} impacts in {} \
              periods of the platform (circles) touches its own stable manifold (blue). (a) The attractor (dots) and the \
              stable manifold; crosses: the orbit of tangency. (b) The same next to one of its impacts, magnified. (c) Mean life in \
              impacts over the distance of Γ from the crisis: {} orbits each that start on the attractor, standard errors; {law}{expected}, what \
              the multipliers of the saddle tell.",
             self.crisis.restitution,
             self.crisis.forcing,
-            self.crisis.touched.period(),
-            self.crisis.touched.platform_periods,
+            self.tangency.touched.period(),
+            self.tangency.touched.platform_periods,
             self.orbits,
         )
     }
@@ -61,8 +62,8 @@ impl ExtraCrisisData {
     pub(super) fn parameters(&self) -> Vec<(String, String)> {
         [
             ("restitution", self.crisis.restitution.to_string()),
-            ("Γ of the crisis", format!("{:.13} ± {:.0e}", self.crisis.forcing, self.crisis.forcing_error)),
-            ("multipliers of the saddle", format!("{:.4}", self.crisis.touched.multipliers())),
+            ("Γ of the crisis", format!("{:.7} ± {:.0e}", self.crisis.forcing, self.crisis.forcing_error)),
+            ("multipliers of the saddle", format!("{:.4}", self.tangency.touched.multipliers())),
             ("orbits at each Γ", self.orbits.to_string()),
             ("impacts of an orbit at most", self.most_impacts.to_string()),
         ]

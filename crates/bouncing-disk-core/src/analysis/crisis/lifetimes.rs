@@ -1,22 +1,19 @@
 //! How long orbits live beyond a crisis, and the power law of their mean life.
 
-use super::{Crisis, CrisisSearch};
+use super::Crisis;
 use crate::analysis::sweep::survival_times_observed;
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, not_negative, within};
-use crate::map::impact_map::ImpactState;
+use crate::error::{Error, within};
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
 use crate::observer::{Observer, Unobserved};
-use crate::read_checked;
+use crate::platform::vibration::Vibration;
 
 /// Impacts of the orbit on the attractor from one start to the next.
-const BETWEEN_STARTS: u64 = 37;
+const BETWEEN_STARTS: usize = 37;
 
 /// Impacts of that orbit before the first start.
-const TRANSIENT: u64 = 2_000;
-
-/// How far below the crisis (relative to Gamma) the starts lie on the attractor.
-const BELOW: f64 = 1.0e-9;
+const TRANSIENT: usize = 2_000;
 
 /// Fewest orbits that came to rest for a mean life to count in the power law.
 const FEWEST_ENDED: u64 = 20;
@@ -24,7 +21,6 @@ const FEWEST_ENDED: u64 = 20;
 /// Beyond a crisis: how long orbits live that start where the attractor was.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedLife"))]
 pub struct MeanLife {
     /// Gamma less that of the crisis, above 0.
     pub beyond: f64,
@@ -39,21 +35,21 @@ pub struct MeanLife {
     pub orbits: u64,
 }
 
-read_checked!(MeanLife as UncheckedLife {
-    beyond: f64,
-    impacts: f64,
-    relative_error: f64,
-    ended: u64,
-    orbits: u64,
-});
-
 impl MeanLife {
-    fn check(&self) -> Result<(), Error> {
-        within("distance from a crisis", self.beyond, f64::MIN_POSITIVE, f64::MAX, "(0, inf)")?;
-        not_negative("mean life", self.impacts)?;
-        not_negative("relative error of a mean life", self.relative_error)?;
-        within("orbits that ended", self.ended as f64, 0.0, self.orbits as f64, "at most all")?;
-        Ok(())
+    /// That of orbits with these lives, of which those of `most` impacts have not ended.
+    pub(super) fn of(lives: impl Iterator<Item = usize>, most: usize, beyond: f64) -> Self {
+        let (mut orbits, mut ended, mut total) = (0, 0, 0.0);
+        for life in lives {
+            orbits += 1;
+            ended += u64::from(life < most);
+            total += life as f64;
+        }
+        let (impacts, relative_error) = if ended > 0 {
+            (total / ended as f64, 1.0 / (ended as f64).sqrt())
+        } else {
+            (f64::MAX, f64::MAX)
+        };
+        Self { beyond, impacts, relative_error, ended, orbits }
     }
 }
 
@@ -76,7 +72,7 @@ impl Crisis {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number out of its range; [`Error::NotSettled`] if the disk comes to rest
-    /// below the crisis: the saddle is not on an attractor; those of
+    /// below the crisis; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn lives(&self, beyond: &[f64], orbits: usize, impacts: usize) -> Result<CrisisLives, Error> {
         self.lives_observed(beyond, orbits, impacts, &Unobserved)
@@ -95,24 +91,16 @@ impl Crisis {
     ) -> Result<CrisisLives, Error> {
         within("orbits beyond a crisis", orbits as f64, 1.0, 1.0e6, "[1, 1000000]")?;
         within("impacts beyond a crisis", impacts as f64, 1.0, f64::MAX, "1 at least")?;
-        let search = CrisisSearch::new(self.restitution, (0.0, self.forcing))?;
-        let search = CrisisSearch { side: self.side, ..search };
-        let starts = self.starts(&search, orbits as u64, observer)?;
+        let map = |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution);
+        let starts = self.starts(&map(self.bracket.0)?, orbits, observer)?;
         let mut lives = Vec::with_capacity(beyond.len());
         for &beyond in beyond {
             within("distance from a crisis", beyond, f64::MIN_POSITIVE, f64::MAX, "(0, inf)")?;
-            let map = search.map(self.forcing + beyond)?;
+            let map = map(self.forcing + beyond)?;
             let batch: Vec<_> =
                 starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
             let lived = survival_times_observed(&batch, impacts, observer)?;
-            let ended = lived.iter().filter(|own| **own < impacts).count() as u64;
-            let total = lived.iter().fold(0.0, |sum, own| sum + *own as f64);
-            let (mean, relative_error) = if ended > 0 {
-                (total / ended as f64, 1.0 / (ended as f64).sqrt())
-            } else {
-                (f64::MAX, f64::MAX)
-            };
-            lives.push(MeanLife { beyond, impacts: mean, relative_error, ended, orbits: orbits as u64 });
+            lives.push(MeanLife::of(lived.into_iter(), impacts, beyond));
         }
         let points: Vec<_> = lives
             .iter()
@@ -130,25 +118,16 @@ impl Crisis {
     /// States on the attractor just below the crisis.
     fn starts(
         &self,
-        search: &CrisisSearch,
-        count: u64,
+        map: &ImpactMap,
+        count: usize,
         observer: &dyn Observer,
     ) -> Result<Vec<ImpactState>, Error> {
-        let map = search.map(self.forcing * (1.0 - BELOW))?;
-        let inside = map.refine(&self.inside.states)?;
-        let piece = search.first_piece(&map, &inside)?;
-        let none = Error::NotSettled {
-            what: "an orbit on the attractor below a crisis",
-            iterations: 0,
-            residual: 0.0,
-        };
-        let Some((mut state, _)) = piece.first_piece(0.5)? else { return Err(none) };
-        let mut starts = Vec::with_capacity(count as usize);
-        let mut between = TRANSIENT;
-        while (starts.len() as u64) < count {
-            let next =
-                map.state_after_observed(state, between as usize, ChatterPolicy::Complete, observer)?;
-            state = next.ok_or(none)?;
+        let (mut state, mut between) = (self.attractor, TRANSIENT);
+        let mut starts = Vec::with_capacity(count);
+        while starts.len() < count {
+            let next = map.state_after_observed(state, between, ChatterPolicy::Complete, observer)?;
+            let what = "an orbit on the attractor below a crisis";
+            state = next.ok_or(Error::NotSettled { what, iterations: 0, residual: 0.0 })?;
             starts.push(state);
             between = BETWEEN_STARTS;
         }

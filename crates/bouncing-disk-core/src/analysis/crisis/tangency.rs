@@ -2,18 +2,32 @@
 
 use glam::DVec2;
 
-use super::CrisisSearch;
+use super::{CrisisSearch, NoTangency, Tangency};
+use crate::analysis::manifold::grower::Grower;
 use crate::analysis::manifold::saddle::Saddle;
+use crate::analysis::manifold::{ManifoldKind, ManifoldSettings, Side};
 use crate::analysis::periodic::{PeriodicOrbit, phase_difference};
+use crate::analysis::sweep::survival_times;
+use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::observer::WorkCount;
+use crate::observer::{Watch, WorkCount};
+
+/// Samples of the first piece among which folds are looked for.
+const SAMPLES: u32 = 2_048;
 
 /// The most flights from the first piece to a fold that is looked for.
 const MOST_FLIGHTS: u32 = 80;
 
 /// The most folds that are followed to their tangency.
-const MOST_TIPS: usize = 6;
+const MOST_TIPS: usize = 24;
+
+/// Orbits from the first piece that are followed to see whether they rest, and the impacts that takes.
+const PROBES: u32 = 128;
+const LOST: u32 = 400;
+
+/// How far from a tangency orbits about it are followed, over the bracket.
+const ASIDE: f64 = 1.0 / 64.0;
 
 /// The farthest that neighbouring samples may be apart at a fold (in the units of manifolds).
 const STEP: f64 = 0.2;
@@ -39,6 +53,9 @@ const MAX_HALVINGS: u32 = 30;
 /// How many rounds along the second saddle are tried after the first.
 const MAX_ROUNDS: u32 = 12;
 
+/// Rounds after which a tangency that is not next to the bracket is not sought any longer.
+const ROUNDS_ASTRAY: u32 = 2;
+
 /// The distance from the second saddle (in the units of manifolds) at which its stable manifold is straight
 /// within the rounding: the square of it is left.
 const STRAIGHT: f64 = 1.0e-7;
@@ -46,34 +63,84 @@ const STRAIGHT: f64 = 1.0e-7;
 /// The farthest that a point may be from the second saddle for its coordinates to mean anything.
 const NEAR: f64 = 0.5;
 
-/// What is sought.
-pub(super) struct Tangency<'s> {
-    pub(super) search: &'s CrisisSearch,
-    pub(super) inside: &'s [ImpactState],
-    pub(super) touched: &'s [ImpactState],
+/// The saddles of a tangency: one whose unstable manifold touches, and one whose stable manifold is touched.
+#[derive(Debug, Clone)]
+pub(super) struct Pair {
+    pub(super) inside: PeriodicOrbit,
+    pub(super) touched: PeriodicOrbit,
 }
 
-/// What was found.
+/// A tangency and where it is.
 pub(super) struct Solution {
     pub(super) forcing: f64,
     pub(super) error: f64,
-    pub(super) inside: PeriodicOrbit,
-    pub(super) touched: PeriodicOrbit,
-    pub(super) orbit: Vec<ImpactState>,
-    pub(super) share: f64,
-    pub(super) curvature: f64,
+    pub(super) tangency: Tangency,
 }
 
-/// Why nothing was.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Failure {
-    NoFold { nearest: f64 },
-    NotSettled { forcing: f64, change: f64 },
+/// The tangency of least Gamma within the bracket beyond which orbits come to rest, of any of these pairs of
+/// orbits at its upper end.
+pub(super) fn tangencies(
+    search: &CrisisSearch,
+    pairs: &[Pair],
+    bracket: (f64, f64),
+    watch: &Watch<'_>,
+) -> Result<Result<Solution, NoTangency>, Error> {
+    let mut work = watch.work();
+    let off = |forcing: f64| (bracket.0 - forcing).max(forcing - bracket.1).max(0.0);
+    let mut failure = NoTangency::NoFold;
+    let mut within: Vec<(Solution, Sought<'_>, u32)> = Vec::new();
+    for pair in pairs {
+        for side in [Side::Later, Side::Earlier] {
+            let sought = Sought { search, pair, side, bracket };
+            if !sought.lives()? {
+                continue;
+            }
+            for tip in sought.setting(bracket.1, 0)?.tips(&mut work)? {
+                let other = match sought.solved(&tip, bracket.1)? {
+                    Ok((solution, flights)) if off(solution.forcing) <= solution.error => {
+                        within.push((solution, sought, flights));
+                        continue;
+                    }
+                    Ok((Solution { forcing, .. }, _)) => NoTangency::Elsewhere { forcing },
+                    Err(other) => other,
+                };
+                // Of those elsewhere the nearest.
+                failure = match (other, failure) {
+                    (NoTangency::Elsewhere { forcing: new }, NoTangency::Elsewhere { forcing })
+                        if off(new) >= off(forcing) =>
+                    {
+                        failure
+                    }
+                    (NoTangency::Elsewhere { .. }, _) => other,
+                    (_, NoTangency::Elsewhere { .. }) => failure,
+                    _ => other,
+                };
+                work.spend(u64::from(PARTS * tip.flights) * 32)?;
+            }
+        }
+    }
+    within.sort_by(|a, b| a.0.forcing.total_cmp(&b.0.forcing));
+    for (solution, sought, flights) in within {
+        if sought.loses(&solution, flights)? {
+            return Ok(Ok(solution));
+        }
+        failure = NoTangency::Elsewhere { forcing: solution.forcing };
+    }
+    Ok(Err(failure))
+}
+
+/// What is sought.
+#[derive(Clone, Copy)]
+struct Sought<'s> {
+    search: &'s CrisisSearch,
+    pair: &'s Pair,
+    side: Side,
+    bracket: (f64, f64),
 }
 
 /// Everything at one Gamma.
-struct Setting<'s> {
-    search: &'s CrisisSearch,
+struct Setting {
+    side: Side,
     map: ImpactMap,
     inside: PeriodicOrbit,
     touched: PeriodicOrbit,
@@ -131,40 +198,45 @@ fn seen(saddle: &Saddle, state: ImpactState, along: DVec2) -> Option<Spot> {
     near.then(|| Spot { at: saddle.coordinates(off), along: saddle.coordinates(along) })
 }
 
-impl Setting<'_> {
+impl Setting {
+    /// The first piece of the unstable manifold.
+    fn first_piece(&self) -> Result<Grower<'_>, Error> {
+        let saddle = Saddle::of(&self.map, &self.inside, 0)?;
+        let settings = ManifoldSettings::new(1.0, 16)?;
+        Grower::new(&self.map, &saddle, ManifoldKind::Unstable, self.side, &settings)
+    }
+
     /// The folds of the unstable manifold that lie next to the stable one, those of the fewest flights first,
-    /// each once; and how near the nearest of all is to the stable direction.
-    fn tips(&self, work: &mut WorkCount<'_>) -> Result<(Vec<Tip>, f64), Error> {
+    /// each once.
+    fn tips(&self, work: &mut WorkCount<'_>) -> Result<Vec<Tip>, Error> {
         let saddles: Vec<_> = (0..self.touched.period())
             .map(|impact| Saddle::of(&self.map, &self.touched, impact))
             .collect::<Result<_, _>>()?;
-        let piece = self.search.first_piece(&self.map, &self.inside)?;
-        let most = self.search.impacts.min(MOST_FLIGHTS);
-        let width = 1.0 / f64::from(self.search.samples);
-        let nowhere = || vec![None; most as usize * saddles.len()];
-        let (mut tips, mut nearest, mut last) = (Vec::new(), f64::MAX, nowhere());
-        for sample in 0..=self.search.samples {
+        let piece = self.first_piece()?;
+        let width = 1.0 / f64::from(SAMPLES);
+        let nowhere = || vec![None; MOST_FLIGHTS as usize * saddles.len()];
+        let (mut tips, mut last) = (Vec::new(), nowhere());
+        for sample in 0..=SAMPLES {
             let mut spots: Vec<Option<Spot>> = nowhere();
             if let Some((mut state, mut along)) = piece.first_piece(width * f64::from(sample))? {
-                for flights in 0..most {
+                for flights in 0..MOST_FLIGHTS {
                     if self.map.chatters_to_rest(self.map.rebound(state)) {
                         break;
                     }
                     for (impact, saddle) in saddles.iter().enumerate() {
                         spots[flights as usize * saddles.len() + impact] = seen(saddle, state, along);
                     }
-                    let (next, derivative) = self.map.step_with_derivative(state)?;
+                    let Ok((next, derivative)) = self.map.step_with_derivative(state) else { break };
                     (state, along) = (next.into(), derivative * along);
                 }
             }
-            work.spend(u64::from(most))?;
+            work.spend(u64::from(MOST_FLIGHTS))?;
             for (index, pair) in last.iter().zip(&spots).enumerate() {
                 let (Some(before), Some(spot)) = pair else { continue };
                 let turns = (before.along.x < 0.0) != (spot.along.x < 0.0);
                 if !turns || (spot.at - before.at).length() > STEP {
                     continue;
                 }
-                nearest = nearest.min(spot.at.x.abs());
                 if spot.at.x.abs() <= TOUCHES {
                     let share = width * f64::from(sample);
                     let window = ((share - 3.0 * width).max(0.0), (share + 2.0 * width).min(1.0));
@@ -183,12 +255,24 @@ impl Setting<'_> {
                 distinct.push(tip);
             }
         }
-        Ok((distinct, nearest))
+        Ok(distinct)
+    }
+
+    /// How many orbits from shares of the first piece come to rest within so many impacts.
+    fn rests(&self, shares: impl Iterator<Item = f64>, most: u32) -> Result<usize, Error> {
+        let piece = self.first_piece()?;
+        let mut orbits = Vec::new();
+        for share in shares {
+            let start = piece.first_piece(share)?;
+            orbits.extend(start.map(|(state, _)| self.map.orbit(state, ChatterPolicy::Complete)));
+        }
+        let lives = survival_times(&orbits, most as usize)?;
+        Ok(lives.into_iter().filter(|life| *life < most as usize).count())
     }
 
     /// Where a share of the first piece is after so many flights; `None` if it is not next to the saddle.
     fn spot(&self, share: f64, flights: u32) -> Result<Option<Spot>, Error> {
-        let piece = self.search.first_piece(&self.map, &self.inside)?;
+        let piece = self.first_piece()?;
         let Some((mut state, mut along)) = piece.first_piece(share)? else { return Ok(None) };
         for _ in 0..flights {
             let (next, derivative) = match self.map.step_with_derivative(state) {
@@ -240,7 +324,7 @@ impl Setting<'_> {
 
     /// The impacts of the orbit from a share of the first piece.
     fn orbit(&self, share: f64, flights: u32) -> Result<Vec<ImpactState>, Error> {
-        let piece = self.search.first_piece(&self.map, &self.inside)?;
+        let piece = self.first_piece()?;
         let mut orbit = Vec::new();
         if let Some((mut state, _)) = piece.first_piece(share)? {
             orbit.push(state);
@@ -253,64 +337,57 @@ impl Setting<'_> {
     }
 }
 
-impl Tangency<'_> {
-    /// The fold that comes first to lie on the stable manifold, of those that lie next to it at `start`.
-    pub(super) fn first(
-        &self,
-        start: f64,
-        work: &mut WorkCount<'_>,
-    ) -> Result<Result<Solution, Failure>, Error> {
-        let (tips, nearest) = self.setting(start)?.tips(work)?;
-        let mut failure = Failure::NoFold { nearest };
-        let mut first: Option<Solution> = None;
-        for tip in tips {
-            match self.solved(&tip, start)? {
-                Ok(found) if first.as_ref().is_none_or(|first| found.forcing < first.forcing) => {
-                    first = Some(found);
-                }
-                Ok(_) => {}
-                Err(other) => failure = other,
-            }
-            work.spend(u64::from(PARTS * tip.flights) * 32)?;
-        }
-        Ok(first.ok_or(failure))
+impl Sought<'_> {
+    /// Whether the unstable manifold leads to the attractor: no orbit from these shares of its first piece rests
+    /// at the lower end of the bracket.
+    fn lives(&self) -> Result<bool, Error> {
+        let shares = (0..PROBES).map(|probe| f64::from(probe) / f64::from(PROBES));
+        Ok(self.setting(self.bracket.0, 0)?.rests(shares, LOST)? == 0)
     }
 
-    fn setting(&self, forcing: f64) -> Result<Setting<'_>, Error> {
-        self.setting_at(forcing, 0)
+    /// Whether orbits from about the tangency rest beyond it, and not before: what it opens is no way from one
+    /// part of the attractor to another.
+    fn loses(&self, solution: &Solution, flights: u32) -> Result<bool, Error> {
+        let (low, high) = self.bracket;
+        let aside = ASIDE * (high - low);
+        let Tangency { share, curvature, .. } = solution.tangency;
+        let half = (2.0 * aside / curvature.abs()).sqrt();
+        let shares = |probe| share + half * (f64::from(2 * probe + 1) / f64::from(PROBES) - 1.0);
+        let shares = (0..PROBES).map(shares).filter(|share| (0.0..=1.0).contains(share));
+        let rests = |forcing| self.setting(forcing, 0)?.rests(shares.clone(), flights + LOST);
+        Ok(rests(solution.forcing + aside)? > 0 && rests(solution.forcing - aside)? == 0)
     }
 
-    /// The same with the coordinates of this impact of the second saddle.
-    fn setting_at(&self, forcing: f64, impact: usize) -> Result<Setting<'_>, Error> {
+    /// Everything at a forcing, with the coordinates of this impact of the second saddle.
+    fn setting(&self, forcing: f64, impact: usize) -> Result<Setting, Error> {
         let map = self.search.map(forcing)?;
-        let inside = map.refine(self.inside)?;
-        let touched = map.refine(self.touched)?;
+        let inside = map.refine(&self.pair.inside.states)?;
+        let touched = map.refine(&self.pair.touched.states)?;
         let saddle = Saddle::of(&map, &touched, impact)?;
-        Ok(Setting { search: self.search, map, inside, touched, saddle })
+        Ok(Setting { side: self.side, map, inside, touched, saddle })
     }
 
     /// How far the fold is from the straight stable manifold, at one Gamma.
-    fn distance(&self, forcing: f64, tip: &Tip) -> Result<Option<Fold>, Error> {
-        self.setting_at(forcing, tip.impact)?.fold(tip.window, tip.flights)
+    /// `None` where it is lost, or one of the saddles.
+    fn distance(&self, forcing: f64, tip: &Tip) -> Option<Fold> {
+        self.setting(forcing, tip.impact).and_then(|own| own.fold(tip.window, tip.flights)).ok().flatten()
     }
 
     /// The Gamma at which the fold lies on the stable direction after so many flights, and the rate of the
     /// distance with Gamma.
-    fn crossing(&self, start: f64, step: f64, tip: &Tip) -> Result<Result<Crossing, Failure>, Error> {
+    fn crossing(&self, start: f64, step: f64, tip: &Tip) -> Result<Crossing, NoTangency> {
         let mut tip = *tip;
-        let Some(mut fold) = self.distance(start, &tip)? else {
-            return Ok(Err(Failure::NoFold { nearest: f64::MAX }));
-        };
+        let Some(mut fold) = self.distance(start, &tip) else { return Err(NoTangency::NoFold) };
         let (mut last, mut forcing, mut change) = (start, start + step, step);
         let mut shortened = 0;
         for _ in 0..MAX_STEPS {
             // The fold moves along the first piece.
             tip = tip.around(fold.share);
-            let Some(next) = self.distance(forcing, &tip)? else {
+            let Some(next) = self.distance(forcing, &tip) else {
                 // So far that it is lost: a shorter step.
                 shortened += 1;
                 if shortened > MAX_HALVINGS {
-                    return Ok(Err(Failure::NotSettled { forcing, change }));
+                    return Err(NoTangency::NotSettled { forcing, change });
                 }
                 change *= 0.5;
                 forcing = last + change;
@@ -325,36 +402,40 @@ impl Tangency<'_> {
             forcing += change;
             // Within the rounding the secant has no direction.
             if change.abs() <= 2.0 * f64::EPSILON * forcing {
-                return Ok(Ok(Crossing { forcing, rate, fold }));
+                return Ok(Crossing { forcing, rate, fold });
             }
         }
-        Ok(Err(Failure::NotSettled { forcing, change }))
+        Err(NoTangency::NotSettled { forcing, change })
     }
 
     /// The tangency from near `start`, where the orbit passes the saddle after so many flights: round by
     /// round along the saddle, until its stable manifold is straight.
-    fn solved(&self, tip: &Tip, start: f64) -> Result<Result<Solution, Failure>, Error> {
+    fn solved(&self, tip: &Tip, start: f64) -> Result<Result<(Solution, u32), NoTangency>, Error> {
         let (mut forcing, mut tip, mut change) = (start, *tip, f64::INFINITY);
         let mut step = 1.0e-8 * start;
-        for _ in 0..MAX_ROUNDS {
-            let Crossing { forcing: next, rate, fold } = match self.crossing(forcing, step, &tip)? {
+        for round in 0..MAX_ROUNDS {
+            let Crossing { forcing: next, rate, fold } = match self.crossing(forcing, step, &tip) {
                 Ok(found) => found,
                 Err(failure) => return Ok(Err(failure)),
             };
             change = next - forcing;
             forcing = next;
             tip = tip.around(fold.share);
+            let (low, high) = self.bracket;
+            if round >= ROUNDS_ASTRAY && (forcing < 2.0 * low - high || forcing > 2.0 * high - low) {
+                return Ok(Err(NoTangency::Elsewhere { forcing }));
+            }
             if fold.spot.at.length() <= STRAIGHT {
-                return self.solution(forcing, &tip, change, rate, fold).map(Ok);
+                return Ok(Ok((self.solution(forcing, &tip, change, rate, fold)?, tip.flights)));
             }
             // So far that the fold stays next to the saddle after one round more.
-            let round = self.setting(forcing)?;
-            tip.flights += round.saddle.flights as u32;
+            let next = self.setting(forcing, tip.impact)?;
+            tip.flights += next.saddle.flights as u32;
             step = (change.abs() * 1.0e-3)
                 .max(1.0e-13 * forcing)
-                .min(1.0e-4 / (rate * round.saddle.unstable).abs());
+                .min(1.0e-4 / (rate * next.saddle.unstable).abs());
         }
-        Ok(Err(Failure::NotSettled { forcing, change }))
+        Ok(Err(NoTangency::NotSettled { forcing, change }))
     }
 
     fn solution(
@@ -366,7 +447,7 @@ impl Tangency<'_> {
         fold: Fold,
     ) -> Result<Solution, Error> {
         let flights = tip.flights;
-        let setting = self.setting_at(forcing, tip.impact)?;
+        let setting = self.setting(forcing, tip.impact)?;
         // The slope is a derivative: its difference is the second one.
         let aside = 1.0e-4 * (tip.window.1 - tip.window.0);
         let slope = |share: f64| setting.spot(share, flights).map(|spot| spot.map(|spot| spot.along.x));
@@ -376,15 +457,8 @@ impl Tangency<'_> {
         };
         let orbit = setting.orbit(fold.share, flights)?;
         let rounding = 8.0 * f64::EPSILON * (1.0 + forcing);
-        let Setting { inside, touched, .. } = setting;
-        Ok(Solution {
-            forcing,
-            error: change.abs() + rounding,
-            inside,
-            touched,
-            orbit,
-            share: fold.share,
-            curvature,
-        })
+        let Setting { inside, touched, side, .. } = setting;
+        let tangency = Tangency { inside, touched, orbit, share: fold.share, side, curvature };
+        Ok(Solution { forcing, error: change.abs() + rounding, tangency })
     }
 }

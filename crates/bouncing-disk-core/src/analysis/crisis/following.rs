@@ -1,0 +1,371 @@
+//! Where orbits on an attractor begin to come to rest, by following them.
+
+use core::ops::ControlFlow;
+
+use super::lifetimes::MeanLife;
+use super::{CrisisSearch, NoCrisis};
+use crate::analysis::lyapunov::lyapunov_exponents;
+use crate::analysis::manifold::saddle::Saddle;
+use crate::analysis::manifold::{ManifoldKind, ManifoldSettings, Side, grower::Grower};
+use crate::analysis::periodic::{PeriodicOrbit, phase_difference};
+use crate::analysis::sweep::{SweepEvent, SweepRun};
+use crate::chatter::policy::ChatterPolicy;
+use crate::error::Error;
+use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::elementary::{exp, ln, sin_cos};
+use crate::numerics::random::SplitMix64;
+use crate::observer::{Progress, Watch};
+use crate::platform::vibration::Vibration;
+
+/// How far beyond its birth (relative to Gamma) the period-1 orbit is followed from at the earliest.
+const AFTER_BIRTH: f64 = 1.0e-3;
+
+/// How far the first orbits are from the periodic one (relative to its velocity).
+const BESIDE: f64 = 1.0e-6;
+
+/// How far orbits are moved from one forcing to the next (relative to the velocity), so that those which have
+/// become one part again.
+const SHAKE: f64 = 1.0e-10;
+
+/// The longest step in Gamma over the range.
+const LONGEST_STEP: f64 = 1.0 / 64.0;
+
+/// The narrowest bracket, relative to Gamma: [`SHAKE`] must not carry orbits over it.
+const NARROWEST: f64 = 1.0e-9;
+
+/// The mean life over all impacts at which the upper end of the bracket is as near as they can tell, and how often
+/// the bracket is halved from then on.
+const TOLD: f64 = 1.0 / 16.0;
+const MORE_HALVINGS: u32 = 5;
+
+/// The fewest orbits that rest at the upper end of the bracket.
+const FEWEST_RESTS: u64 = 8;
+
+/// The fewest impacts of an orbit.
+const FEWEST_IMPACTS: usize = 200;
+
+/// How many forcings that were lived at are kept.
+const KEPT: usize = 24;
+
+/// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral motion,
+/// has an exponent of a few ln n/n: five of these are not chaos.
+const EXPONENT_IMPACTS: usize = 4_000;
+
+/// Distances beyond the bracket, in its widths, at which lives are compared.
+const FAR: f64 = 64.0;
+
+/// How far lives oscillate about their power law, as a factor.
+const OSCILLATION: f64 = 2.0;
+
+/// The least ratio of lives that a margin is taken from.
+const LEAST_SEEN: f64 = 1.1;
+
+/// The mean number of rests of which none is seen by chance in five of a hundred cases.
+const UNSEEN: f64 = 3.0;
+
+/// The longest move of an impact (rad, and relative speed) in one step along a branch of saddles.
+const LONGEST_MOVE: f64 = 0.2;
+
+/// The shortest step along it, relative to Gamma.
+const SHORTEST_STEP: f64 = 1.0e-6;
+
+/// Orbits at a forcing.
+struct Herd {
+    forcing: f64,
+    states: Vec<ImpactState>,
+}
+
+/// An orbit that comes to rest.
+pub(super) struct Lost {
+    pub(super) forcing: f64,
+    pub(super) start: ImpactState,
+    pub(super) impacts: usize,
+}
+
+/// Where orbits begin to come to rest.
+pub(super) struct End {
+    /// See [`super::Crisis::bracket`].
+    pub(super) bracket: (f64, f64),
+    /// Impacts on the attractor, next to its lower end.
+    pub(super) attractor: Vec<ImpactState>,
+    /// Orbits from there that come to rest at the upper end of the bracket, then those farther beyond.
+    pub(super) lost: Vec<Lost>,
+    /// The mean life there.
+    pub(super) life: f64,
+}
+
+impl CrisisSearch {
+    /// Impacts of each orbit.
+    pub(super) fn each(&self) -> usize {
+        ((self.impacts / u64::from(self.samples)) as usize).max(FEWEST_IMPACTS)
+    }
+
+    /// Where the attractor that `inside` or the period-1 orbit leads to begins to lose orbits.
+    pub(super) fn end_of_attractor(
+        &self,
+        inside: Option<&PeriodicOrbit>,
+        watch: &Watch<'_>,
+    ) -> Result<Result<End, NoCrisis>, Error> {
+        let mut reached = match self.first_herd(inside, watch)? {
+            Ok(herd) => vec![herd],
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let (each, all) = (self.each(), self.each() as f64 * f64::from(self.samples));
+        let longest = LONGEST_STEP * (self.high - reached[0].forcing);
+        let mut step = longest;
+        let (mut shortest_life, mut halvings) = (usize::MAX, MORE_HALVINGS);
+        while let Some(here) = reached.last() {
+            let next = here.forcing + step;
+            let (forcing, most) =
+                if next < self.high { (next, (each / 4).max(FEWEST_IMPACTS)) } else { (self.high, each) };
+            let lived = self.follow(forcing, &shaken(&here.states)?, most, watch)?;
+            let life = life_of(&lived, most, forcing - here.forcing);
+            if life.ended == 0 {
+                if forcing >= self.high {
+                    let (samples, impacts) = (self.samples, all as u64);
+                    return Ok(Err(NoCrisis::NoneRests { forcing, samples, impacts }));
+                }
+                if reached.len() == KEPT {
+                    reached.remove(0);
+                }
+                reached.push(Herd { forcing, states: ends(lived) });
+                step = (2.0 * step).min(longest);
+                continue;
+            }
+            let width = forcing - here.forcing;
+            halvings -= u32::from(halvings > 0 && life.impacts >= TOLD * all);
+            if width > NARROWEST * forcing && halvings > 0 {
+                step = 0.5 * width;
+                continue;
+            }
+            // The lower end with all impacts: so far it had a quarter of them.
+            let lived = self.follow(here.forcing, &here.states, each, watch)?;
+            if lived.iter().all(|own| own.0 == each) {
+                let below = Herd { forcing: here.forcing, states: ends(lived) };
+                return self.end(below, forcing, watch);
+            }
+            shortest_life = lived.iter().fold(shortest_life, |least, own| least.min(own.0));
+            let lost = here.forcing;
+            reached.pop();
+            step = reached.last().map_or(step, |before| 0.5 * (lost - before.forcing));
+        }
+        Ok(Err(NoCrisis::RestsBefore { forcing: self.low, life: shortest_life as u64 }))
+    }
+
+    /// The bracket and what is beyond it, of orbits that live on `below` and come to rest at `forcing`.
+    fn end(&self, below: Herd, forcing: f64, watch: &Watch<'_>) -> Result<Result<End, NoCrisis>, Error> {
+        let map = self.map(below.forcing)?;
+        let starts: Vec<_> = below.states.iter().take(16).map(|&state| (map, state)).collect();
+        let exponents: Vec<_> =
+            lyapunov_exponents(&starts, 0, EXPONENT_IMPACTS)?.into_iter().flatten().collect();
+        let exponent = exponents.iter().sum::<f64>() / exponents.len().max(1) as f64;
+        let impacts = EXPONENT_IMPACTS as f64;
+        if exponent.is_nan() || exponent <= 5.0 * ln(impacts) / impacts {
+            return Ok(Err(NoCrisis::NotChaotic { forcing: below.forcing, exponent }));
+        }
+        let (each, mut width) = (self.each(), forcing - below.forcing);
+        // As far up as rests are not chance.
+        let (near, lived) = loop {
+            let lived = self.follow(below.forcing + width, &below.states, each, watch)?;
+            let near = life_of(&lived, each, width);
+            if near.ended >= FEWEST_RESTS || width > self.high - self.low {
+                break (near, lived);
+            }
+            width *= 4.0;
+        };
+        let forcing = below.forcing + width;
+        let lost_far = self.follow(below.forcing + FAR * width, &below.states, each, watch)?;
+        let far = life_of(&lost_far, each, FAR * width);
+        // The exponent of lives, and its error.
+        let power = ln(near.impacts / far.impacts) / ln(FAR);
+        let error = (1.0 / near.ended.max(1) as f64 + 1.0 / far.ended.max(1) as f64).sqrt() / ln(FAR);
+        if power.is_nan() || power <= 2.0 * error || near.ended < FEWEST_RESTS {
+            let (near, far) = (near.impacts, far.impacts);
+            return Ok(Err(NoCrisis::LivesDoNotShrink { forcing: below.forcing, near, far }));
+        }
+        // If the crisis lay lower by the margin, a rest would have been seen at the lower end.
+        let all = each as f64 * below.states.len() as f64;
+        let margin = [near, far].iter().fold(f64::MAX, |least, life| {
+            let seen = all / (UNSEEN * OSCILLATION * life.impacts * (1.0 + 2.0 * life.relative_error));
+            least.min(life.beyond / (exp(ln(seen.max(LEAST_SEEN)) / (power + 2.0 * error)) - 1.0))
+        });
+        let mut lost = Vec::new();
+        for (forcing, lived) in [(forcing, &lived), (below.forcing + FAR * width, &lost_far)] {
+            let ended = below.states.iter().zip(lived).filter(|(_, own)| own.0 < each);
+            lost.extend(ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }));
+        }
+        let bracket = (below.forcing - margin, forcing);
+        Ok(Ok(End { bracket, lost, attractor: below.states, life: near.impacts }))
+    }
+
+    /// Orbits on the attractor at the lower end of the range, or from where it is born.
+    fn first_herd(
+        &self,
+        inside: Option<&PeriodicOrbit>,
+        watch: &Watch<'_>,
+    ) -> Result<Result<Herd, NoCrisis>, Error> {
+        let birth = (1.0 - self.restitution) / (1.0 + self.restitution);
+        let forcing = if inside.is_some() { self.low } else { self.low.max((1.0 + AFTER_BIRTH) * birth) };
+        if forcing >= self.high {
+            return Ok(Err(NoCrisis::NotBorn { forcing: self.high, birth }));
+        }
+        let map = self.map(forcing)?;
+        let orbit = match (inside, map.period_one(1)) {
+            (Some(inside), _) => match self.followed_to(inside, forcing)? {
+                Ok(orbit) => orbit,
+                Err(reached) => return Ok(Err(NoCrisis::NotFollowed { forcing, reached })),
+            },
+            (None, Some(state)) => map.refine(&[state])?,
+            (None, None) => return Ok(Err(NoCrisis::NotBorn { forcing: self.high, birth })),
+        };
+        let mut life = usize::MAX;
+        for starts in self.starts_beside(&map, &orbit)? {
+            let each = self.each().max(10 * FEWEST_IMPACTS);
+            let lived = self.follow(forcing, &starts, each, watch)?;
+            if lived.iter().all(|own| own.0 == each) {
+                return Ok(Ok(Herd { forcing, states: ends(lived) }));
+            }
+            life = lived.iter().fold(life, |least, own| least.min(own.0));
+        }
+        Ok(Err(NoCrisis::RestsBefore { forcing, life: life as u64 }))
+    }
+
+    /// Starts on either side of a saddle, on its unstable manifold; all about another orbit.
+    fn starts_beside(&self, map: &ImpactMap, orbit: &PeriodicOrbit) -> Result<Vec<Vec<ImpactState>>, Error> {
+        let Ok(saddle) = Saddle::of(map, orbit, 0) else {
+            let mut random = SplitMix64::new(0);
+            let state = orbit.states[0];
+            let beside = |_| {
+                let factor = 1.0 + BESIDE * (random.unit() - 0.5);
+                ImpactState::new(state.phase(), state.velocity() * factor)
+            };
+            return Ok(vec![(0..self.samples).map(beside).collect::<Result<_, _>>()?]);
+        };
+        let side = |side| {
+            let settings = ManifoldSettings::new(1.0, 16)?;
+            let piece = Grower::new(map, &saddle, ManifoldKind::Unstable, side, &settings)?;
+            let shares = (0..self.samples).map(|k| f64::from(k) / f64::from(self.samples));
+            let states = shares.filter_map(|share| piece.first_piece(share).transpose());
+            states.map(|found| found.map(|(state, _)| state)).collect::<Result<Vec<_>, Error>>()
+        };
+        Ok(vec![side(Side::Later)?, side(Side::Earlier)?])
+    }
+
+    /// How many impacts each orbit has before it comes to rest, at most so many, and the last of them.
+    fn follow(
+        &self,
+        forcing: f64,
+        starts: &[ImpactState],
+        most: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<(usize, ImpactState)>, Error> {
+        let map = self.map(forcing)?;
+        let orbits: Vec<_> = starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
+        let mut run = SweepRun::new(orbits.len());
+        let observer = |_: Progress| match watch.ask() {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        };
+        let outcome = run.advance(
+            &orbits,
+            |index| (0, starts[index]),
+            |(lived, state): &mut (usize, ImpactState), event| match event {
+                SweepEvent::Impact(impact) => {
+                    (*lived, *state) = (*lived + 1, impact.state);
+                    if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                }
+                SweepEvent::Attachment(_) => ControlFlow::Break(()),
+            },
+            &observer,
+        );
+        let Progress { done, total } = watch.progress();
+        watch.set_done((done + (most * orbits.len()) as u64).min(total));
+        watch.ask()?;
+        outcome?;
+        run.into_results()
+    }
+
+    /// A periodic orbit of any map of this restitution, followed to a forcing; or the forcing it could be
+    /// followed to.
+    pub(super) fn followed_to(
+        &self,
+        orbit: &PeriodicOrbit,
+        forcing: f64,
+    ) -> Result<Result<PeriodicOrbit, f64>, Error> {
+        let Some(mut reached) = self.forcing_of(orbit)? else { return Ok(Err(f64::NAN)) };
+        let (mut orbit, mut step) = (orbit.clone(), forcing - reached);
+        while reached != forcing {
+            let last = (forcing - reached).abs() <= step.abs();
+            let next = if last { forcing } else { reached + step };
+            match self.map(next)?.refine(&orbit.states) {
+                Ok(found) if moved(&orbit, &found) <= LONGEST_MOVE => {
+                    (orbit, reached, step) = (found, next, 2.0 * step);
+                }
+                _ if step.abs() > SHORTEST_STEP * reached => step *= 0.5,
+                _ => return Ok(Err(reached)),
+            }
+        }
+        Ok(Ok(orbit))
+    }
+
+    /// The forcing of which a periodic orbit is one: by the height at the end of its first flight.
+    fn forcing_of(&self, orbit: &PeriodicOrbit) -> Result<Option<f64>, Error> {
+        let (from, to) = (orbit.states[0], orbit.states[1 % orbit.period()]);
+        let launch = 0.0 - self.restitution * from.velocity();
+        let ((sine, cosine), end) = (sin_cos(from.phase().angle()), sin_cos(to.phase().angle()));
+        for turns in 0..=orbit.platform_periods {
+            let between = to.phase().angle() - from.phase().angle();
+            let h = between + core::f64::consts::TAU * (turns as f64);
+            let forcing = (0.5 * h - launch) * h / (cosine * h - end.0 + sine) / core::f64::consts::PI;
+            if h <= 0.0 || !(0.0..=Vibration::MAX_PEAK_ACCELERATION / 4.0).contains(&forcing) {
+                continue;
+            }
+            if let Ok(own) = self.map(forcing)?.refine(&orbit.states)
+                && moved(orbit, &own) < 1.0e-6
+            {
+                return Ok(Some(forcing));
+            }
+        }
+        Ok(None)
+    }
+
+    /// How many impacts a disk has from its first separation after a rest to the next rest, at most so many.
+    pub(super) fn relaunched(&self, end: &End, most: u64) -> Result<u64, Error> {
+        let map = self.map(end.bracket.1)?;
+        let mut orbit = map.orbit(end.lost[0].start, ChatterPolicy::Complete);
+        let mut impacts = None;
+        while impacts.is_none_or(|impacts| impacts < most) {
+            match (orbit.advance()?, impacts) {
+                (Some(OrbitEvent::Impact(_)), lived) => impacts = lived.map(|lived| lived + 1),
+                (Some(OrbitEvent::Attachment(_)), None) => impacts = Some(0),
+                (Some(OrbitEvent::Attachment(_)) | None, _) => break,
+            }
+        }
+        Ok(impacts.unwrap_or(0))
+    }
+}
+
+/// How far an impact of an orbit has moved at most (rad, and relative speed).
+fn moved(from: &PeriodicOrbit, to: &PeriodicOrbit) -> f64 {
+    from.states.iter().zip(&to.states).fold(0.0, |most: f64, (a, b)| {
+        let phase = phase_difference(b.phase().angle(), a.phase().angle()).abs();
+        most.max(phase).max((b.velocity() - a.velocity()).abs() / (1.0 + a.velocity().abs()))
+    })
+}
+
+fn life_of(lived: &[(usize, ImpactState)], most: usize, beyond: f64) -> MeanLife {
+    MeanLife::of(lived.iter().map(|own| own.0), most, beyond)
+}
+
+fn ends(lived: Vec<(usize, ImpactState)>) -> Vec<ImpactState> {
+    lived.into_iter().map(|(_, state)| state).collect()
+}
+
+/// The same states, hardly moved, each by another amount.
+fn shaken(states: &[ImpactState]) -> Result<Vec<ImpactState>, Error> {
+    let moved = states.iter().enumerate().map(|(index, state)| {
+        let factor = 1.0 + SHAKE * (index as f64 / states.len() as f64);
+        ImpactState::new(state.phase(), state.velocity() * factor)
+    });
+    moved.collect()
+}
