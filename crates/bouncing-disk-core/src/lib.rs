@@ -94,7 +94,9 @@ pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::spectrum::{
     LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,
 };
-pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
+pub use analysis::lyapunov::{
+    LyapunovEstimate, TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed,
+};
 pub use analysis::manifold::{
     Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
 };

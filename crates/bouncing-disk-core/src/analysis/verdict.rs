@@ -7,6 +7,7 @@ mod returns;
 mod settings;
 pub(in crate::analysis) mod witness;
 
+use crate::analysis::lyapunov::LyapunovEstimate;
 use crate::analysis::periodic::Multipliers;
 use crate::analysis::sweep::SweepRun;
 use crate::chatter::policy::ChatterPolicy;
@@ -19,9 +20,6 @@ use witness::Witness;
 
 pub use settings::VerdictSettings;
 
-/// How many standard errors an exponent must be away from zero to decide.
-pub(crate) const DECISIVE_ERRORS: f64 = 3.0;
-
 /// What an orbit does for good, and the evidence. Impacts and rests are judged by
 /// [`ChatterPolicy::Complete`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +29,8 @@ pub(crate) const DECISIVE_ERRORS: f64 = 3.0;
 pub enum Verdict {
     /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle, and no impact of it chatters to rest.
+    /// the unit circle by more than [their error](ImpactMap::multiplier_error), and no impact of it chatters
+    /// to rest.
     Periodic {
         /// Impacts of one period of the orbit.
         impacts: u64,
@@ -49,12 +48,14 @@ pub enum Verdict {
         /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
         rests: u64,
     },
-    /// Small perturbations grow: the largest Lyapunov exponent is more than three standard errors above zero.
-    /// Over a finite number of impacts nobody can tell an attractor from a long transient.
+    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error of
+    /// the exponent can explain ([`LyapunovEstimate::grows`]), over so many impacts that dissipation has had
+    /// its effect ([`ImpactMap::transient_impacts`]). Over a finite number of impacts nobody can tell an
+    /// attractor from a longer transient.
     Chaotic {
         /// The largest exponent per impact.
         exponent: f64,
-        /// Its standard error, by batch means.
+        /// Its standard error: scatter, drift and rounding.
         standard_error: f64,
         /// Impacts that it was measured over, after the transient.
         impacts: u64,
@@ -120,7 +121,7 @@ pub enum CycleTrust {
         /// The mean logarithmic growth of a small perturbation per flight, over the flights from the first
         /// impact of the round to the rest; `None` where one of them grazes.
         exponent: Option<f64>,
-        /// Its standard error, by batch means; `None` of fewer than 16 flights.
+        /// Its standard error; `None` of fewer than 16 flights.
         standard_error: Option<f64>,
     },
 }
@@ -131,7 +132,8 @@ pub enum CycleTrust {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedReason"))]
 #[non_exhaustive]
 pub enum UndecidedReason {
-    /// The exponent is within three standard errors of zero, and no period up to the longest one was proved.
+    /// The exponent is no farther from zero than neutral motion and its error explain
+    /// ([`LyapunovEstimate::threshold`]), and no period up to the longest one was proved.
     ExponentNearZero {
         /// The largest exponent per impact.
         exponent: f64,
@@ -145,6 +147,29 @@ pub enum UndecidedReason {
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
+    },
+    /// The orbit stays at a periodic one that does not attract for certain: the larger modulus of its
+    /// multipliers is 1 within their error, or above, where the start was on it to the last bits.
+    OnPeriodicOrbit {
+        /// Impacts of one period of the orbit.
+        impacts: u64,
+        /// Periods of the platform that it takes, at least 1.
+        platform_periods: u64,
+        /// Its Floquet multipliers.
+        multipliers: Multipliers,
+        /// How far they may be off ([`ImpactMap::multiplier_error`]).
+        multiplier_error: f64,
+        /// One of its impacts.
+        state: ImpactState,
+    },
+    /// Perturbations grow, but the orbit was not followed long enough for dissipation to end a transient.
+    TransientMayLast {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+        /// Impacts, with those of the transient, that it would take ([`ImpactMap::transient_impacts`]).
+        needed: f64,
     },
     /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
     Grazing {
@@ -182,6 +207,11 @@ read_checked!(enum CycleTrust as UncheckedTrust {
 read_checked!(enum UndecidedReason as UncheckedReason {
     ExponentNearZero { exponent: f64, standard_error: f64 },
     NoPeriodFound { exponent: f64, standard_error: f64 },
+    OnPeriodicOrbit {
+        impacts: u64, platform_periods: u64, multipliers: Multipliers, multiplier_error: f64,
+        state: ImpactState,
+    },
+    TransientMayLast { exponent: f64, standard_error: f64, needed: f64 },
     Grazing { impacts: u64, phase: Phase },
 });
 
@@ -215,9 +245,9 @@ impl Verdict {
             }
             Self::Chaotic { exponent, standard_error, impacts, rests, .. } => {
                 check_exponent(exponent, standard_error)?;
-                let least = DECISIVE_ERRORS * standard_error;
-                within("exponent of chaos", exponent, least, f64::MAX, "three errors above 0")?;
                 at_least_one("impacts", impacts)?;
+                let least = LyapunovEstimate { exponent, standard_error, impacts }.threshold();
+                within("exponent of chaos", exponent, least, f64::MAX, "above that of neutral motion")?;
                 check_rests(rests)
             }
             Self::Undecided { rests, .. } => check_rests(rests),
@@ -261,6 +291,15 @@ impl UndecidedReason {
         match *self {
             Self::ExponentNearZero { exponent, standard_error }
             | Self::NoPeriodFound { exponent, standard_error } => check_exponent(exponent, standard_error),
+            Self::TransientMayLast { exponent, standard_error, needed } => {
+                not_negative("impacts of a transient", needed)?;
+                check_exponent(exponent, standard_error)
+            }
+            Self::OnPeriodicOrbit { impacts, platform_periods, multiplier_error, .. } => {
+                at_least_one("impacts of a period", impacts)?;
+                at_least_one("platform periods", platform_periods)?;
+                not_negative("error of a multiplier", multiplier_error).map(|_| ())
+            }
             Self::Grazing { impacts, .. } => at_least_one("impacts", impacts),
         }
     }

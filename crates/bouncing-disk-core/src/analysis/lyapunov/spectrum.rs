@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use glam::DMat2;
 
-use crate::analysis::lyapunov::TangentGrowth;
+use crate::analysis::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::analysis::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, not_negative, within};
@@ -23,7 +23,7 @@ use crate::read_checked;
 pub struct LyapunovSpectrum {
     /// The largest exponent: the mean logarithmic growth of a small perturbation per impact.
     pub largest: f64,
-    /// Its standard error by batch means ([`BatchMeans`]), over the one orbit that was followed.
+    /// Its standard error over the one orbit that was followed: scatter, drift and rounding ([`BatchMeans`]).
     pub standard_error: f64,
     /// The other exponent; `None` for restitution 0, where the map forgets one of its two dimensions at every
     /// impact and the exponent is minus infinity.
@@ -107,7 +107,7 @@ impl LyapunovOutcome {
 
 /// The QR decomposition along an orbit: the first direction as [`TangentGrowth`] has it, the second one at
 /// right angles to it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct TangentFrame {
     first: TangentGrowth,
     batches: BatchMeans,
@@ -117,7 +117,7 @@ struct TangentFrame {
 impl TangentFrame {
     fn grow(&mut self, derivative: DMat2) {
         let across = self.first.tangent().perp();
-        let length = self.first.advance(derivative);
+        let length = self.first.grow(derivative);
         self.batches.push(length);
         // What is left of the second direction at right angles to the new first one.
         self.second_sum += ln(self.first.tangent().perp().dot(derivative * across).abs());
@@ -240,7 +240,8 @@ impl SweepRun<LyapunovOutcome> {
             &orbits,
             |index| {
                 let (map, state) = starts[index];
-                let frame = TangentFrame::default();
+                let batches = LyapunovEstimate::growths();
+                let frame = TangentFrame { first: TangentGrowth::default(), batches, second_sum: 0.0 };
                 Followed { map, state, impacts: 0, first_velocity: 0.0, frame, outcome: None }
             },
             |followed, event| followed.see(event, transient, impacts),
