@@ -109,7 +109,8 @@ pub use analysis::sweep::{
     orbit_diagram_observed, repeats_every, survival_times, survival_times_observed, sweep, sweep_observed,
 };
 pub use analysis::verdict::{
-    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, verdicts, verdicts_observed,
+    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, each_verdict, verdicts,
+    verdicts_observed,
 };
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
 pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};

@@ -104,7 +104,7 @@ pub enum AttractorKind {
     /// A periodic orbit with multipliers inside the unit circle, and the radius within which a start counts as
     /// caught; 0 where none was found in which starts on circles end on it.
     Periodic(KnownOrbit),
-    /// Small perturbations grow: the exponent is more than three standard errors above zero.
+    /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::Verdict::Chaotic)).
     Chaotic {
         /// The largest Lyapunov exponent per impact.
         exponent: f64,

@@ -197,7 +197,6 @@ pub fn lyapunov_exponents(
 }
 
 /// [`lyapunov_exponents`] with an observer; the items are the orbits.
-/// [`SweepRun::advance_lyapunov_exponents`] keeps the finished ones of a call that is stopped.
 ///
 /// # Errors
 /// Those of [`lyapunov_exponents`]; [`Error::Stopped`] if the observer breaks.
@@ -208,54 +207,38 @@ pub fn lyapunov_exponents_observed(
     observer: &dyn Observer,
 ) -> Result<Vec<Option<f64>>, Error> {
     let mut run = SweepRun::new(starts.len());
-    run.advance_lyapunov_exponents(starts, transient, impacts, observer)?;
-    run.into_results()
-}
-
-impl SweepRun<Option<f64>> {
-    /// Goes on with the [`lyapunov_exponents`] of the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`Self::advance`].
-    pub fn advance_lyapunov_exponents(
-        &mut self,
-        starts: &[(ImpactMap, ImpactState)],
-        transient: usize,
-        impacts: usize,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        if impacts == 0 {
-            return self.finish_with(starts.len(), || None);
-        }
-        let orbits: Vec<Orbit> =
-            starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-        self.advance_with(
-            &orbits,
-            |index| {
-                let (map, state) = starts[index];
-                (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
-            },
-            |(map, followed), event| {
-                let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
-                    followed.rested = true;
-                    return ControlFlow::Break(());
-                };
-                if followed.skipped < transient {
-                    followed.skipped += 1;
-                } else {
-                    followed.growth.grow(map.derivative(followed.state, state, duration));
-                }
-                followed.state = state;
-                if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
-                    ControlFlow::Continue(())
-                } else {
-                    ControlFlow::Break(())
-                }
-            },
-            |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
-            observer,
-        )
+    if impacts == 0 {
+        run.finish_with(starts.len(), || None)?;
     }
+    let orbits: Vec<Orbit> =
+        starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+    run.advance_with(
+        &orbits,
+        |index| {
+            let (map, state) = starts[index];
+            (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
+        },
+        |(map, followed), event| {
+            let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
+                followed.rested = true;
+                return ControlFlow::Break(());
+            };
+            if followed.skipped < transient {
+                followed.skipped += 1;
+            } else {
+                followed.growth.grow(map.derivative(followed.state, state, duration));
+            }
+            followed.state = state;
+            if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        },
+        |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
+        observer,
+    )?;
+    run.into_results()
 }
 
 #[cfg(test)]

@@ -13,12 +13,16 @@ use crate::analysis::sweep::SweepRun;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
-use crate::observer::{Observer, Unobserved};
+use crate::observer::{Observer, Progress, Unobserved};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 use witness::Witness;
 
 pub use settings::VerdictSettings;
+
+/// Orbits of [`each_verdict`] that are under way together, at some 2 kB each: so many that the last of them,
+/// which leave lanes empty, do not count.
+const TOGETHER: usize = 1 << 14;
 
 /// What an orbit does for good, and the evidence. Impacts and rests are judged by
 /// [`ChatterPolicy::Complete`].
@@ -369,8 +373,8 @@ pub fn verdicts(
     verdicts_observed(starts, settings, &Unobserved)
 }
 
-/// [`verdicts`] with an observer; the items are the orbits. [`SweepRun::advance_verdicts`] keeps the finished
-/// ones of a call that is stopped.
+/// [`verdicts`] with an observer; the items are the orbits. [`each_verdict`] keeps what a call that is stopped
+/// has found.
 ///
 /// # Errors
 /// Those of [`verdicts`]; [`Error::Stopped`] if the observer breaks.
@@ -379,33 +383,51 @@ pub fn verdicts_observed(
     settings: VerdictSettings,
     observer: &dyn Observer,
 ) -> Result<Vec<Verdict>, Error> {
-    let mut run = SweepRun::new(starts.len());
-    run.advance_verdicts(starts, settings, observer)?;
-    run.into_results()
+    let mut all = Vec::new();
+    let start = |index: usize| Ok::<_, Error>(Some(starts[index]));
+    each_verdict(starts.len(), start, settings, observer, |verdict| all.extend(verdict))?;
+    Ok(all)
 }
 
-impl SweepRun<Verdict> {
-    /// Goes on with the [`verdicts`] on the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`verdicts`] and of [`Self::advance`].
-    pub fn advance_verdicts(
-        &mut self,
-        starts: &[(ImpactMap, ImpactState)],
-        settings: VerdictSettings,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        settings.check()?;
+/// [`verdicts`] of `count` orbits of which neither starts nor verdicts are kept: `start` makes that of an index
+/// when it is needed, and `each` takes the verdicts in their order, `None` where there is no start. The memory
+/// does not grow with their number. The items of the observer are the orbits.
+///
+/// # Errors
+/// Those of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
+pub fn each_verdict<E: From<Error>>(
+    count: usize,
+    mut start: impl FnMut(usize) -> Result<Option<(ImpactMap, ImpactState)>, E>,
+    settings: VerdictSettings,
+    observer: &dyn Observer,
+    mut each: impl FnMut(Option<Verdict>),
+) -> Result<(), E> {
+    settings.check()?;
+    let total = count as u64;
+    // At least one call of the observer, also of nothing.
+    for first in (0..count.max(1)).step_by(TOGETHER) {
+        let block: Vec<_> = (first..count.min(first + TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
+        let starts: Vec<_> = block.iter().flatten().copied().collect();
         let orbits: Vec<Orbit> =
             starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-        self.advance_with(
+        let done = |done: u64| first as u64 + done;
+        let shifted = |progress: Progress| observer.observe(Progress { done: done(progress.done), total });
+        let mut run = SweepRun::new(starts.len());
+        let outcome = run.advance_with(
             &orbits,
             |index| Witness::new(starts[index], settings),
             Witness::see,
             |witness| Ok(witness.verdict()),
-            observer,
-        )
+            &shifted,
+        );
+        outcome.map_err(|error| match error {
+            Error::Stopped { done: own, .. } => Error::Stopped { done: done(own), total },
+            other => other,
+        })?;
+        let mut found = run.into_results()?.into_iter();
+        block.iter().for_each(|start| each(start.and_then(|_| found.next())));
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -115,7 +115,8 @@ impl BatchMeans {
         let drift = 0.5 * (mean_of(former, self.length) - mean_of(latter, self.length)).abs();
         let additions = self.length as f64 + MOST_BATCHES as f64;
         let rounding = self.resolution + 0.5 * f64::EPSILON * additions * self.largest;
-        let (mut sums, mut length, mut largest) = (self.sums.clone(), self.length as f64, drift.max(rounding));
+        let (mut sums, mut length, mut largest) =
+            (self.sums.clone(), self.length as f64, drift.max(rounding));
         while sums.len() >= FEWEST_BATCHES {
             let means: Vec<f64> = sums.iter().map(|sum| sum / length).collect();
             largest = largest.max(standard_deviation(&means) / (means.len() as f64).sqrt());

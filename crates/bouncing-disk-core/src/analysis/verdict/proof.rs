@@ -26,6 +26,9 @@ const DISPLACEMENT: f64 = 1.0e-6;
 /// How near an orbit must stay to a neutral one that it was on (rad).
 const STAYS_WITHIN: f64 = 2.0e-6;
 
+/// Multipliers that may be off by more say nothing.
+const LARGEST_ERROR: f64 = 1.0e-2;
+
 /// A periodic orbit next to a followed one.
 pub(super) struct Proof {
     pub(super) orbit: PeriodicOrbit,
@@ -72,7 +75,8 @@ pub(super) fn prove(
 
 /// Whether an orbit attracts, and the error of its multipliers.
 fn stability(map: &ImpactMap, orbit: &PeriodicOrbit) -> Option<(Stability, f64)> {
-    let (radius, error) = (orbit.multipliers().spectral_radius(), map.multiplier_error(orbit).ok()?);
+    let radius = orbit.multipliers().spectral_radius();
+    let error = map.multiplier_error(orbit).ok().filter(|error| *error <= LARGEST_ERROR * radius.max(1.0))?;
     let stability = if radius + error < 1.0 {
         Stability::Attracts
     } else if radius - error <= 1.0 {
@@ -87,8 +91,9 @@ impl ImpactMap {
     /// How far the multipliers of a periodic orbit may be off.
     ///
     /// Let the orbit return to within t of itself, and m be its larger multiplier, with the slope s along its
-    /// own direction. The true orbit is then x away with (s/2) x^2 + |1 - m| x = t, at a fold sqrt(2 t/s), and
-    /// m is off by s x; to this comes the rounding of the derivative.
+    /// own direction. The true orbit is then x away with |1 - m| x - (s/2) x^2 = t, at a fold sqrt(2 t/s), and
+    /// m is off by s x; to this comes the rounding of the derivative. Where no x solves this the orbit may not
+    /// exist, and the error is above |1 - m|.
     ///
     /// # Errors
     /// Those of [`Self::step`].
@@ -102,7 +107,8 @@ impl ImpactMap {
         let Multipliers::Real(large, _) = orbit.multipliers() else { return Ok(rounding) };
         let speed = 1.0 + state.velocity().abs();
         let (returned, _) = self.around(state, period)?;
-        let miss = distance(returned, state, 1.0) + 4.0 * f64::EPSILON * speed;
+        // Twice what was seen and the rounding of it.
+        let miss = 2.0 * distance(returned, state, 1.0) + 4.0 * f64::EPSILON * speed;
         let [one, other] = [
             DVec2::new(matrix.y_axis.x, large - matrix.x_axis.x),
             DVec2::new(large - matrix.y_axis.y, matrix.x_axis.y),
@@ -120,8 +126,13 @@ impl ImpactMap {
         };
         let slope = (displaced(1.0)? - displaced(-1.0)?).abs() / (2.0 * DISPLACEMENT);
         let gap = (1.0 - large).abs();
-        let away = 2.0 * miss / (gap + (gap * gap + 2.0 * slope * miss).sqrt());
-        Ok(slope * away + rounding)
+        let radicand = gap * gap - 2.0 * slope * miss;
+        let off = if radicand > 0.0 {
+            2.0 * slope * miss / (gap + radicand.sqrt())
+        } else {
+            gap + (2.0 * slope * miss).sqrt()
+        };
+        Ok(off + rounding)
     }
 
     /// The impact after so many, and the derivative of the map over them.
@@ -148,7 +159,8 @@ fn impacts_from(map: &ImpactMap, state: ImpactState, count: usize) -> Option<Vec
     }
 }
 
-/// The orbit with its smallest period: a shorter one that it nearly repeats, unless that repels.
+/// The orbit with its smallest period: a shorter one that it nearly repeats, unless that repels and this one
+/// does not.
 fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
     let states = &orbit.states;
     let n = states.len();
@@ -157,9 +169,10 @@ fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
         n.is_multiple_of(*part)
             && (0..n - part).all(|i| distance(states[i], states[i + part], fastest) <= NEARLY_SAME)
     };
-    let stays =
-        |orbit: &PeriodicOrbit| stability(map, orbit).is_some_and(|(own, _)| own != Stability::Repels);
-    (1..n).filter(repeats).filter_map(|part| map.refine(&states[..part]).ok()).find(stays).unwrap_or(orbit)
+    let is = |orbit: &PeriodicOrbit, least| stability(map, orbit).is_some_and(|(own, _)| own <= least);
+    let least = if is(&orbit, Stability::Neutral) { Stability::Neutral } else { Stability::Repels };
+    let mut shorter = (1..n).filter(repeats).filter_map(|part| map.refine(&states[..part]).ok());
+    shorter.find(|orbit| is(orbit, least)).unwrap_or(orbit)
 }
 
 /// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by half of

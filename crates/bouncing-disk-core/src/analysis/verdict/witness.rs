@@ -35,7 +35,13 @@ struct Round {
 
 impl Round {
     fn new() -> Self {
-        Self { long_flights: 0, turns: 0, growth: LyapunovEstimate::growths(), rounding: 0.0, worst_rounding: 0.0 }
+        Self {
+            long_flights: 0,
+            turns: 0,
+            growth: LyapunovEstimate::growths(),
+            rounding: 0.0,
+            worst_rounding: 0.0,
+        }
     }
 
     fn see(&mut self, impact: &SweepImpact) {
@@ -218,15 +224,8 @@ impl Witness {
         let (multipliers, state, rests) = (orbit.multipliers(), *orbit.states.first()?, self.rests());
         let after = self.before + self.impacts;
         if stability == Stability::Attracts {
-            let verdict = Verdict::Periodic {
-                impacts,
-                platform_periods,
-                multipliers,
-                state,
-                distance,
-                after,
-                rests,
-            };
+            let verdict =
+                Verdict::Periodic { impacts, platform_periods, multipliers, state, distance, after, rests };
             return Some(verdict);
         }
         let reason = UndecidedReason::OnPeriodicOrbit {
