@@ -93,7 +93,9 @@ pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
 pub use analysis::lyapunov::spectrum::{
     LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,
 };
-pub use analysis::lyapunov::{TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed};
+pub use analysis::lyapunov::{
+    LyapunovEstimate, TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed,
+};
 pub use analysis::manifold::{
     Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
 };
@@ -106,7 +108,8 @@ pub use analysis::sweep::{
     orbit_diagram_observed, repeats_every, survival_times, survival_times_observed, sweep, sweep_observed,
 };
 pub use analysis::verdict::{
-    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, verdicts, verdicts_observed,
+    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, each_verdict, verdicts,
+    verdicts_observed,
 };
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
 pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};

@@ -223,14 +223,16 @@ impl Starts {
         })
     }
 
+    /// The map with the first impact of an index below the number of forcings.
+    pub(crate) fn state(&self, index: usize) -> Result<(ImpactMap, ImpactState), Error> {
+        let vibration = Vibration::from_axial_forcing(self.axial_forcing[index])?;
+        let map = ImpactMap::new(vibration, self.restitution[index])?;
+        Ok((map, first_impact(self.impact_phase.get(index), self.normalised_speed.get(index))?))
+    }
+
     /// The maps with the first impacts.
     pub(crate) fn states(&self) -> Result<Vec<(ImpactMap, ImpactState)>, Error> {
-        let pairs = self.axial_forcing.iter().zip(&self.restitution).enumerate();
-        let states = pairs.map(|(index, (forcing, restitution))| {
-            let map = ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, *restitution)?;
-            Ok((map, first_impact(self.impact_phase.get(index), self.normalised_speed.get(index))?))
-        });
-        states.collect()
+        (0..self.axial_forcing.len()).map(|index| self.state(index)).collect()
     }
 
     /// The orbits.

@@ -1,6 +1,6 @@
 //! Single and multiple tosses.
 
-use bouncing_disk::core::Multipliers;
+use bouncing_disk::core::{LyapunovEstimate, Multipliers};
 use bouncing_disk::{
     InitialSpin, MultiTossSettings, OrbitClass, SiEnergy, TossOrbit, TossPerformance, multi_toss_observed,
 };
@@ -89,7 +89,7 @@ pub(crate) fn single_toss<'py>(
 
 /// What a motion is that has settled: its name, impacts and platform periods of a round, long flights of a
 /// chattering one, the multipliers, and the exponent.
-type Class = (&'static str, usize, u64, usize, [Complex64; 3], Option<f64>);
+type Class = (&'static str, usize, u64, usize, [Complex64; 3], Option<LyapunovEstimate>);
 
 fn class(class: &OrbitClass) -> Class {
     const NONE: Complex64 = Complex64::new(f64::NAN, f64::NAN);
@@ -102,8 +102,11 @@ fn class(class: &OrbitClass) -> Class {
         OrbitClass::Chattering(cycle) => {
             ("chattering", cycle.impacts, cycle.platform_periods, cycle.long_flights, [NONE; 3], None)
         }
-        OrbitClass::ChaoticOrLong { lyapunov_exponent, .. } => {
-            ("chaotic-or-long", 0, 0, 0, [NONE; 3], *lyapunov_exponent)
+        OrbitClass::Chaotic { lyapunov_exponent } => {
+            ("chaotic", 0, 0, 0, [NONE; 3], Some(*lyapunov_exponent))
+        }
+        OrbitClass::Undecided { lyapunov_exponent, .. } => {
+            ("undecided", 0, 0, 0, [NONE; 3], *lyapunov_exponent)
         }
         OrbitClass::AtRest => ("at-rest", 0, 0, 0, [NONE; 3], None),
         _ => ("unknown", 0, 0, 0, [NONE; 3], None),
@@ -186,7 +189,7 @@ pub(crate) fn multi_toss<'py>(
         platform_periods,
         long_flights,
         results::array(py, multipliers.to_vec()),
-        exponent,
+        exponent.map(|own| own.exponent),
         orbit.mean_angular_speed.map(|speed| speed * scales.angular_speed),
         orbit.rotation_repeats,
         row(&|one| scales.time_seconds(one.time)),
@@ -198,6 +201,7 @@ pub(crate) fn multi_toss<'py>(
         row(&|one| one.angular_speed * scales.angular_speed),
         row(&|one| one.angle * scales.angle),
         results::array(py, orbit.collisions.iter().map(|one| one.capped).collect()),
+        exponent.map(|own| own.standard_error),
     );
     results::make(py, "TossOrbit", results::joined(py, fields, rest)?)
 }

@@ -1,6 +1,6 @@
 //! What orbits do for good.
 
-use bouncing_disk::core::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, verdicts_observed};
+use bouncing_disk::core::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict};
 use numpy::Complex64;
 use pyo3::prelude::*;
 
@@ -58,6 +58,16 @@ fn undecided(reason: &UndecidedReason, rests: u64) -> Numbers {
             Numbers { reason: 2, exponent, standard_error, ..nothing }
         }
         UndecidedReason::Grazing { impacts, .. } => Numbers { reason: 3, after: impacts, ..nothing },
+        UndecidedReason::OnPeriodicOrbit { impacts, platform_periods, multipliers, .. } => Numbers {
+            reason: 4,
+            period: impacts,
+            platform_periods,
+            multipliers: complex(multipliers),
+            ..nothing
+        },
+        UndecidedReason::TransientMayLast { exponent, standard_error, .. } => {
+            Numbers { reason: 5, exponent, standard_error, ..nothing }
+        }
         _ => nothing,
     }
 }
@@ -160,9 +170,12 @@ pub(crate) fn verdicts<'py>(
     };
     let names = [name("longest period", &["longest_period"])];
     let all = long_call::run_named(py, progress.0, &names, |observer| {
-        let verdicts = verdicts_observed(&starts.states()?, settings, observer)?;
-        let mut all = room_for(verdicts.len())?;
-        all.extend(verdicts.iter().map(numbers));
+        let count = starts.axial_forcing.len();
+        let mut all = room_for(count)?;
+        // A start that is not legal is refused before any is followed.
+        (0..count).try_for_each(|index| starts.state(index).map(|_| ()))?;
+        let start = |index: usize| starts.state(index).map(Some);
+        each_verdict(count, start, settings, observer, |verdict| all.extend(verdict.as_ref().map(numbers)))?;
         Ok(all)
     })?;
     let bytes = |of: fn(&Numbers) -> u8| results::array(py, all.iter().map(of).collect());

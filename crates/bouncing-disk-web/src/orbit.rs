@@ -57,7 +57,8 @@ fn told(verdict: &Verdict) -> VerdictJson {
         Verdict::Undecided { reason, .. } => {
             let (exponent, exponent_error) = match *reason {
                 UndecidedReason::ExponentNearZero { exponent, standard_error }
-                | UndecidedReason::NoPeriodFound { exponent, standard_error } => {
+                | UndecidedReason::NoPeriodFound { exponent, standard_error }
+                | UndecidedReason::TransientMayLast { exponent, standard_error, .. } => {
                     (Some(exponent), Some(standard_error))
                 }
                 _ => (None, None),

@@ -4,6 +4,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use bouncing_disk_core::LyapunovEstimate;
+
 use crate::motion::event::Event;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{Mode, SlipDirection};
@@ -179,13 +181,10 @@ impl Display for OrbitClass {
                 n(vertical.spectral_radius())
             ),
             Self::Chattering(cycle) => write!(f, "chattering: {cycle}"),
-            Self::ChaoticOrLong { impacts, lyapunov_exponent } => {
-                write!(f, "nothing repeats within {impacts} impacts")?;
-                match lyapunov_exponent {
-                    Some(exponent) => write!(f, ", Lyapunov exponent {} per impact", n(*exponent)),
-                    None => Ok(()),
-                }
+            Self::Chaotic { lyapunov_exponent: LyapunovEstimate { exponent, standard_error, .. } } => {
+                write!(f, "chaos, exponent {} +- {} per impact", n(*exponent), n(*standard_error))
             }
+            Self::Undecided { impacts, .. } => write!(f, "undecided within {impacts} impacts"),
             Self::AtRest => f.write_str("at rest"),
         }
     }

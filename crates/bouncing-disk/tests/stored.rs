@@ -10,7 +10,7 @@ mod round_trip;
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::{ChatterPolicy, Multipliers, Phase};
+use bouncing_disk::core::{ChatterPolicy, LyapunovEstimate, Multipliers, Phase};
 use bouncing_disk::*;
 use serde_json::json;
 
@@ -210,8 +210,10 @@ fn tosses() {
             ("/Periodic/vertical/Complex/imaginary", json!(-0.1), "imaginary part"),
         ],
     );
-    for lyapunov_exponent in [Some(0.3), None] {
-        check(&OrbitClass::ChaoticOrLong { impacts: 64, lyapunov_exponent }, &[]);
+    let estimate = LyapunovEstimate { exponent: 0.3, standard_error: 0.01, impacts: 64 };
+    check(&OrbitClass::Chaotic { lyapunov_exponent: estimate }, &[]);
+    for lyapunov_exponent in [Some(estimate), None] {
+        check(&OrbitClass::Undecided { impacts: 64, lyapunov_exponent }, &[]);
     }
     check(&OrbitClass::Chattering(ChatteringCycle { impacts: 3, platform_periods: 2, long_flights: 1 }), &[]);
     check(&OrbitClass::AtRest, &[]);

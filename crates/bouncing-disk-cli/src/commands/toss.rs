@@ -199,10 +199,17 @@ fn described(system: &System, orbit: &TossOrbit) -> Quantities {
             list.push("platform_periods", cycle.platform_periods, "1");
             list.push("long_flights", cycle.long_flights, "1");
         }
-        OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } => {
-            list.push("motion", "chaotic, or of a long period", "1");
+        OrbitClass::Chaotic { lyapunov_exponent } => {
+            list.push("motion", "chaotic", "1");
+            list.push("lyapunov_exponent", lyapunov_exponent.exponent, "per impact");
+            list.push("lyapunov_exponent_error", lyapunov_exponent.standard_error, "per impact");
+        }
+        OrbitClass::Undecided { impacts, lyapunov_exponent } => {
+            list.push("motion", "undecided", "1");
             list.push("impacts", *impacts, "1");
-            list.push("lyapunov_exponent", *lyapunov_exponent, "per impact");
+            list.push("lyapunov_exponent", lyapunov_exponent.map(|own| own.exponent), "per impact");
+            let error = lyapunov_exponent.map(|own| own.standard_error);
+            list.push("lyapunov_exponent_error", error, "per impact");
         }
         OrbitClass::AtRest => list.push("motion", "at rest on the platform for ever", "1"),
         _ => list.push("motion", "unknown", "1"),

@@ -7,7 +7,7 @@ use std::ops::Range as Rows;
 use std::rc::Rc;
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::{ChatterPolicy, MAX_CELLS, Verdict, VerdictSettings, verdicts_observed};
+use bouncing_disk::core::{ChatterPolicy, MAX_CELLS, Verdict, VerdictSettings, each_verdict};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ use crate::range::Range;
 /// What stands at the end of the help.
 const AFTER: &str = "\
 A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is \
-proved by Newton's method, chaos by an exponent three standard errors above zero, or undecided. A range of restitutions \
+proved by Newton's method, chaos by growth that neither neutral motion nor the error explains, or undecided. A range of restitutions \
 makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
 docs/studying-the-dynamics.md.
 
@@ -155,31 +155,25 @@ impl GridJob for VerdictsJob {
         observer: &dyn Observer,
     ) -> Result<Vec<Self::Row>, Failure> {
         let columns = self.columns();
-        let mut starts = Vec::new();
-        let mut has_start = Vec::new();
-        for row in rows {
-            for column in 0..columns {
-                let (forcing, restitution) = self.cell(row, column);
-                let map = map(forcing, restitution)?;
-                let state = self.start.of(&map)?;
-                has_start.push(state.is_some());
-                starts.extend(state.map(|state| (map, state)));
+        let start = |index: usize| {
+            let (forcing, restitution) = self.cell(rows.start + index / columns, index % columns);
+            let map = map(forcing, restitution)?;
+            Ok::<_, Failure>(self.start.of(&map)?.map(|state| (map, state)))
+        };
+        let (mut all, mut seen) = (Vec::new(), 0_usize);
+        let each = |cell: Option<Verdict>| {
+            if seen.is_multiple_of(columns) {
+                all.push(if self.details { Row::Verdicts(Vec::new()) } else { Row::Kinds(String::new()) });
             }
-        }
-        let mut found = verdicts_observed(&starts, self.settings, observer)?.into_iter();
-        let cells: Vec<Option<Verdict>> =
-            has_start.into_iter().map(|there| if there { found.next() } else { None }).collect();
-        let kind = |cell: &Option<Verdict>| Kind::of(cell.as_ref()).digit();
-        Ok(cells
-            .chunks(columns)
-            .map(|row| {
-                if self.details {
-                    Row::Verdicts(row.to_vec())
-                } else {
-                    Row::Kinds(row.iter().map(kind).collect())
-                }
-            })
-            .collect())
+            seen += 1;
+            match all.last_mut() {
+                Some(Row::Verdicts(row)) => row.push(cell),
+                Some(Row::Kinds(row)) => row.push(Kind::of(cell.as_ref()).digit()),
+                None => {}
+            }
+        };
+        each_verdict(rows.len() * columns, start, self.settings, observer, each)?;
+        Ok(all)
     }
 
     fn report(self, (): (), rows: Vec<Row>) -> Result<Report, Failure> {

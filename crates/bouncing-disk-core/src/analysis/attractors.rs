@@ -108,7 +108,7 @@ pub enum AttractorKind {
     /// attracts from one side, or rounding decides whether it does. Starts come nearer to it without end in sight
     /// and stay undecided in basins.
     Marginal(PeriodicOrbit),
-    /// Small perturbations grow: the exponent is more than three standard errors above zero.
+    /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::Verdict::Chaotic)).
     Chaotic {
         /// The largest Lyapunov exponent per impact.
         exponent: f64,

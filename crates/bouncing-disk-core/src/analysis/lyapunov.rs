@@ -8,10 +8,12 @@ use glam::{DMat2, DVec2};
 
 use crate::analysis::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
+use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
 use crate::observer::{Observer, Unobserved};
+use crate::read_checked;
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
 ///
@@ -46,13 +48,8 @@ impl Default for TangentGrowth {
 
 impl TangentGrowth {
     /// Follows the perturbation through one impact, where the map has this derivative
-    /// ([`ImpactMap::step_with_derivative`]).
-    pub fn grow(&mut self, derivative: DMat2) {
-        self.advance(derivative);
-    }
-
-    /// [`Self::grow`], and the logarithm of this one growth.
-    pub(crate) fn advance(&mut self, derivative: DMat2) -> f64 {
+    /// ([`ImpactMap::step_with_derivative`]); returns the logarithm of this one growth.
+    pub fn grow(&mut self, derivative: DMat2) -> f64 {
         let (by_phase, by_velocity) = (derivative.x_axis, derivative.y_axis);
         let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;
         let y = by_phase.y * self.tangent.0 + by_velocity.y * self.tangent.1;
@@ -91,6 +88,91 @@ impl TangentGrowth {
     }
 }
 
+/// How far rounding may move the logarithm of one growth, always to the same side: that of the two phases and
+/// the speeds which its derivative is made of (docs/numerics/dynamics.md, "The standard error").
+const GROWTH_RESOLUTION: f64 = 16.0 * f64::EPSILON;
+
+/// How many standard errors decide.
+const DECISIVE_ERRORS: f64 = 3.0;
+
+/// The power of the number of impacts up to which a perturbation may grow where no exponent is positive: 2 in
+/// the passage by a fold, 1 in a shear.
+const NEUTRAL_POWER: f64 = 2.0;
+
+/// -ln(2^-52): the growth along an escape from a periodic orbit on which the start was to the last bit.
+const ESCAPE: f64 = 52.0 * core::f64::consts::LN_2;
+
+/// How many times the area of a set of states must have shrunk by e before an orbit may be taken for one that
+/// stays as it is.
+const DISSIPATION_TIMES: f64 = 10.0;
+
+/// The largest Lyapunov exponent of one orbit as it was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEstimate"))]
+pub struct LyapunovEstimate {
+    /// The mean logarithmic growth of a small perturbation per impact.
+    pub exponent: f64,
+    /// Its standard error, which holds scatter, drift and rounding ([`BatchMeans`]).
+    pub standard_error: f64,
+    /// Impacts that it was measured over.
+    pub impacts: u64,
+}
+
+read_checked!(LyapunovEstimate as UncheckedEstimate { exponent: f64, standard_error: f64, impacts: u64 });
+
+impl LyapunovEstimate {
+    /// Checks what is read.
+    fn check(&self) -> Result<(), Error> {
+        finite("exponent", self.exponent)?;
+        not_negative("standard error of an exponent", self.standard_error)?;
+        within("impacts of an exponent", self.impacts as f64, 1.0, f64::MAX, "at least 1").map(|_| ())
+    }
+
+    /// A mean of the logarithms of growths, to be filled.
+    #[must_use]
+    pub fn growths() -> BatchMeans {
+        BatchMeans::with_resolution(GROWTH_RESOLUTION)
+    }
+
+    /// The estimate from such a mean; `None` of fewer than 16 growths or where one was without bound.
+    #[must_use]
+    pub fn of(growths: &BatchMeans) -> Option<Self> {
+        let (exponent, standard_error) = (growths.mean()?, growths.standard_error()?);
+        let known = exponent.is_finite() && standard_error.is_finite();
+        known.then_some(Self { exponent, standard_error, impacts: growths.count() })
+    }
+
+    /// The exponent from which on the perturbation has grown by more than neutral motion, the escape from a
+    /// periodic orbit and three standard errors explain: (-ln(2^-52) + 2 ln n)/n + 3 errors over n impacts.
+    #[must_use]
+    pub fn threshold(&self) -> f64 {
+        let impacts = self.impacts as f64;
+        (ESCAPE + NEUTRAL_POWER * ln(impacts)) / impacts + DECISIVE_ERRORS * self.standard_error
+    }
+
+    /// Whether small perturbations grow for certain: the exponent is above the [threshold](Self::threshold).
+    #[must_use]
+    pub fn grows(&self) -> bool {
+        self.exponent > self.threshold()
+    }
+
+    /// Whether they shrink for certain: the exponent is below minus the [threshold](Self::threshold).
+    #[must_use]
+    pub fn shrinks(&self) -> bool {
+        self.exponent < -self.threshold()
+    }
+}
+
+impl ImpactMap {
+    /// Impacts after which an orbit may be taken for one that stays as it is: an area of states shrinks to
+    /// restitution^2 of itself with each, to e^-10 over these.
+    #[must_use]
+    pub fn transient_impacts(&self) -> f64 {
+        DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
+    }
+}
+
 /// What is known of an orbit whose exponent is sought.
 #[derive(Debug, Clone, Copy)]
 struct Followed {
@@ -115,7 +197,6 @@ pub fn lyapunov_exponents(
 }
 
 /// [`lyapunov_exponents`] with an observer; the items are the orbits.
-/// [`SweepRun::advance_lyapunov_exponents`] keeps the finished ones of a call that is stopped.
 ///
 /// # Errors
 /// Those of [`lyapunov_exponents`]; [`Error::Stopped`] if the observer breaks.
@@ -126,54 +207,38 @@ pub fn lyapunov_exponents_observed(
     observer: &dyn Observer,
 ) -> Result<Vec<Option<f64>>, Error> {
     let mut run = SweepRun::new(starts.len());
-    run.advance_lyapunov_exponents(starts, transient, impacts, observer)?;
-    run.into_results()
-}
-
-impl SweepRun<Option<f64>> {
-    /// Goes on with the [`lyapunov_exponents`] of the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`Self::advance`].
-    pub fn advance_lyapunov_exponents(
-        &mut self,
-        starts: &[(ImpactMap, ImpactState)],
-        transient: usize,
-        impacts: usize,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        if impacts == 0 {
-            return self.finish_with(starts.len(), || None);
-        }
-        let orbits: Vec<Orbit> =
-            starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-        self.advance_with(
-            &orbits,
-            |index| {
-                let (map, state) = starts[index];
-                (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
-            },
-            |(map, followed), event| {
-                let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
-                    followed.rested = true;
-                    return ControlFlow::Break(());
-                };
-                if followed.skipped < transient {
-                    followed.skipped += 1;
-                } else {
-                    followed.growth.grow(map.derivative(followed.state, state, duration));
-                }
-                followed.state = state;
-                if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
-                    ControlFlow::Continue(())
-                } else {
-                    ControlFlow::Break(())
-                }
-            },
-            |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
-            observer,
-        )
+    if impacts == 0 {
+        run.finish_with(starts.len(), || None)?;
     }
+    let orbits: Vec<Orbit> =
+        starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+    run.advance_with(
+        &orbits,
+        |index| {
+            let (map, state) = starts[index];
+            (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
+        },
+        |(map, followed), event| {
+            let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
+                followed.rested = true;
+                return ControlFlow::Break(());
+            };
+            if followed.skipped < transient {
+                followed.skipped += 1;
+            } else {
+                followed.growth.grow(map.derivative(followed.state, state, duration));
+            }
+            followed.state = state;
+            if followed.growth.is_bounded() && followed.growth.impacts() < impacts {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        },
+        |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
+        observer,
+    )?;
+    run.into_results()
 }
 
 #[cfg(test)]

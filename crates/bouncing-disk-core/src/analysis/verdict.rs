@@ -7,20 +7,22 @@ mod returns;
 mod settings;
 pub(in crate::analysis) mod witness;
 
+use crate::analysis::lyapunov::LyapunovEstimate;
 use crate::analysis::periodic::Multipliers;
 use crate::analysis::sweep::SweepRun;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
-use crate::observer::{Observer, Unobserved};
+use crate::observer::{Observer, Progress, Unobserved};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 use witness::Witness;
 
 pub use settings::VerdictSettings;
 
-/// How many standard errors an exponent must be away from zero to decide.
-pub(crate) const DECISIVE_ERRORS: f64 = 3.0;
+/// Orbits of [`each_verdict`] that are under way together, at some 2 kB each: so many that the last of them,
+/// which leave lanes empty, do not count.
+const TOGETHER: usize = 1 << 14;
 
 /// What an orbit does for good, and the evidence. Impacts and rests are judged by
 /// [`ChatterPolicy::Complete`].
@@ -31,7 +33,8 @@ pub(crate) const DECISIVE_ERRORS: f64 = 3.0;
 pub enum Verdict {
     /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle, and no impact of it chatters to rest.
+    /// the unit circle by more than [their error](ImpactMap::multiplier_error), and no impact of it chatters
+    /// to rest.
     Periodic {
         /// Impacts of one period of the orbit.
         impacts: u64,
@@ -49,12 +52,14 @@ pub enum Verdict {
         /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
         rests: u64,
     },
-    /// Small perturbations grow: the largest Lyapunov exponent is more than three standard errors above zero.
-    /// Over a finite number of impacts nobody can tell an attractor from a long transient.
+    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error of
+    /// the exponent can explain ([`LyapunovEstimate::grows`]), over so many impacts that dissipation has had
+    /// its effect ([`ImpactMap::transient_impacts`]). Over a finite number of impacts nobody can tell an
+    /// attractor from a longer transient.
     Chaotic {
         /// The largest exponent per impact.
         exponent: f64,
-        /// Its standard error, by batch means.
+        /// Its standard error: scatter, drift and rounding.
         standard_error: f64,
         /// Impacts that it was measured over, after the transient.
         impacts: u64,
@@ -120,7 +125,7 @@ pub enum CycleTrust {
         /// The mean logarithmic growth of a small perturbation per flight, over the flights from the first
         /// impact of the round to the rest; `None` where one of them grazes.
         exponent: Option<f64>,
-        /// Its standard error, by batch means; `None` of fewer than 16 flights.
+        /// Its standard error; `None` of fewer than 16 flights.
         standard_error: Option<f64>,
     },
 }
@@ -131,7 +136,8 @@ pub enum CycleTrust {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedReason"))]
 #[non_exhaustive]
 pub enum UndecidedReason {
-    /// The exponent is within three standard errors of zero, and no period up to the longest one was proved.
+    /// The exponent is no farther from zero than neutral motion and its error explain
+    /// ([`LyapunovEstimate::threshold`]), and no period up to the longest one was proved.
     ExponentNearZero {
         /// The largest exponent per impact.
         exponent: f64,
@@ -145,6 +151,29 @@ pub enum UndecidedReason {
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
+    },
+    /// The orbit stays at a periodic one that does not attract for certain: the larger modulus of its
+    /// multipliers is 1 within their error, or above, where the start was on it to the last bits.
+    OnPeriodicOrbit {
+        /// Impacts of one period of the orbit.
+        impacts: u64,
+        /// Periods of the platform that it takes, at least 1.
+        platform_periods: u64,
+        /// Its Floquet multipliers.
+        multipliers: Multipliers,
+        /// How far they may be off ([`ImpactMap::multiplier_error`]).
+        multiplier_error: f64,
+        /// One of its impacts.
+        state: ImpactState,
+    },
+    /// Perturbations grow, but the orbit was not followed long enough for dissipation to end a transient.
+    TransientMayLast {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+        /// Impacts, with those of the transient, that it would take ([`ImpactMap::transient_impacts`]).
+        needed: f64,
     },
     /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
     Grazing {
@@ -182,6 +211,11 @@ read_checked!(enum CycleTrust as UncheckedTrust {
 read_checked!(enum UndecidedReason as UncheckedReason {
     ExponentNearZero { exponent: f64, standard_error: f64 },
     NoPeriodFound { exponent: f64, standard_error: f64 },
+    OnPeriodicOrbit {
+        impacts: u64, platform_periods: u64, multipliers: Multipliers, multiplier_error: f64,
+        state: ImpactState,
+    },
+    TransientMayLast { exponent: f64, standard_error: f64, needed: f64 },
     Grazing { impacts: u64, phase: Phase },
 });
 
@@ -215,9 +249,9 @@ impl Verdict {
             }
             Self::Chaotic { exponent, standard_error, impacts, rests, .. } => {
                 check_exponent(exponent, standard_error)?;
-                let least = DECISIVE_ERRORS * standard_error;
-                within("exponent of chaos", exponent, least, f64::MAX, "three errors above 0")?;
                 at_least_one("impacts", impacts)?;
+                let least = LyapunovEstimate { exponent, standard_error, impacts }.threshold();
+                within("exponent of chaos", exponent, least, f64::MAX, "above that of neutral motion")?;
                 check_rests(rests)
             }
             Self::Undecided { rests, .. } => check_rests(rests),
@@ -261,6 +295,15 @@ impl UndecidedReason {
         match *self {
             Self::ExponentNearZero { exponent, standard_error }
             | Self::NoPeriodFound { exponent, standard_error } => check_exponent(exponent, standard_error),
+            Self::TransientMayLast { exponent, standard_error, needed } => {
+                not_negative("impacts of a transient", needed)?;
+                check_exponent(exponent, standard_error)
+            }
+            Self::OnPeriodicOrbit { impacts, platform_periods, multiplier_error, .. } => {
+                at_least_one("impacts of a period", impacts)?;
+                at_least_one("platform periods", platform_periods)?;
+                not_negative("error of a multiplier", multiplier_error).map(|_| ())
+            }
             Self::Grazing { impacts, .. } => at_least_one("impacts", impacts),
         }
     }
@@ -330,8 +373,8 @@ pub fn verdicts(
     verdicts_observed(starts, settings, &Unobserved)
 }
 
-/// [`verdicts`] with an observer; the items are the orbits. [`SweepRun::advance_verdicts`] keeps the finished
-/// ones of a call that is stopped.
+/// [`verdicts`] with an observer; the items are the orbits. [`each_verdict`] keeps what a call that is stopped
+/// has found.
 ///
 /// # Errors
 /// Those of [`verdicts`]; [`Error::Stopped`] if the observer breaks.
@@ -340,33 +383,51 @@ pub fn verdicts_observed(
     settings: VerdictSettings,
     observer: &dyn Observer,
 ) -> Result<Vec<Verdict>, Error> {
-    let mut run = SweepRun::new(starts.len());
-    run.advance_verdicts(starts, settings, observer)?;
-    run.into_results()
+    let mut all = Vec::new();
+    let start = |index: usize| Ok::<_, Error>(Some(starts[index]));
+    each_verdict(starts.len(), start, settings, observer, |verdict| all.extend(verdict))?;
+    Ok(all)
 }
 
-impl SweepRun<Verdict> {
-    /// Goes on with the [`verdicts`] on the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`verdicts`] and of [`Self::advance`].
-    pub fn advance_verdicts(
-        &mut self,
-        starts: &[(ImpactMap, ImpactState)],
-        settings: VerdictSettings,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        settings.check()?;
+/// [`verdicts`] of `count` orbits of which neither starts nor verdicts are kept: `start` makes that of an index
+/// when it is needed, and `each` takes the verdicts in their order, `None` where there is no start. The memory
+/// does not grow with their number. The items of the observer are the orbits.
+///
+/// # Errors
+/// Those of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
+pub fn each_verdict<E: From<Error>>(
+    count: usize,
+    mut start: impl FnMut(usize) -> Result<Option<(ImpactMap, ImpactState)>, E>,
+    settings: VerdictSettings,
+    observer: &dyn Observer,
+    mut each: impl FnMut(Option<Verdict>),
+) -> Result<(), E> {
+    settings.check()?;
+    let total = count as u64;
+    // At least one call of the observer, also of nothing.
+    for first in (0..count.max(1)).step_by(TOGETHER) {
+        let block: Vec<_> = (first..count.min(first + TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
+        let starts: Vec<_> = block.iter().flatten().copied().collect();
         let orbits: Vec<Orbit> =
             starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-        self.advance_with(
+        let done = |done: u64| first as u64 + done;
+        let shifted = |progress: Progress| observer.observe(Progress { done: done(progress.done), total });
+        let mut run = SweepRun::new(starts.len());
+        let outcome = run.advance_with(
             &orbits,
             |index| Witness::new(starts[index], settings),
             Witness::see,
             |witness| Ok(witness.verdict()),
-            observer,
-        )
+            &shifted,
+        );
+        outcome.map_err(|error| match error {
+            Error::Stopped { done: own, .. } => Error::Stopped { done: done(own), total },
+            other => other,
+        })?;
+        let mut found = run.into_results()?.into_iter();
+        block.iter().for_each(|start| each(start.and_then(|_| found.next())));
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -11,8 +11,9 @@ const FEWEST_BATCHES: usize = 16;
 /// Numbers that a standard error needs at least.
 pub const FEWEST_NUMBERS: u64 = FEWEST_BATCHES as u64;
 
-/// The mean of numbers that come one after the other, with a standard error by batch means: it holds for
-/// correlated numbers, too, as long as the correlation dies out within a sixteenth of the sequence.
+/// The mean of numbers that come one after the other, with a standard error that holds what may be wrong
+/// with it: the scatter of correlated numbers (batch means, as long as the correlation dies out within a
+/// sixteenth of the sequence), a drift (the two halves of the sequence differ), and rounding.
 ///
 /// Between 64 and 128 sums of batches are kept, however many numbers come.
 ///
@@ -34,12 +35,20 @@ pub struct BatchMeans {
     length: u64,
     /// Sum and count of the batch that is not full.
     open: (f64, u64),
+    resolution: f64,
+    /// The largest modulus of a number.
+    largest: f64,
 }
 
 impl Default for BatchMeans {
     fn default() -> Self {
-        Self { sums: Vec::new(), length: 1, open: (0.0, 0) }
+        Self::with_resolution(0.0)
     }
+}
+
+/// The mean of numbers with this sum of sums.
+fn mean_of(sums: &[f64], length: u64) -> f64 {
+    sums.iter().sum::<f64>() / (sums.len() as f64 * length as f64)
 }
 
 /// The sums of pairs of neighbours; the last of an odd number of them is left out.
@@ -48,9 +57,16 @@ fn joined(sums: &[f64]) -> Vec<f64> {
 }
 
 impl BatchMeans {
+    /// No numbers yet, each of which may be off by `resolution` >= 0, all of them to the same side.
+    #[must_use]
+    pub const fn with_resolution(resolution: f64) -> Self {
+        Self { sums: Vec::new(), length: 1, open: (0.0, 0), resolution, largest: 0.0 }
+    }
+
     /// Takes the next number.
     #[inline]
     pub fn push(&mut self, value: f64) {
+        self.largest = self.largest.max(value.abs());
         self.open.0 += value;
         self.open.1 += 1;
         if self.open.1 == self.length {
@@ -82,20 +98,32 @@ impl BatchMeans {
 
     /// The standard error of the mean; `None` of fewer than [`FEWEST_NUMBERS`].
     ///
-    /// It is the largest that batches of this length, of twice and four times this length and so on give,
-    /// down to 16 of them: batches that are shorter than the correlation give less. Of numbers without
-    /// correlation it is therefore too large by a tenth or so.
+    /// It is the largest of these (docs/numerics/dynamics.md, "The standard error"):
+    /// - what batches of this length, of twice and four times this length and so on give, down to 16 of them:
+    ///   batches that are shorter than the correlation give less;
+    /// - half of the difference of the means of the two halves: what is left of a transient that ends in the
+    ///   first one, and of any drift;
+    /// - the resolution of a number, and the rounding of the sums.
+    ///
+    /// Of numbers without correlation it is therefore too large by a fifth or so.
     #[must_use]
     pub fn standard_error(&self) -> Option<f64> {
-        let (mut sums, mut length, mut largest) = (self.sums.clone(), self.length as f64, None::<f64>);
+        if self.sums.len() < FEWEST_BATCHES {
+            return None;
+        }
+        let (former, latter) = self.sums.split_at(self.sums.len() / 2);
+        let drift = 0.5 * (mean_of(former, self.length) - mean_of(latter, self.length)).abs();
+        let additions = self.length as f64 + MOST_BATCHES as f64;
+        let rounding = self.resolution + 0.5 * f64::EPSILON * additions * self.largest;
+        let (mut sums, mut length, mut largest) =
+            (self.sums.clone(), self.length as f64, drift.max(rounding));
         while sums.len() >= FEWEST_BATCHES {
             let means: Vec<f64> = sums.iter().map(|sum| sum / length).collect();
-            let error = standard_deviation(&means) / (means.len() as f64).sqrt();
-            largest = Some(largest.map_or(error, |largest| largest.max(error)));
+            largest = largest.max(standard_deviation(&means) / (means.len() as f64).sqrt());
             sums = joined(&sums);
             length *= 2.0;
         }
-        largest
+        Some(largest)
     }
 }
 
@@ -143,12 +171,11 @@ mod tests {
         }
         assert_eq!((means.mean(), means.standard_error(), means.count()), (Some(7.0), None, 15));
         means.push(7.0);
-        // 15 numbers from 0 to 14 and their middle: 280 over 15, over 16.
-        let error = means.standard_error().expect("16 numbers");
-        assert!((error - (280.0_f64 / 15.0 / 16.0).sqrt()).abs() < 1e-15, "{error}");
+        // The halves of 15 numbers from 0 to 14 and their middle: 3.5 and 10.5.
+        assert_eq!(means.standard_error(), Some(3.5));
     }
 
-    /// However many numbers come, none is lost, and equal ones have no error.
+    /// However many numbers come, none is lost, and equal ones have the error of their rounding.
     #[test]
     fn the_batches_grow_with_the_sequence() {
         let mut means = BatchMeans::default();
@@ -157,7 +184,31 @@ mod tests {
             assert_eq!(means.count(), k);
             assert!(means.sums.len() < MOST_BATCHES);
         }
-        assert_eq!((means.mean(), means.standard_error()), (Some(0.5), Some(0.0)));
+        let error = means.standard_error().expect("many numbers");
+        assert!(means.mean() == Some(0.5) && (1e-16..2e-13).contains(&error), "{error:e}");
+    }
+
+    /// The mean of what decays, grows by steps of 1/k, or is a constant with rounding: the limit lies within
+    /// three errors.
+    #[test]
+    fn the_error_holds_a_transient_a_drift_and_rounding() {
+        for count in [100_u32, 5_000, 100_000] {
+            let sequences: [(fn(f64) -> f64, f64); 4] = [
+                (|k| crate::numerics::elementary::exp(-0.02 * k), 0.0),
+                (|k| 2.0 / (k + 1.0), 0.0),
+                (|k| -1.5 / (k + 1.0), 0.0),
+                (|_| 0.1, 0.1),
+            ];
+            for (of, limit) in sequences {
+                let mut means = BatchMeans::default();
+                (0..count).for_each(|k| means.push(of(f64::from(k))));
+                let (mean, error) = (means.mean().expect("many"), means.standard_error().expect("many"));
+                assert!((mean - limit).abs() <= 3.0 * error, "{count}: {mean:e} +- {error:e} of {limit}");
+            }
+        }
+        let mut means = BatchMeans::with_resolution(1e-9);
+        (0..64).for_each(|_| means.push(1e-10));
+        assert!(means.standard_error().is_some_and(|error| (1e-9..1.1e-9).contains(&error)));
     }
 
     #[test]

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, MAX_PERIOD, Multipliers, Observer, TangentGrowth, Unobserved,
-    Watch, WorkCount, read_checked,
+    ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer,
+    TangentGrowth, Unobserved, Watch, WorkCount, read_checked,
 };
 
-use crate::error::{Error, check, finite, not_negative, room_for};
+use crate::error::{Error, check, not_negative, room_for};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -76,7 +76,8 @@ read_checked!(MultiTossSettings as UncheckedSettings {
 #[non_exhaustive]
 pub enum OrbitClass {
     /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
-    /// the vertical orbit, which attracts.
+    /// the vertical orbit, which attracts whatever the error of its multipliers
+    /// ([`ImpactMap::multiplier_error`]).
     Periodic {
         /// Impacts in one round.
         period: usize,
@@ -91,13 +92,21 @@ pub enum OrbitClass {
     /// so the vertical motion is periodic from the first separation on: eventually periodic, as long as the
     /// arithmetic is. (A long cycle depends on its rounding.)
     Chattering(ChatteringCycle),
-    /// Neither within the impacts examined.
-    ChaoticOrLong {
+    /// Small vertical perturbations grow for certain ([`LyapunovEstimate::grows`]), over so many impacts that
+    /// dissipation has had its effect ([`ImpactMap::transient_impacts`]).
+    Chaotic {
+        /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
+        /// impacts examined.
+        lyapunov_exponent: LyapunovEstimate,
+    },
+    /// None of these for certain within the impacts examined: a long period, a slow approach, neutral motion,
+    /// or a transient.
+    Undecided {
         /// Impacts examined.
         impacts: usize,
-        /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
-        /// impacts examined: an estimate of the largest Lyapunov exponent. `None` if the disk attached on the way.
-        lyapunov_exponent: Option<f64>,
+        /// The growth rate, if it is known: `None` if the disk attached or grazed on the way, or of fewer than
+        /// 17 impacts.
+        lyapunov_exponent: Option<LyapunovEstimate>,
     },
     /// The disk rests on the platform for ever.
     AtRest,
@@ -106,7 +115,8 @@ pub enum OrbitClass {
 read_checked!(enum OrbitClass as UncheckedClass {
     Periodic { period: usize, platform_periods: u64, vertical: Multipliers, rotary: f64 },
     Chattering(cycle: ChatteringCycle),
-    ChaoticOrLong { impacts: usize, lyapunov_exponent: Option<f64> },
+    Chaotic { lyapunov_exponent: LyapunovEstimate },
+    Undecided { impacts: usize, lyapunov_exponent: Option<LyapunovEstimate> },
     AtRest,
 });
 
@@ -119,10 +129,7 @@ impl OrbitClass {
                 check(platform_periods > 0, "platform_periods", 0.0, "at least 1")?;
                 check((0.0..=1.0).contains(&rotary), "rotary multiplier", rotary, "[0, 1]")?;
             }
-            Self::ChaoticOrLong { lyapunov_exponent, .. } => {
-                finite("lyapunov_exponent", lyapunov_exponent.unwrap_or_default())?;
-            }
-            Self::Chattering(_) | Self::AtRest => {}
+            Self::Chaotic { .. } | Self::Undecided { .. } | Self::Chattering(_) | Self::AtRest => {}
         }
         Ok(())
     }
@@ -130,8 +137,7 @@ impl OrbitClass {
 
 /// A motion after its transient.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedOrbit"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TossOrbit {
     /// What it has settled on.
     pub class: OrbitClass,
@@ -141,20 +147,6 @@ pub struct TossOrbit {
     pub mean_angular_speed: Option<f64>,
     /// Whether the angular speed, too, repeats from round to round; `None` where nothing repeats.
     pub rotation_repeats: Option<bool>,
-}
-
-read_checked!(TossOrbit as UncheckedOrbit {
-    class: OrbitClass,
-    collisions: Vec<Collision>,
-    mean_angular_speed: Option<f64>,
-    rotation_repeats: Option<bool>,
-});
-
-impl TossOrbit {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        finite("mean_angular_speed", self.mean_angular_speed.unwrap_or_default()).map(|_| ())
-    }
 }
 
 /// Follows a motion through its transient and says what it has settled on.
@@ -251,7 +243,7 @@ impl Window {
             return Ok(self.chattering(system, settings, from, to));
         }
         let periodic = if self.attached { None } else { self.periodic(system, settings) };
-        periodic.map_or_else(|| self.chaotic(system, work), Ok)
+        periodic.map_or_else(|| self.without_period(system, settings, work), Ok)
     }
 
     fn chattering(
@@ -299,8 +291,8 @@ impl Window {
         let states: Vec<ImpactState> =
             round.iter().map(|collision| collision.state.vertical()).collect::<Result<_, _>>().ok()?;
         let orbit = system.map().refine(&states).ok()?;
-        let vertical = Multipliers::of(orbit.monodromy);
-        if vertical.spectral_radius() >= 1.0 {
+        let vertical = orbit.multipliers();
+        if vertical.spectral_radius() + system.map().multiplier_error(&orbit).ok()? >= 1.0 {
             return None;
         }
         let before = &self.collisions[last - period];
@@ -319,17 +311,24 @@ impl Window {
         })
     }
 
-    fn chaotic(self, system: &DimensionlessSystem, work: &mut WorkCount<'_>) -> Result<TossOrbit, Error> {
+    fn without_period(
+        self,
+        system: &DimensionlessSystem,
+        settings: &MultiTossSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<TossOrbit, Error> {
         let (first, last) = (&self.collisions[0], &self.collisions[self.collisions.len() - 1]);
         let mean = mean_speed((first.time, first.angle), (last.time, last.angle));
-        let lyapunov_exponent =
-            if self.attached { None } else { growth_rate(system.map(), &self.collisions, work)? };
-        Ok(TossOrbit {
-            class: OrbitClass::ChaoticOrLong { impacts: self.collisions.len(), lyapunov_exponent },
-            mean_angular_speed: mean,
-            rotation_repeats: None,
-            collisions: self.collisions,
-        })
+        let map = system.map();
+        let lyapunov_exponent = if self.attached { None } else { growth_rate(map, &self.collisions, work)? };
+        let followed = settings.transient_impacts.saturating_add(self.collisions.len()) as f64;
+        let class = match lyapunov_exponent {
+            Some(lyapunov_exponent) if lyapunov_exponent.grows() && followed >= map.transient_impacts() => {
+                OrbitClass::Chaotic { lyapunov_exponent }
+            }
+            _ => OrbitClass::Undecided { impacts: self.collisions.len(), lyapunov_exponent },
+        };
+        Ok(TossOrbit { class, mean_angular_speed: mean, rotation_repeats: None, collisions: self.collisions })
     }
 }
 
@@ -344,16 +343,16 @@ fn growth_rate(
     map: &ImpactMap,
     collisions: &[Collision],
     work: &mut WorkCount<'_>,
-) -> Result<Option<f64>, Error> {
-    let mut growth = TangentGrowth::default();
+) -> Result<Option<LyapunovEstimate>, Error> {
+    let (mut tangent, mut growths) = (TangentGrowth::default(), LyapunovEstimate::growths());
     let Some((_, followed)) = collisions.split_last() else { return Ok(None) };
     for collision in followed {
         work.spend(1)?;
         let step = collision.state.vertical().ok().and_then(|state| map.step_with_derivative(state).ok());
         let Some((_, derivative)) = step else { return Ok(None) };
-        growth.grow(derivative);
+        growths.push(tangent.grow(derivative));
     }
-    Ok(growth.exponent())
+    Ok(LyapunovEstimate::of(&growths).filter(|_| tangent.is_bounded()))
 }
 
 #[cfg(test)]
@@ -427,12 +426,9 @@ mod tests {
             angular_speed: 0.0,
         };
         let orbit = multi_toss(chaotic, start, MultiTossSettings::default()).unwrap();
-        let OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } = orbit.class else {
-            panic!("{:?}", orbit.class)
-        };
-        assert_eq!(impacts, 1_024);
-        let exponent = lyapunov_exponent.unwrap();
-        assert!(exponent > 0.1 && exponent < 1.0, "{exponent}");
+        let OrbitClass::Chaotic { lyapunov_exponent } = orbit.class else { panic!("{:?}", orbit.class) };
+        assert!(lyapunov_exponent.impacts == 1_023, "{lyapunov_exponent:?}");
+        assert!((0.1..1.0).contains(&lyapunov_exponent.exponent), "{lyapunov_exponent:?}");
         let gentle = system_of(0.3);
         let orbit = multi_toss(gentle, from_rest(&gentle), MultiTossSettings::default()).unwrap();
         assert_eq!(orbit.class, OrbitClass::AtRest);
@@ -455,7 +451,7 @@ mod tests {
             multi_toss_observed(system, start, settings, &observer)
         };
         let whole = multi_toss(system, start, settings).unwrap();
-        assert!(matches!(whole.class, OrbitClass::ChaoticOrLong { lyapunov_exponent: Some(_), .. }));
+        assert!(matches!(whole.class, OrbitClass::Chaotic { .. }));
         for at in 0..100 {
             match stopped(at) {
                 Ok(orbit) => {
@@ -562,6 +558,26 @@ mod tests {
         let rate = growth_rate(&map, &vec![collision; 20_001], &mut watch.work()).unwrap().unwrap();
         let radius = Multipliers::of(map.refine(&[state]).unwrap().monodromy).spectral_radius();
         let expected = bouncing_disk_core::elementary::ln(radius);
-        assert!((rate - expected).abs() < 1e-3, "{rate} {expected}");
+        assert!((rate.exponent - expected).abs() < 1e-3, "{rate:?} {expected}");
+        assert!((rate.exponent - expected).abs() < 3.0 * rate.standard_error, "{rate:?} {expected}");
+    }
+
+    /// On the orbit that is born in the fold perturbations neither grow nor shrink.
+    #[test]
+    fn neutral_motion_is_no_chaos() {
+        for (forcing, restitution) in [(0.3333333333333333, 0.5), (0.25, 0.6)] {
+            let forcing = ForcingParameters {
+                axial_forcing: forcing,
+                angular_forcing: 1.0,
+                phase_lag: 0.0,
+                restitution,
+            };
+            let system = forcing.build().unwrap();
+            let orbit = multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default()).unwrap();
+            let OrbitClass::Undecided { lyapunov_exponent: Some(exponent), .. } = orbit.class else {
+                panic!("{:?}", orbit.class)
+            };
+            assert!(exponent.exponent.abs() <= exponent.standard_error, "{exponent:?}");
+        }
     }
 }

@@ -87,7 +87,8 @@ fn column(axial_forcing: f64, verdict: &Verdict, impact_phase_cycles: Vec<f64>) 
         Verdict::Undecided { reason, .. } => {
             let (exponent, standard_error) = match reason {
                 UndecidedReason::ExponentNearZero { exponent, standard_error }
-                | UndecidedReason::NoPeriodFound { exponent, standard_error } => {
+                | UndecidedReason::NoPeriodFound { exponent, standard_error }
+                | UndecidedReason::TransientMayLast { exponent, standard_error, .. } => {
                     (Some(exponent), Some(standard_error))
                 }
                 _ => (None, None),

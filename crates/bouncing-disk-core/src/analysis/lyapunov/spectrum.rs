@@ -5,25 +5,23 @@ use core::ops::ControlFlow;
 
 use glam::DMat2;
 
-use crate::analysis::lyapunov::TangentGrowth;
+use crate::analysis::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::analysis::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, finite, not_negative, within};
+use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
 use crate::numerics::elementary::ln;
 use crate::observer::{Observer, Unobserved};
 use crate::platform::phase::Phase;
-use crate::read_checked;
 
 /// Both Lyapunov exponents per impact of the impact map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSpectrum"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LyapunovSpectrum {
     /// The largest exponent: the mean logarithmic growth of a small perturbation per impact.
     pub largest: f64,
-    /// Its standard error by batch means ([`BatchMeans`]), over the one orbit that was followed.
+    /// Its standard error over the one orbit that was followed: scatter, drift and rounding ([`BatchMeans`]).
     pub standard_error: f64,
     /// The other exponent; `None` for restitution 0, where the map forgets one of its two dimensions at every
     /// impact and the exponent is minus infinity.
@@ -36,33 +34,9 @@ pub struct LyapunovSpectrum {
     pub impacts: u64,
 }
 
-read_checked!(LyapunovSpectrum as UncheckedSpectrum {
-    largest: f64,
-    standard_error: f64,
-    second: Option<f64>,
-    exact_sum: Option<f64>,
-    impacts: u64,
-});
-
-impl LyapunovSpectrum {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        finite("largest exponent", self.largest)?;
-        not_negative("standard error of an exponent", self.standard_error)?;
-        if let Some(second) = self.second {
-            finite("second exponent", second)?;
-        }
-        if let Some(sum) = self.exact_sum {
-            finite("exact sum of the exponents", sum)?;
-        }
-        within("impacts", self.impacts as f64, FEWEST_NUMBERS as f64, f64::MAX, "at least 16").map(|_| ())
-    }
-}
-
 /// The exponents of an orbit, or why it has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedOutcome"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum LyapunovOutcome {
     /// The orbit has flown on for as many impacts as were asked for.
@@ -83,18 +57,7 @@ pub enum LyapunovOutcome {
     },
 }
 
-read_checked!(enum LyapunovOutcome as UncheckedOutcome {
-    Exponents(spectrum: LyapunovSpectrum),
-    Rested { impacts: u64 },
-    Grazed { impacts: u64, phase: Phase },
-});
-
 impl LyapunovOutcome {
-    /// The parts have been checked when they were read.
-    fn check(&self) -> Result<(), Error> {
-        Ok(())
-    }
-
     /// The exponents, if there are any.
     #[must_use]
     pub const fn spectrum(&self) -> Option<&LyapunovSpectrum> {
@@ -107,7 +70,7 @@ impl LyapunovOutcome {
 
 /// The QR decomposition along an orbit: the first direction as [`TangentGrowth`] has it, the second one at
 /// right angles to it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct TangentFrame {
     first: TangentGrowth,
     batches: BatchMeans,
@@ -117,7 +80,7 @@ struct TangentFrame {
 impl TangentFrame {
     fn grow(&mut self, derivative: DMat2) {
         let across = self.first.tangent().perp();
-        let length = self.first.advance(derivative);
+        let length = self.first.grow(derivative);
         self.batches.push(length);
         // What is left of the second direction at right angles to the new first one.
         self.second_sum += ln(self.first.tangent().perp().dot(derivative * across).abs());
@@ -206,7 +169,6 @@ pub fn lyapunov_spectra(
 }
 
 /// [`lyapunov_spectra`] with an observer; the items are the orbits.
-/// [`SweepRun::advance_lyapunov_spectra`] keeps the finished ones of a call that is stopped.
 ///
 /// # Errors
 /// Those of [`lyapunov_spectra`]; [`Error::Stopped`] if the observer breaks.
@@ -216,39 +178,24 @@ pub fn lyapunov_spectra_observed(
     impacts: u64,
     observer: &dyn Observer,
 ) -> Result<Vec<LyapunovOutcome>, Error> {
+    within("impacts", impacts as f64, FEWEST_NUMBERS as f64, f64::MAX, "at least 16")?;
+    let orbits: Vec<Orbit> =
+        starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
     let mut run = SweepRun::new(starts.len());
-    run.advance_lyapunov_spectra(starts, transient, impacts, observer)?;
+    run.advance_with(
+        &orbits,
+        |index| {
+            let (map, state) = starts[index];
+            let batches = LyapunovEstimate::growths();
+            let frame = TangentFrame { first: TangentGrowth::default(), batches, second_sum: 0.0 };
+            Followed { map, state, impacts: 0, first_velocity: 0.0, frame, outcome: None }
+        },
+        |followed, event| followed.see(event, transient, impacts),
+        // An orbit that ends without an event has been at rest from the start.
+        |followed| Ok(followed.outcome.unwrap_or(LyapunovOutcome::Rested { impacts: followed.impacts })),
+        observer,
+    )?;
     run.into_results()
-}
-
-impl SweepRun<LyapunovOutcome> {
-    /// Goes on with the [`lyapunov_spectra`] of the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`lyapunov_spectra`] and of [`Self::advance`].
-    pub fn advance_lyapunov_spectra(
-        &mut self,
-        starts: &[(ImpactMap, ImpactState)],
-        transient: u64,
-        impacts: u64,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        within("impacts", impacts as f64, FEWEST_NUMBERS as f64, f64::MAX, "at least 16")?;
-        let orbits: Vec<Orbit> =
-            starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-        self.advance_with(
-            &orbits,
-            |index| {
-                let (map, state) = starts[index];
-                let frame = TangentFrame::default();
-                Followed { map, state, impacts: 0, first_velocity: 0.0, frame, outcome: None }
-            },
-            |followed, event| followed.see(event, transient, impacts),
-            // An orbit that ends without an event has been at rest from the start.
-            |followed| Ok(followed.outcome.unwrap_or(LyapunovOutcome::Rested { impacts: followed.impacts })),
-            observer,
-        )
-    }
 }
 
 #[cfg(test)]

@@ -96,11 +96,14 @@ impl<T> PartialResults<T> {
     /// Adds what has been finished: items that exist. Of an item that was finished before the first result
     /// stays.
     pub fn extend(&mut self, results: impl IntoIterator<Item = (usize, T)>) {
-        let total = self.total;
+        let (total, last) = (self.total, self.finished.len().saturating_sub(1));
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
-        // Stable, so that the first result of an item is the one that stays.
-        self.finished.sort_by_key(|(index, _)| *index);
-        self.finished.dedup_by_key(|(index, _)| *index);
+        // What comes in its order is added in the time that it takes by itself.
+        if !self.finished[last..].is_sorted_by(|(one, _), (next, _)| one < next) {
+            // Stable, so that the first result of an item is the one that stays.
+            self.finished.sort_by_key(|(index, _)| *index);
+            self.finished.dedup_by_key(|(index, _)| *index);
+        }
     }
 
     /// The results that a function makes of these; where it makes none, the item is not finished.

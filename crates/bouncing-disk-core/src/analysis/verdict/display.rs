@@ -51,6 +51,18 @@ impl core::fmt::Display for UndecidedReason {
                     "exponent {exponent:.digits$} +- {standard_error:.digits$}, no period found"
                 )
             }
+            Self::OnPeriodicOrbit { impacts, platform_periods, multipliers, multiplier_error, .. } => {
+                let neutral = multipliers.spectral_radius() - multiplier_error <= 1.0;
+                let kind = if neutral { "a neutral" } else { "a repelling" };
+                let (impacts, periods) =
+                    (counted(impacts, "impact"), counted(platform_periods, "platform period"));
+                write!(formatter, "at {kind} orbit of {impacts} in {periods}, ")?;
+                write!(formatter, "multipliers {multipliers:.digits$} +- {multiplier_error:.0e}")
+            }
+            Self::TransientMayLast { exponent, standard_error, needed } => {
+                write!(formatter, "exponent {exponent:.digits$} +- {standard_error:.digits$}, ")?;
+                write!(formatter, "a transient may last {needed:.0} impacts")
+            }
             Self::Grazing { impacts, phase } => {
                 write!(formatter, "impact {impacts} grazes at {:.digits$} rad", phase.angle())
             }

@@ -3,10 +3,10 @@
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
-use super::proof::{Proof, prove};
+use super::proof::{Proof, Stability, prove};
 use super::returns::Returns;
-use super::{CycleTrust, DECISIVE_ERRORS, RestCycle, UndecidedReason, Verdict, VerdictSettings};
-use crate::analysis::lyapunov::TangentGrowth;
+use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
+use crate::analysis::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::analysis::sweep::{SweepEvent, SweepImpact};
 use crate::map::impact_map::{Attachment, ImpactMap, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
@@ -35,7 +35,13 @@ struct Round {
 
 impl Round {
     fn new() -> Self {
-        Self { long_flights: 0, turns: 0, growth: BatchMeans::default(), rounding: 0.0, worst_rounding: 0.0 }
+        Self {
+            long_flights: 0,
+            turns: 0,
+            growth: LyapunovEstimate::growths(),
+            rounding: 0.0,
+            worst_rounding: 0.0,
+        }
     }
 
     fn see(&mut self, impact: &SweepImpact) {
@@ -57,6 +63,10 @@ impl Round {
         self.worst_rounding = self.worst_rounding.max(told);
     }
 }
+
+/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever perturbations
+/// of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as near.
+const ON_AN_ORBIT: f64 = 1.0e-9;
 
 /// An orbit under way to its verdict.
 #[derive(Debug, Clone)]
@@ -91,7 +101,7 @@ impl Witness {
             before: 0,
             returns: Returns::new(),
             tangent: TangentGrowth::default(),
-            growth: BatchMeans::default(),
+            growth: LyapunovEstimate::growths(),
             turns: 0,
             grazed: None,
             round: None,
@@ -129,7 +139,7 @@ impl Witness {
         }
         self.grow(from, impact, counts);
         if let Some(period) = self.returns.see(state, impact.turns, &self.settings) {
-            self.verdict = self.periodic(period);
+            self.verdict = self.periodic(period, Stability::Neutral);
             if self.verdict.is_none() {
                 self.returns.reject();
             }
@@ -153,7 +163,7 @@ impl Witness {
             }
             return;
         }
-        let growth = self.tangent.advance(self.map.derivative(from, state, impact.duration));
+        let growth = self.tangent.grow(self.map.derivative(from, state, impact.duration));
         if let Some(round) = &mut self.round {
             round.grow(growth, state);
         }
@@ -205,18 +215,27 @@ impl Witness {
         self.round.is_some() as u64
     }
 
-    /// The verdict if the orbit is on its way to an attracting one with this period.
-    fn periodic(&self, period: usize) -> Option<Verdict> {
-        let Proof { orbit, distance } = prove(&self.map, self.state, period, &self.settings)?;
-        Some(Verdict::Periodic {
-            impacts: orbit.period() as u64,
-            platform_periods: orbit.platform_periods,
-            multipliers: orbit.multipliers(),
-            state: *orbit.states.first()?,
-            distance,
-            after: self.before + self.impacts,
-            rests: self.rests(),
-        })
+    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is no
+    /// less stable than `least`.
+    fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
+        let proof = prove(&self.map, self.state, period, &self.settings)?;
+        let Proof { orbit, distance, multiplier_error, stability } = proof;
+        let (impacts, platform_periods) = (orbit.period() as u64, orbit.platform_periods);
+        let (multipliers, state, rests) = (orbit.multipliers(), *orbit.states.first()?, self.rests());
+        let after = self.before + self.impacts;
+        if stability == Stability::Attracts {
+            let verdict =
+                Verdict::Periodic { impacts, platform_periods, multipliers, state, distance, after, rests };
+            return Some(verdict);
+        }
+        let reason = UndecidedReason::OnPeriodicOrbit {
+            impacts,
+            platform_periods,
+            multipliers,
+            multiplier_error,
+            state,
+        };
+        (stability <= least).then_some(Verdict::Undecided { reason, rests })
     }
 
     /// What is said of an orbit that has used up its impacts.
@@ -226,18 +245,22 @@ impl Witness {
             return Verdict::Undecided { reason: UndecidedReason::Grazing { impacts, phase }, rests };
         }
         // There are 64 impacts at least.
-        let exponent = self.growth.mean().unwrap_or(0.0);
-        let standard_error = self.growth.standard_error().unwrap_or(0.0);
-        let decisive = DECISIVE_ERRORS * standard_error;
-        if exponent > decisive {
-            let (impacts, platform_periods) = (self.growth.count(), self.turns);
-            return Verdict::Chaotic { exponent, standard_error, impacts, platform_periods, rests };
-        }
-        // What is approached slowly has not returned to within the tolerance.
-        if let Some(verdict) = self.returns.nearest().and_then(|period| self.periodic(period)) {
+        let nothing = LyapunovEstimate { exponent: 0.0, standard_error: 0.0, impacts: self.impacts };
+        let estimate = LyapunovEstimate::of(&self.growth).unwrap_or(nothing);
+        let LyapunovEstimate { exponent, standard_error, impacts } = estimate;
+        // What is approached slowly has not returned to within the tolerance; what repels may be stayed at.
+        let nearest = self.returns.nearest();
+        let nearest = nearest.filter(|(distance, _)| !estimate.grows() || *distance <= ON_AN_ORBIT);
+        if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Repels)) {
             return verdict;
         }
-        let reason = if exponent < -decisive {
+        let needed = self.map.transient_impacts();
+        let reason = if estimate.grows() && (self.impacts as f64) < needed {
+            UndecidedReason::TransientMayLast { exponent, standard_error, needed }
+        } else if estimate.grows() {
+            let platform_periods = self.turns;
+            return Verdict::Chaotic { exponent, standard_error, impacts, platform_periods, rests };
+        } else if estimate.shrinks() {
             UndecidedReason::NoPeriodFound { exponent, standard_error }
         } else {
             UndecidedReason::ExponentNearZero { exponent, standard_error }

@@ -204,11 +204,18 @@ class Verdicts(Result):
     rounding_error : (n,) float64 array
         How far rounding may have carried the impacts of a chattering round (rad and g/omega).
     multipliers : (n, 2) complex128 array
-        Floquet multipliers of a periodic orbit.
+        Floquet multipliers of a periodic orbit, also of a neutral or repelling one that is stayed at.
     """
 
     KINDS: ClassVar[tuple[str, ...]] = ("periodic", "chaotic", "chattering", "at-rest", "undecided")
-    REASONS: ClassVar[tuple[str, ...]] = ("", "exponent-near-zero", "no-period-found", "grazing")
+    REASONS: ClassVar[tuple[str, ...]] = (
+        "",
+        "exponent-near-zero",
+        "no-period-found",
+        "grazing",
+        "on-periodic-orbit",
+        "transient-may-last",
+    )
 
     axial_forcing: FloatArray
     restitution: FloatArray

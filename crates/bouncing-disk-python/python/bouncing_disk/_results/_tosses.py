@@ -76,7 +76,7 @@ class TossOrbit(Result):
     Attributes
     ----------
     kind : str
-        ``"periodic"``, ``"chattering"``, ``"chaotic-or-long"`` or ``"at-rest"``.
+        ``"periodic"``, ``"chattering"``, ``"chaotic"``, ``"undecided"`` or ``"at-rest"``.
     period, platform_periods : int
         Impacts and platform periods of one round of a periodic or chattering motion, else 0.
     long_flights : int
@@ -99,6 +99,8 @@ class TossOrbit(Result):
         Angular speed of the disk just before (rad/s), and the angle that it has turned (rad).
     capped : (m,) bool array
         Whether friction ended the slip within the impact.
+    lyapunov_exponent_error : float or None
+        Standard error of the exponent: scatter, drift and rounding.
     """
 
     kind: str
@@ -116,6 +118,7 @@ class TossOrbit(Result):
     angular_speed: FloatArray
     angle: FloatArray
     capped: BoolArray
+    lyapunov_exponent_error: float | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -170,7 +170,7 @@ pub(super) fn regime(
     let class = settled(system, 0, observer)?;
     // A motion that has not settled is given the time to do so, if it is not one that rests.
     let class = match class {
-        OrbitClass::ChaoticOrLong { .. } if seen.separations == 0 => {
+        OrbitClass::Chaotic { .. } | OrbitClass::Undecided { .. } if seen.separations == 0 => {
             settled(system, SETTLING_IMPACTS, observer)?
         }
         class => class,
@@ -189,11 +189,10 @@ pub(super) fn regime(
             let platform_periods = cycle.platform_periods as f64;
             long.unwrap_or(MotorRegime::LongChattering { platform_periods, rests: 1 })
         }
-        OrbitClass::ChaoticOrLong { impacts, lyapunov_exponent } => match (long, lyapunov_exponent) {
-            (Some(long), _) => long,
-            (None, Some(exponent)) if exponent > 0.0 => MotorRegime::Chaotic { lyapunov_exponent: exponent },
-            (None, _) => MotorRegime::Undecided { impacts },
-        },
+        OrbitClass::Chaotic { lyapunov_exponent } => {
+            long.unwrap_or(MotorRegime::Chaotic { lyapunov_exponent: lyapunov_exponent.exponent })
+        }
+        OrbitClass::Undecided { impacts, .. } => long.unwrap_or(MotorRegime::Undecided { impacts }),
     };
     Ok((regime, seen.periods_per_flight()))
 }

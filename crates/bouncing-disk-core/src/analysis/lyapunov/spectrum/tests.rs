@@ -2,7 +2,7 @@ use super::*;
 use crate::analysis::lyapunov::lyapunov_exponents;
 use crate::analysis::periodic::Multipliers;
 use crate::platform::vibration::Vibration;
-use crate::testing::{StopAfter, golden_spread, stored};
+use crate::testing::{StopAfter, golden_spread};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
     ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
@@ -58,22 +58,35 @@ fn the_exponents_of_a_periodic_orbit_are_those_of_its_multipliers() {
     }
 }
 
-/// The spread of many orbits of one attractor is what the error of each says.
+/// Of 100 orbits of one attractor 90 at least hold the exponent of far longer ones within 1.96 errors: in the
+/// midst of chaos, next to a crisis, where dissipation is weak, and in the bands of weak chaos. But for the
+/// bands, where neighbouring growths make up for each other, the error is not much more than the spread.
 #[test]
-fn the_standard_error_is_the_spread_of_many_orbits() {
-    let starts: Vec<_> = (0..200)
-        .map(|k| {
-            let state = ImpactState::from_normalised(0.8 + 1e-3 * golden_spread(k), 1.3).expect("legal");
-            (map(0.55, 0.5), state)
-        })
-        .collect();
-    let outcomes = lyapunov_spectra(&starts, 500, 4_000).expect("no failure");
-    let spectra: Vec<_> = outcomes.iter().filter_map(LyapunovOutcome::spectrum).collect();
-    assert_eq!(spectra.len(), 200);
-    let of = |value: fn(&LyapunovSpectrum) -> f64| spectra.iter().map(|own| value(own)).collect::<Vec<_>>();
-    let spread = crate::numerics::statistics::standard_deviation(&of(|own| own.largest));
-    let told = crate::numerics::statistics::mean(&of(|own| own.standard_error));
-    assert!((0.8..1.6).contains(&(told / spread)), "{told} against {spread}");
+fn the_exponent_lies_within_its_errors() {
+    for (forcing, restitution) in
+        [(0.55, 0.5), (0.56, 0.5), (0.5607, 0.5), (0.5427, 0.5), (0.543, 0.5), (0.5463, 0.5), (0.5, 0.95)]
+    {
+        let starts: Vec<_> = (0..100)
+            .map(|k| {
+                let state = ImpactState::from_normalised(0.8 + 1e-2 * golden_spread(k), 1.3).expect("legal");
+                (map(forcing, restitution), state)
+            })
+            .collect();
+        let spectra = |orbits: usize, impacts| -> Vec<LyapunovSpectrum> {
+            let outcomes = lyapunov_spectra(&starts[..orbits], 2_000, impacts).expect("no failure");
+            outcomes.iter().filter_map(|outcome| outcome.spectrum().copied()).collect()
+        };
+        let mean_of = |all: &[LyapunovSpectrum], of: fn(&LyapunovSpectrum) -> f64| {
+            crate::numerics::statistics::mean(&all.iter().map(of).collect::<Vec<_>>())
+        };
+        let exact = mean_of(&spectra(20, 50_000), |own| own.largest);
+        let all = spectra(100, 4_000);
+        let held = all.iter().filter(|own| (own.largest - exact).abs() <= 1.96 * own.standard_error).count();
+        let spread = all.iter().map(|own| (own.largest - exact) * (own.largest - exact)).sum::<f64>();
+        let ratio = mean_of(&all, |own| own.standard_error) / (spread / all.len() as f64).sqrt();
+        let place = format!("{forcing}, {restitution}: {held} of {}, {ratio}", all.len());
+        assert!(all.len() >= 90 && held * 10 >= all.len() * 9 && (exact < 0.1 || ratio < 1.6), "{place}");
+    }
 }
 
 #[test]
@@ -122,17 +135,12 @@ fn without_restitution_there_is_one_exponent() {
 }
 
 #[test]
-fn too_few_impacts_are_refused_and_a_stopped_call_goes_on() {
+fn too_few_impacts_are_refused_and_a_call_can_be_stopped() {
     for impacts in [0, 15] {
         let error = lyapunov_spectra(&starts(3), 0, impacts).expect_err("too few");
         assert!(matches!(error, Error::OutOfRange { field: "impacts", .. }), "{error}");
     }
     assert_eq!(lyapunov_spectra(&[], 0, 16), Ok(Vec::new()));
-    let starts = starts(200);
-    let mut run = SweepRun::new(starts.len());
-    let stopped = run.advance_lyapunov_spectra(&starts, 100, 2_000, &StopAfter::calls(12));
+    let stopped = lyapunov_spectra_observed(&starts(200), 100, 2_000, &StopAfter::calls(12));
     assert!(matches!(stopped, Err(Error::Stopped { done: 1..200, total: 200 })), "{stopped:?}");
-    let mut run = stored(&run);
-    run.advance_lyapunov_spectra(&starts, 100, 2_000, &Unobserved).expect("goes on");
-    assert_eq!(run.into_results(), lyapunov_spectra(&starts, 100, 2_000));
 }
