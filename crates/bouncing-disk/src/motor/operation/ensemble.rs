@@ -106,9 +106,10 @@ impl LoadedMotor {
 pub(crate) struct Operations {
     /// In the order of the motors.
     pub(crate) operations: Vec<Operation>,
-    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up of rotors from far below; none for a runaway.
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of rotors from far below
+    /// and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// The same of rotors from far above: the difference bounds what is left of the start-up.
+    /// Those of rotors from far above: the difference bounds what is left of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
 }
 
@@ -284,23 +285,27 @@ impl Run {
         if motor < self.asked { self.motors.len() + motor } else { motor }
     }
 
-    /// Mean speeds (rad/s) of a motor's rotor in the windows after the start-up, of each member.
-    fn speeds(&self, motor: usize, rotor: usize) -> Vec<Vec<f64>> {
+    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two rotors, and of the
+    /// one from far above.
+    fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
-        let speed = |window: &Window| window.rotors[rotor].angle / window.axial.duration * unit;
         let after = left_out(self.windows());
-        self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
+        let above = self.from_above(motor);
+        let of = |angle: &dyn Fn(&[RotorWindow]) -> f64| -> Vec<Vec<f64>> {
+            let speed = |window: &Window| angle(&window.rotors) / window.axial.duration * unit;
+            self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
+        };
+        [of(&|rotors| 0.5 * (rotors[motor].angle + rotors[above].angle)), of(&|rotors| rotors[above].angle)]
     }
 
     fn judge(&mut self, settings: &OperatingSettings) {
-        let speeds: Vec<Vec<Vec<f64>>> =
-            (0..self.motors.len()).map(|motor| self.speeds(motor, motor)).collect();
+        let speeds: Vec<_> = (0..self.motors.len()).map(|motor| self.speeds(motor)).collect();
         let mean = |windows: &[Vec<f64>]| {
             let count = windows.len() * windows[0].len();
             windows.iter().flatten().sum::<f64>() / count as f64
         };
         let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.load() == 0.0);
-        let scale = unloaded.map(|(motor, speeds)| {
+        let scale = unloaded.map(|(motor, [speeds, _])| {
             // A motor without twist has no speed but that at which a load makes it creep.
             let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
             mean(speeds).abs().max(0.01 * motor.system.platform().peak_angular_speed().max(creep))
@@ -308,8 +313,8 @@ impl Run {
         self.wanted = settings.relative_error * scale.fold(0.0, f64::max);
         self.shortfalls = (0..self.asked)
             .map(|motor| {
-                let above = self.speeds(motor, self.from_above(motor));
-                shortfall(&speeds[motor], &above, self.wanted).or_else(|| self.unbalanced(motor))
+                let [middle, above] = &speeds[motor];
+                shortfall(middle, above, self.wanted).or_else(|| self.unbalanced(motor))
             })
             .collect();
     }
@@ -353,9 +358,14 @@ impl Run {
             };
             self.members.iter().map(member).collect::<Vec<Sum>>()
         });
-        let of = |sums: &[Sum], value: &dyn Fn(&Sum) -> f64| sums.iter().map(value).collect::<Vec<f64>>();
+        // Of each member in the middle of its two rotors, and of that from above.
+        let of = |value: &dyn Fn(&Sum) -> f64| -> [Vec<f64>; 2] {
+            let middles = below.iter().zip(&above).map(|(one, other)| 0.5 * (value(one) + value(other)));
+            [middles.collect(), above.iter().map(value).collect()]
+        };
         let estimate = |value: &dyn Fn(&Sum) -> f64| {
-            Ok::<_, Error>(Estimate::of(&of(&below, value))?.between(Estimate::of(&of(&above, value))?))
+            let [middle, above] = of(value);
+            Ok::<_, Error>(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
         };
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * units.speed;
         let mechanical = |sum: &Sum| sum.rotor.load_work / sum.axial.duration * units.rotary;
@@ -367,10 +377,11 @@ impl Run {
         let friction = |sum: &Sum| sum.rotor.friction_loss / sum.axial.duration * units.rotary;
         let perturbation = |sum: &Sum| sum.axial.perturbation_work / sum.axial.duration * units.axial;
         let mechanical_power = estimate(&mechanical)?;
-        let efficiency = |sums: &[Sum]| Estimate::of_ratio(&of(sums, &mechanical), &of(sums, &input));
-        let efficiency = efficiency(&below)
-            .zip(efficiency(&above))
-            .map(|(below, above)| below.between(above))
+        let (work, put_in) = (of(&mechanical), of(&input));
+        let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
+        let efficiency = ratio(0)
+            .zip(ratio(1))
+            .map(|(middle, above)| middle.bounded_by(above))
             .filter(|_| mechanical_power.value >= 0.0);
         let starts = self
             .members
@@ -395,7 +406,8 @@ impl Run {
             None => Operation::Steady(point),
             Some(shortfall) => Operation::Unsettled(point, shortfall),
         };
-        Ok((operation, of(&below, &speed), of(&above, &speed)))
+        let [middle, above] = of(&speed);
+        Ok((operation, middle, above))
     }
 }
 
@@ -437,8 +449,9 @@ impl Sum {
     /// roundings then.
     fn energy_scale(&self, units: &Units, system: &DimensionlessSystem) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
-        // A load that drives the motor puts energy in, too.
-        let rotary = self.rotor.friction_work.abs().max(self.rotor.load_work.abs());
+        // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
+        let rotor = &self.rotor;
+        let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
         let put_in = axial.abs() * units.axial + rotary * units.rotary;
         let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
         put_in.max(0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary)

@@ -34,9 +34,9 @@ impl Estimate {
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
     }
 
-    /// What runs from below all steady speeds give, with the difference to those from above as the bound of its bias.
-    pub(crate) fn between(self, above: Self) -> Self {
-        let bias = (above.value - self.value).abs();
+    /// What is in the middle of runs from two sides, with its distance to one of them as the bound of its bias.
+    pub(crate) fn bounded_by(self, one: Self) -> Self {
+        let bias = (one.value - self.value).abs();
         Self { standard_error: self.standard_error + bias / NORMAL_975, ..self }
     }
 

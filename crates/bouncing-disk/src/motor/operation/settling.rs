@@ -25,18 +25,19 @@ pub(super) const fn left_out(windows: usize) -> usize {
 /// Mean speeds of windows in order of time, `[member][window]` without the start-up.
 pub(super) type Speeds = [Vec<f64>];
 
-/// The mean speed of rotors that started from far below, with a bound of its bias by those that started from far above on the
-/// same vertical motions: a rotor never overtakes another one, and steady ones are between them. `None` if it is not finite.
-pub(super) fn steady_speed(below: &Speeds, above: &Speeds) -> Option<Estimate> {
+/// The mean speed in the middle of rotors that started from far below and far above on the same vertical motions, with a bound of
+/// its bias by those from above: a rotor never overtakes another one, and steady ones are between them. `None` if it is
+/// not finite.
+fn steady_speed(middle: &Speeds, above: &Speeds) -> Option<Estimate> {
     let of =
         |speeds: &Speeds| Estimate::of(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>()).ok();
-    Some(of(below)?.between(of(above)?))
+    Some(of(middle)?.bounded_by(of(above)?))
 }
 
 /// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more of this a bound of
 /// the start-up than scatter.
-pub(super) fn shortfall(below: &Speeds, above: &Speeds, wanted: f64) -> Option<Shortfall> {
-    let drifts: Vec<f64> = below
+pub(super) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<Shortfall> {
+    let drifts: Vec<f64> = middle
         .iter()
         .map(|windows| {
             let (early, late) = windows.split_at(windows.len().div_ceil(3));
@@ -47,7 +48,7 @@ pub(super) fn shortfall(below: &Speeds, above: &Speeds, wanted: f64) -> Option<S
     if drift.abs() > (DRIFT * standard_error).max(NEGLIGIBLE * wanted) || !drift.is_finite() {
         return Some(Shortfall::Drift { drift, standard_error });
     }
-    let (Some(speed), Some(bounded)) = (steady_speed(below, below), steady_speed(below, above)) else {
+    let (Some(speed), Some(bounded)) = (steady_speed(middle, middle), steady_speed(middle, above)) else {
         return Some(Shortfall::Drift { drift, standard_error });
     };
     let bound = bounded.standard_error - speed.standard_error;

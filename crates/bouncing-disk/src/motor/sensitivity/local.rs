@@ -225,13 +225,12 @@ fn by_differences(
             motors.push(moved(motor, parameter, -step)?);
         }
     }
-    let (below, above) = member_values(&motors, motor, quantity, &settings.operating, observer)?;
-    let own = Estimate::of(&below[0])?;
+    let (middle, above) = member_values(&motors, motor, quantity, &settings.operating, observer)?;
+    let own = Estimate::of(&middle[0])?;
     let standing = Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error };
     if own.value.abs() <= 4.0 * own.standard_error {
         return Err(standing);
     }
-    // Up over down, of rotors from below or from above.
     let quotient = |values: &[Vec<f64>], pair: usize, step: f64| {
         let divisors: Vec<f64> = values[0].iter().map(|value| own.value.signum() * value).collect();
         let ends = values[1 + 2 * pair].iter().zip(&values[2 + 2 * pair]);
@@ -246,7 +245,7 @@ fn by_differences(
             .enumerate()
             .map(|(k, &step)| {
                 let of = |values| quotient(values, index * STEPS.len() + k, step);
-                Some(of(&below)?.between(of(&above)?))
+                Some(of(&middle)?.bounded_by(of(&above)?))
             })
             .collect::<Option<Vec<Estimate>>>();
         results.push(balanced(parameter, &quotients.ok_or(standing.clone())?));
@@ -277,8 +276,8 @@ fn balanced(parameter: SensitivityParameter, quotients: &[Estimate]) -> LocalSen
     }
 }
 
-/// The quantity of each motor and member, all on the same vertical motions: of rotors from below all steady speeds, and from
-/// above.
+/// The quantity of each motor and member, all on the same vertical motions: in the middle of rotors from far below and far above
+/// all steady speeds, and of those from above.
 fn member_values(
     motors: &[Motor],
     nominal: &Motor,
@@ -314,8 +313,8 @@ fn member_values(
                 };
                 speeds.chunks_exact(shares.len()).zip(motors).map(of_motor).collect()
             };
-            let (below, above) = speeds(&loaded)?;
-            Ok((torques(below), torques(above)))
+            let (middle, above) = speeds(&loaded)?;
+            Ok((torques(middle), torques(above)))
         }
     }
 }

@@ -358,7 +358,7 @@ mod searches {
     #[test]
     fn a_stall_is_refused_where_speeds_still_drift() {
         let motor = loaded(&motor(1e-9, 0.0), 0.0);
-        let settings = OperatingSettings { most_impacts: 1_000_000, ..OperatingSettings::default() };
+        let settings = OperatingSettings { most_impacts: 100_000, ..OperatingSettings::default() };
         let error = stall_load(&motor, &settings, &Unobserved).expect_err("it drifts");
         assert!(matches!(error, Error::NotSettled { .. }), "{error}");
     }
