@@ -10,7 +10,6 @@ use super::settings::OperatingSettings;
 use super::settling::{left_out, shortfall};
 use crate::error::{Error, positive, within_limit};
 use crate::motor::shared_orbit::shared_by;
-use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -325,7 +324,7 @@ impl Run {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor, left_out(self.windows())..self.windows());
         let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
-        let share = stored.abs() / sum.energy_scale(&units, self.motors[motor].system.dimensionless());
+        let share = stored.abs() / sum.energy_scale(&units, &self.motors[motor], self.members.len());
         let time = sum.axial.duration;
         let input = sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary;
         (share > STORED_SHARE)
@@ -397,7 +396,7 @@ impl Run {
             friction_loss: estimate(&friction)?,
             efficiency,
             perturbation_power: estimate(&perturbation)?.value,
-            energy_residual: whole.energy_residual(&units, motor.system.dimensionless()),
+            energy_residual: whole.energy_residual(&units, motor, self.members.len()),
             averaged_time: below.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
             start_up: starts.sum::<f64>() / self.members.len() as f64 * units.time,
             impacts: below.iter().map(|sum| sum.axial.impacts).sum(),
@@ -445,26 +444,28 @@ impl Sum {
         self.rotor.add(&window.rotors[rotor]);
     }
 
-    /// The energy that came in; where less came in than a disk that moves with the platform has, that: there are only
-    /// roundings then.
-    fn energy_scale(&self, units: &Units, system: &DimensionlessSystem) -> f64 {
+    /// The energy that came in; where less came in than disks of all members that move with the platform have, that: there are
+    /// only roundings then.
+    fn energy_scale(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
+        let system = motor.system.dimensionless();
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
         let rotor = &self.rotor;
         let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
         let put_in = axial.abs() * units.axial + rotary * units.rotary;
         let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
-        put_in.max(0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary)
+        let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
+        put_in.max(members as f64 * moving)
     }
 
     /// What the energy balance leaves, relative to the energy that came in.
-    fn energy_residual(&self, units: &Units, system: &DimensionlessSystem) -> f64 {
+    fn energy_residual(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
         let rotor = &self.rotor;
         let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
         let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs();
-        let scale = self.energy_scale(units, system);
+        let scale = self.energy_scale(units, motor, members);
         if scale > 0.0 { left / scale } else { left }
     }
 }
