@@ -244,10 +244,10 @@ pub(crate) fn out_of_range(py: Python<'_>, field: &'static str, value: f64, rang
     of(py, Error::OutOfRange { field, value, legal: range })
 }
 
-/// A motion without events, which has neither duration nor samples.
+/// A motion without events that was given no duration, and has no samples.
 pub(crate) fn no_events(py: Python<'_>) -> PyErr {
     let message = "the trajectory has no events, because the disk stays on its platform for ever: it ends where it \
-                   begins, and there is nothing to sample";
+                   begins, and there is nothing to sample; give simulate() a duration";
     raise(py, message.to_owned(), Raised::Computation("no-events", Vec::new()))
 }
 

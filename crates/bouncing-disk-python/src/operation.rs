@@ -59,6 +59,9 @@ fn shortfall(shortfall: &Shortfall) -> String {
         Shortfall::Drift { drift, standard_error } => {
             format!("the speed drifts by {drift:?} rad/s, with a standard error of {standard_error:?} rad/s")
         }
+        Shortfall::PowerBalance { stored_power, input_power } => {
+            format!("the disk stores {stored_power:?} W of the {input_power:?} W that are put in")
+        }
         _ => "not settled".to_owned(),
     }
 }

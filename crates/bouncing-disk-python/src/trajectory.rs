@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::{Error as CoreError, Watch};
 use bouncing_disk::{
-    DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PlatformState, Scales, SlipDirection,
+    DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PhaseSpan, PlatformState, Scales, SlipDirection,
     Snapshot, System as Model, Trajectory as Motion, toss_trajectory as toss_motion,
 };
 use pyo3::prelude::*;
@@ -73,7 +73,7 @@ impl Trajectory {
         self.system.scales().time_seconds(self.motion.start())
     }
 
-    /// Time of the last event (s).
+    /// Time of the last event (s); where no event follows, the time until which the motion was asked for.
     #[getter]
     fn end_time(&self) -> f64 {
         self.system.scales().time_seconds(self.motion.end())
@@ -99,7 +99,7 @@ impl Trajectory {
     /// Raises
     /// ------
     /// ComputationError
-    ///     There are no events: the disk stays on its platform for ever, and the trajectory has no duration.
+    ///     There are no events, and the motion was given no duration.
     ///
     /// Examples
     /// --------
@@ -114,7 +114,7 @@ impl Trajectory {
         if count < 2 {
             return Err(errors::out_of_range(py, "count", count as f64, range));
         }
-        if self.motion.records().is_empty() {
+        if self.motion.end() == self.motion.start() {
             return Err(errors::no_events(py));
         }
         let scales = self.system.scales();
@@ -302,7 +302,7 @@ pub(crate) fn toss_trajectory(
 /// events : int, default 1000
 ///     The most events, in [1, 1000000].
 /// duration : float, optional
-///     Time (s), positive, after which the next event is the last one.
+///     Time (s), positive, after which the next event is the last one; where none follows, the motion ends then.
 /// chatter : ChatterCut, optional
 ///     How a chatter ends; ``None`` sums it.
 /// progress : callable, optional
@@ -356,7 +356,9 @@ pub(crate) fn simulate(
         let (scales, begun) = (system.scales(), engine.time());
         let watch = Watch::begin(observer, 0, most)?;
         let (mut work, mut seen, mut stopped) = (watch.work(), 0, false);
-        let motion = Motion::record(&mut engine, |record| {
+        let radians = duration.map_or(0.0, |duration| duration / scales.time);
+        let end = begun.after(PhaseSpan::from_radians(radians));
+        let motion = Motion::record_until(&mut engine, end, |record| {
             seen += 1;
             watch.finish(1);
             stopped = work.spend(FLIGHTS_OF_EVENT).is_err();

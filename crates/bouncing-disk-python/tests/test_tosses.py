@@ -138,9 +138,20 @@ def test_a_branch_is_continued_through_its_doubling() -> None:
 
 
 def test_a_trajectory_without_events_says_that_it_has_no_samples() -> None:
-    resting = bd.simulate(bd.System.pizza_toss().replace(amplitude=0.0, twist_amplitude=0.0), duration=1.0)
+    still = bd.System.pizza_toss().replace(amplitude=0.0, twist_amplitude=0.0)
+    resting = bd.simulate(still)
     assert len(resting) == 0 and resting.start_time == resting.end_time
     assert resting.events().names() == []
     with pytest.raises(bd.ComputationError, match="no events") as refused:
         resting.samples(count=10)
     assert refused.value.kind == "no-events"
+    # Friction, 60.06 rad/s^2, does not hold the load: it slides for ever.
+    loaded = still.replace(
+        angular_frequency=100.0, contact_radius=0.1, gyration_radius=0.07, friction=0.3,
+        preload_acceleration=9.81, load_acceleration=120.12,
+    )  # fmt: skip
+    sliding = bd.simulate(loaded, duration=1.0)
+    assert len(sliding) == 0 and abs(sliding.end_time - 1.0) < 1e-12
+    friction = 0.3 * 9.81 * 0.1 / 0.07**2
+    assert abs(sliding.samples(count=3).angular_speed[-1] - (friction - 120.12)) < 1e-9
+    assert sliding.energy.friction_loss > 0.0

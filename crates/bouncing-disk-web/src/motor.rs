@@ -200,6 +200,9 @@ fn lacking(shortfall: &Shortfall) -> String {
         Shortfall::Drift { drift, standard_error } => {
             format!("the speed still drifts, by {drift:.3e} +- {standard_error:.3e} rad/s")
         }
+        Shortfall::PowerBalance { stored_power, input_power } => {
+            format!("the disk stores {stored_power:.3e} W of the {input_power:.3e} W that are put in")
+        }
         _ => "unknown".to_owned(),
     }
 }

@@ -67,7 +67,7 @@ pub(crate) struct ContactStep {
     /// What the closed forms say of the segment. Where a slip ends, rounding leaves a little between this
     /// speed and [`Self::speed`].
     pub(crate) change: RotaryChange,
-    /// Angular speed at the event: that of the platform where a slip ends.
+    /// Angular speed at the event: that of the platform where friction ends a slip.
     pub(crate) speed: f64,
 }
 
@@ -170,7 +170,9 @@ impl Contact {
                 let event = friction
                     .onset(time.phase, spent)
                     .map_or(ContactEvent::SlipToStick, ContactEvent::SlipReversal);
-                (event, system.platform_angular_speed(time.phase))
+                // What no friction acts on only passes by the platform's speed.
+                let grips = system.friction() > 0.0;
+                (event, if grips { system.platform_angular_speed(time.phase) } else { change.speed })
             }
         };
         Ok(Some(ContactStep { time, span, event, change, speed }))

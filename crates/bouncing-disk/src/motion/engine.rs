@@ -505,6 +505,22 @@ impl<L: RestitutionLaw> Engine<L> {
         ledger.record_rotary_change(change.speed, platform_speed);
     }
 
+    /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for ever, or by a slip
+    /// whose own end is further off than its phase can be resolved.
+    pub(crate) fn advance_towards(
+        &mut self,
+        end: &PhaseTime,
+    ) -> Result<(Segment, Option<EventRecord>), Error> {
+        let lasting = self.segment(None);
+        match self.advance() {
+            Ok(record) => Ok((record.map_or(lasting, |record| record.segment), record)),
+            Err(Error::SlipTooLong { limit, .. }) if end.since(&lasting.start).radians() <= limit => {
+                Ok((lasting, None))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
     const fn segment(&self, chatter_speed: Option<f64>) -> Segment {
         Segment { start: self.now, state: self.state, chatter_speed }
     }

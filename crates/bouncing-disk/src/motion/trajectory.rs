@@ -9,10 +9,11 @@ use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::EventRecord;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::segment::Segment;
 use crate::motion::state::Snapshot;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// The events of a motion up to some point, and the motion between them.
+/// The events of a motion up to some point, and the motion between them; where no event follows, up to an instant.
 ///
 /// The times of one that is read do not run back.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,24 +23,27 @@ pub struct Trajectory {
     system: DimensionlessSystem,
     start: PhaseTime,
     records: Vec<EventRecord>,
+    /// The motion after the last event, where nothing more happens, and its end.
+    eventless: Option<(Segment, PhaseTime)>,
 }
 
 read_checked!(Trajectory as UncheckedTrajectory {
     system: DimensionlessSystem,
     start: PhaseTime,
     records: Vec<EventRecord>,
+    eventless: Option<(Segment, PhaseTime)>,
 });
 
 impl Trajectory {
     /// Checks what is read.
     fn check(&self) -> Result<(), Error> {
         let mut last = self.start;
-        for EventRecord { time, segment, .. } in &self.records {
-            for time in [segment.start, *time] {
-                let later = time.order(&last) != Ordering::Less;
-                check(later, "time of an event (periods)", time.cycles(), "not before the event before")?;
-                last = time;
-            }
+        let recorded = self.records.iter().map(|EventRecord { time, segment, .. }| [segment.start, *time]);
+        let eventless = self.eventless.iter().map(|(segment, end)| [segment.start, *end]);
+        for time in recorded.chain(eventless).flatten() {
+            let later = time.order(&last) != Ordering::Less;
+            check(later, "time of an event (periods)", time.cycles(), "not before the event before")?;
+            last = time;
         }
         Ok(())
     }
@@ -52,16 +56,39 @@ impl Trajectory {
     /// Those of [`Engine::advance`].
     pub fn record<L: RestitutionLaw>(
         engine: &mut Engine<L>,
+        last: impl FnMut(&EventRecord) -> bool,
+    ) -> Result<Self, Error> {
+        let now = engine.time();
+        Self::record_until(engine, now, last)
+    }
+
+    /// [`Self::record`]; where no event follows any more, the disk is followed until `end`: it sticks or slides for ever, or
+    /// for longer than an event can be located.
+    ///
+    /// # Errors
+    /// Those of [`Self::record`].
+    pub fn record_until<L: RestitutionLaw>(
+        engine: &mut Engine<L>,
+        end: PhaseTime,
         mut last: impl FnMut(&EventRecord) -> bool,
     ) -> Result<Self, Error> {
-        let mut trajectory = Self { system: *engine.system(), start: engine.time(), records: Vec::new() };
-        while let Some(record) = engine.advance()? {
+        let (system, start) = (*engine.system(), engine.time());
+        let mut trajectory = Self { system, start, records: Vec::new(), eventless: None };
+        loop {
+            let is_before_end = engine.time().order(&end) == Ordering::Less;
+            let next = if is_before_end {
+                let (segment, record) = engine.advance_towards(&end)?;
+                trajectory.eventless = record.is_none().then_some((segment, end));
+                record
+            } else {
+                engine.advance()?
+            };
+            let Some(record) = next else { return Ok(trajectory) };
             trajectory.records.push(record);
             if last(&record) {
-                break;
+                return Ok(trajectory);
             }
         }
-        Ok(trajectory)
     }
 
     /// The system.
@@ -82,16 +109,20 @@ impl Trajectory {
         self.start
     }
 
-    /// The last event; the start if there is none.
+    /// The end of a motion without events; else the last event, or the start if there is none.
     #[must_use]
     pub fn end(&self) -> PhaseTime {
-        self.records.last().map_or(self.start, |record| record.time)
+        let last = self.records.last().map_or(self.start, |record| record.time);
+        self.eventless.map_or(last, |(_, end)| end)
     }
 
     /// Energy balance of the whole motion.
     #[must_use]
     pub fn ledger(&self) -> EnergyLedger {
-        self.records.iter().map(|record| record.ledger).sum()
+        let eventless = self
+            .eventless
+            .map(|(segment, end)| segment.ledger_after(&self.system, end.since(&segment.start)));
+        self.records.iter().map(|record| record.ledger).chain(eventless).sum()
     }
 
     /// Disk and platform at `time`; just after the event where an event is. `None` outside the recorded motion.
@@ -102,6 +133,9 @@ impl Trajectory {
         }
         let index = self.records.partition_point(|record| record.time.order(&time) != Ordering::Greater);
         let Some(record) = self.records.get(index) else {
+            if let Some((segment, _)) = self.eventless {
+                return Some(segment.state_after(&self.system, time.since(&segment.start)));
+            }
             let last = self.records.last()?;
             let mut snapshot = last.segment.state_after(&self.system, last.span);
             (snapshot.time, snapshot.disk) = (last.time, last.after);
@@ -140,7 +174,7 @@ mod tests {
     use crate::motion::initial_condition::InitialCondition;
     use crate::motion::state::Mode;
     use crate::parameters::dimensionless::ForcingParameters;
-    use crate::testing;
+    use crate::{DimensionlessParameters, DiskParameters, PlatformParameters, System, testing};
 
     fn recorded() -> Trajectory {
         let system =
@@ -181,6 +215,77 @@ mod tests {
         assert!(trajectory.ledger().relative_closure() < 1e-14);
     }
 
+    /// Loads, frictions and twists with which nothing, or nothing more, happens; the speeds follow from Eq. (4): with the load
+    /// l and the friction k (rad/s^2) a disk slides at l -+ k, and one that no friction acts on knows its load only.
+    #[test]
+    fn motions_without_events_are_followed_to_their_end() {
+        let of = |amplitude: f64, twist_amplitude: f64, friction: f64, load: f64, speed: f64, end: f64| {
+            let platform =
+                PlatformParameters { angular_frequency: 100.0, amplitude, twist_amplitude, phase_lag: 0.0 };
+            let (contact_radius, gyration_radius) = (0.1, 0.07);
+            let disk = DiskParameters {
+                contact_radius,
+                gyration_radius,
+                friction,
+                restitution: 0.5,
+                preload_acceleration: 9.81,
+                load_acceleration: load,
+            };
+            let system = System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap();
+            let scales = system.scales();
+            let phase = Phase::new(0.5).unwrap();
+            let start = InitialCondition::Contact { phase, angular_speed: speed / scales.angular_speed };
+            let engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
+            let span = PhaseSpan::from_radians(100.0);
+            let until = engine.time().after(span);
+            let motion = Trajectory::record_until(&mut engine.clone(), until, |_| false).unwrap();
+            assert_eq!(motion.end(), until);
+            assert!(motion.check().is_ok() && motion.ledger().relative_closure() < 1e-12);
+            let last = motion.at(until).unwrap();
+            assert_eq!(engine.clone().sample(span, 2).unwrap()[1], last);
+            let found = last.disk.angular_speed * scales.angular_speed;
+            assert!((found - end).abs() <= 1e-12 * end.abs(), "{friction} {load} {speed}: {found} {end}");
+            motion.records().len()
+        };
+        let friction = 0.3 * 9.81 * 0.1 / (0.07 * 0.07);
+        // More load than friction holds: it slides for ever, from rest or after it has come to a stop.
+        assert_eq!(of(0.0, 0.0, 0.3, 120.12, 0.0, friction - 120.12), 0);
+        let stop = 50.0 / (120.12 + friction);
+        assert_eq!(of(0.0, 0.0, 0.3, 120.12, 50.0, (1.0 - stop) * (friction - 120.12)), 1);
+        // Less: it stops and sticks for ever; a platform that moves a little changes nothing of it.
+        assert_eq!(of(0.0, 0.0, 0.3, 30.0, 10.0, 0.0), 1);
+        assert_eq!(of(1e-5, 0.0, 0.3, 30.0, 0.0, 0.0), 0);
+        // Without friction: the load alone, and without a load nothing.
+        assert_eq!(of(0.0, 0.0, 0.0, 5.0, 3.0, -2.0), 1);
+        assert_eq!(of(5e-4, 0.0, 0.0, 0.0, 3.0, 3.0), 0);
+        // A slip that ends after more periods than a phase can be followed for.
+        assert_eq!(of(0.0, 0.0, 1e-12, 0.0, 10.0, 10.0 - 1e-12 / 0.3 * friction), 0);
+    }
+
+    /// Without friction a twist passes by the disk, which keeps its speed to the bit.
+    #[test]
+    fn no_friction_leaves_a_speed_as_it_is() {
+        let slippery = DimensionlessParameters {
+            peak_acceleration: 0.6,
+            twist_speed: 2.0,
+            phase_lag: 0.2,
+            friction: 0.0,
+            restitution: 0.5,
+            load: 0.0,
+        };
+        let start = InitialCondition::Contact { phase: Phase::new(4.0).unwrap(), angular_speed: 0.3 };
+        let mut engine = Engine::new(slippery.build().unwrap(), start, ChatterPolicy::Complete).unwrap();
+        let mut events = 0;
+        let motion = Trajectory::record(&mut engine, |_| {
+            events += 1;
+            events == 50
+        })
+        .unwrap();
+        assert!(
+            motion.records().iter().all(|record| record.after.angular_speed.to_bits() == 0.3_f64.to_bits())
+        );
+    }
+
     #[test]
     fn nothing_is_known_outside_the_recorded_motion() {
         let trajectory = recorded();
@@ -195,7 +300,7 @@ mod tests {
         fn whatever_is_recorded_can_be_read((system, start, policy) in testing::motion()) {
             let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(()) };
             let start = engine.time();
-            let mut trajectory = Trajectory { system, start, records: Vec::new() };
+            let mut trajectory = Trajectory { system, start, records: Vec::new(), eventless: None };
             while let Ok(Some(record)) = engine.advance() {
                 prop_assert_eq!(record.check(), Ok(()));
                 prop_assert_eq!(record.event.check(), Ok(()));

@@ -104,8 +104,19 @@ impl TransientEnsemble {
     }
 }
 
+/// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by what the
+/// seed says, as a few phases are a sample of all of them. By 1 it is half a step, off all phases that are special; other
+/// seeds move on by the golden ratio of a step, so that a few of them are spread evenly, too.
+pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
+    /// 2^64 over the golden ratio.
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    let turn = seed.wrapping_sub(1).wrapping_mul(GOLDEN).wrapping_add(1 << 63) >> 11;
+    let step = turn as f64 / (1_u64 << 53) as f64;
+    Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
+}
+
 /// The members of an [`ensemble`](ensemble()): `members` >= 1 transients with starting phases spread evenly
-/// over the cycle and seeds counted up from `settings.seed`: ensembles that are to be independent of each other need
+/// over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`: ensembles that are to be independent of each other need
 /// seeds that lie at least `members` apart.
 ///
 /// # Errors
@@ -122,8 +133,7 @@ pub fn ensemble_members(
     // The memory for them is asked for where they are computed.
     within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
     let member = |index: usize| -> Result<TransientMember, Error> {
-        // Half a step off zero, so that no member starts on a phase that is special.
-        let phase = Phase::new(TAU * (index as f64 + 0.5) / members as f64)?;
+        let phase = starting_phase(settings.seed, index, members)?;
         let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
         Ok(TransientMember { system: *system, phase, settings: TransientSettings { seed, ..*settings } })
     };
@@ -237,6 +247,22 @@ mod tests {
     use crate::{Engine, InitialCondition};
 
     /// The value is named, not a mean that comes to nothing because of it.
+    /// A member alone starts at a phase of its own for each seed: they are spread evenly.
+    #[test]
+    fn the_starting_phase_is_one_of_the_seed() {
+        let mut phases: Vec<f64> =
+            (1..=21).map(|seed| starting_phase(seed, 0, 1).expect("finite").angle() / TAU).collect();
+        assert!((phases[0] - 0.5).abs() <= 0.0);
+        phases.sort_by(f64::total_cmp);
+        assert!(
+            phases.windows(2).all(|pair| pair[1] - pair[0] > 0.5 / 21.0 && pair[1] - pair[0] < 2.0 / 21.0)
+        );
+        for (index, seed) in [(0, 0), (3, 7), (7, u64::MAX)] {
+            let share = starting_phase(seed, index, 8).expect("finite").angle() / TAU * 8.0 - index as f64;
+            assert!((0.0..=1.0).contains(&share), "{share}");
+        }
+    }
+
     #[test]
     fn a_value_that_is_not_finite_is_named() {
         for value in [f64::INFINITY, f64::NEG_INFINITY] {

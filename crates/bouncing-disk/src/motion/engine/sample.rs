@@ -74,9 +74,8 @@ impl<L: RestitutionLaw> Engine<L> {
         let watch = Watch::begin(observer, 0, span.periods)?;
         let mut work = watch.work();
         loop {
-            let resting = self.segment(None);
-            let record = self.advance()?;
-            let (segment, until) = record.map_or((resting, None), |own| (own.segment, Some(own.time)));
+            let (segment, record) = self.advance_towards(&end)?;
+            let until = record.map(|record| record.time);
             // Up to the event, and all that are left where nothing more happens.
             while states.len() < count {
                 let time = instant(states.len());

@@ -10,7 +10,6 @@ use super::settings::OperatingSettings;
 use super::settling::{left_out, shortfall};
 use crate::error::{Error, positive, within_limit};
 use crate::motor::shared_orbit::shared_by;
-use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -21,8 +20,9 @@ const WINDOWS_OF_RISE: f64 = 2.0;
 /// With more windows, two and two become one.
 const MOST_WINDOWS: usize = 128;
 
-/// Most rotors of all members of one ensemble together: with their windows half a gigabyte.
-pub const MAX_OPERATED_ROTORS: usize = 1 << 17;
+/// Most rotors of all members of one ensemble together: with their windows, and those of the second start of each, half a
+/// gigabyte.
+pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 
 /// Least impacts of a window, and least periods of the platform.
 const LEAST_IMPACTS: u64 = 50;
@@ -33,6 +33,12 @@ const GROWTH: f64 = 3.0;
 
 /// What a hoped-for number of windows is increased by, so that another round is seldom needed.
 const MARGIN: f64 = 1.15;
+
+/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten operations.
+const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// A motor whose disk stores more than this share of the power put in has not settled.
+const STORED_SHARE: f64 = 0.05;
 
 /// A motor under a load, to be carried on a shared vertical motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,16 +80,17 @@ impl LoadedMotor {
         disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
     }
 
-    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or equal to it. On
-    /// average the normal force is the weight under preload, so that friction gives no more, whatever the motion.
+    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or equal to it but for
+    /// the rounding of the torques in other units. On average the normal force is the weight under preload, so that friction
+    /// gives no more, whatever the motion.
     fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
-        system.load() != 0.0 && system.load().abs() >= system.friction()
+        system.load() != 0.0 && system.load().abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
     }
 
     fn runaway(&self) -> Operation {
         let system = self.system.dimensionless();
-        let beyond = system.load().abs() - system.friction();
+        let beyond = (system.load().abs() - system.friction()).max(0.0);
         let scale = self.system.scales().angular_acceleration;
         Operation::Runaway {
             load_torque: self.load_torque,
@@ -98,12 +105,15 @@ impl LoadedMotor {
 pub(crate) struct Operations {
     /// In the order of the motors.
     pub(crate) operations: Vec<Operation>,
-    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up; none for a runaway.
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of rotors from far below
+    /// and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
+    /// Those of rotors from far above: the difference bounds what is left of the start-up.
+    pub(crate) speeds_from_above: Vec<Vec<f64>>,
 }
 
-/// The steady operation of motors that share one vertical motion; with them, at no cost worth naming, the first motor
-/// without load runs along. The errors are relative to the largest speed of those without load.
+/// The steady operation of motors that share one vertical motion. The errors are relative to the largest speed of those
+/// without load; where none is, the first motor without its load runs along.
 pub(crate) fn operate(
     motors: &[LoadedMotor],
     settings: &OperatingSettings,
@@ -118,25 +128,31 @@ pub(crate) fn operate(
         positive("mass", motor.mass)?;
     }
     let mut carried: Vec<LoadedMotor> = motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
-    let unloaded = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
-    carried.push(LoadedMotor { system: unloaded, load_torque: 0.0, ..motors[0] });
+    let asked = carried.len();
+    if carried.iter().all(|motor| motor.load() != 0.0) {
+        let unloaded = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
+        carried.push(LoadedMotor { system: unloaded, load_torque: 0.0, ..motors[0] });
+    }
 
-    let watch = Watch::begin(observer, 0, settings.most_impacts)?;
-    let mut run = Run::new(carried, settings)?;
-    run.compute(settings, &watch)?;
-    watch.end();
-
-    let mut known = run.results()?.into_iter();
-    let mut results = Operations { operations: Vec::new(), speeds: Vec::new() };
+    let mut results =
+        Operations { operations: Vec::new(), speeds: Vec::new(), speeds_from_above: Vec::new() };
+    let mut known = if asked > 0 {
+        let watch = Watch::begin(observer, 0, settings.most_impacts)?;
+        let mut run = Run::new(carried, asked, settings)?;
+        run.compute(settings, &watch)?;
+        watch.end();
+        run.results()?
+    } else {
+        Vec::new()
+    }
+    .into_iter();
     for motor in motors {
-        let (operation, speeds) = if motor.runs_away() {
-            (motor.runaway(), Vec::new())
-        } else {
-            // There is one for each that does not run away.
-            known.next().unwrap_or_else(|| (motor.runaway(), Vec::new()))
-        };
+        // There is one for each that does not run away.
+        let (operation, speeds, above) = if motor.runs_away() { None } else { known.next() }
+            .unwrap_or_else(|| (motor.runaway(), Vec::new(), Vec::new()));
         results.operations.push(operation);
         results.speeds.push(speeds);
+        results.speeds_from_above.push(above);
     }
     Ok(results)
 }
@@ -144,6 +160,8 @@ pub(crate) fn operate(
 /// An ensemble under way.
 struct Run {
     motors: Vec<LoadedMotor>,
+    /// How many of them were asked for: each is carried twice, from far below and far above all steady speeds.
+    asked: usize,
     members: Vec<(Member, Vec<Window>)>,
     /// Duration of a window (rad) and its least impacts.
     duration: f64,
@@ -156,10 +174,10 @@ struct Run {
 }
 
 impl Run {
-    fn new(motors: Vec<LoadedMotor>, settings: &OperatingSettings) -> Result<Self, Error> {
+    fn new(motors: Vec<LoadedMotor>, asked: usize, settings: &OperatingSettings) -> Result<Self, Error> {
         let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
         let members = (0..settings.members)
-            .map(|index| Ok((Member::new(&systems, index, settings)?, Vec::new())))
+            .map(|index| Ok((Member::new(&systems, asked, index, settings)?, Vec::new())))
             .collect::<Result<Vec<_>, Error>>()?;
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest rotor.
         let rise = systems.iter().filter(|system| system.friction() > 0.0);
@@ -168,8 +186,8 @@ impl Run {
         // Even where the rise takes for ever the first round spends no more than it may.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
         let least_impacts = LEAST_IMPACTS.min(most_impacts);
-        let shortfalls = vec![None; motors.len()];
-        Ok(Self { motors, members, duration, least_impacts, most_impacts, shortfalls, wanted: 0.0 })
+        let shortfalls = vec![None; asked];
+        Ok(Self { motors, asked, members, duration, least_impacts, most_impacts, shortfalls, wanted: 0.0 })
     }
 
     /// Windows so far.
@@ -213,7 +231,7 @@ impl Run {
                 let ratio = standard_error / wanted;
                 MARGIN * ratio * ratio
             }
-            Shortfall::Drift { .. } => 2.0,
+            Shortfall::Drift { .. } | Shortfall::PowerBalance { .. } => 2.0,
         }
     }
 
@@ -261,86 +279,134 @@ impl Run {
         self.most_impacts = self.most_impacts.saturating_mul(2);
     }
 
-    /// Mean speeds (rad/s) of a rotor in the windows after the start-up, of each member.
-    fn speeds(&self, rotor: usize) -> Vec<Vec<f64>> {
-        let unit = self.motors[rotor].system.scales().angular_speed;
-        let speed = |window: &Window| window.rotors[rotor].angle / window.axial.duration * unit;
+    /// The rotor of a motor that started from far above; for one that was not asked for, its only one.
+    fn from_above(&self, motor: usize) -> usize {
+        if motor < self.asked { self.motors.len() + motor } else { motor }
+    }
+
+    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two rotors, and of the
+    /// one from far above.
+    fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
+        let unit = self.motors[motor].system.scales().angular_speed;
         let after = left_out(self.windows());
-        self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
+        let above = self.from_above(motor);
+        let of = |angle: &dyn Fn(&[RotorWindow]) -> f64| -> Vec<Vec<f64>> {
+            let speed = |window: &Window| angle(&window.rotors) / window.axial.duration * unit;
+            self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
+        };
+        [of(&|rotors| 0.5 * (rotors[motor].angle + rotors[above].angle)), of(&|rotors| rotors[above].angle)]
     }
 
     fn judge(&mut self, settings: &OperatingSettings) {
-        let speeds: Vec<Vec<Vec<f64>>> = (0..self.motors.len()).map(|rotor| self.speeds(rotor)).collect();
+        let speeds: Vec<_> = (0..self.motors.len()).map(|motor| self.speeds(motor)).collect();
         let mean = |windows: &[Vec<f64>]| {
             let count = windows.len() * windows[0].len();
             windows.iter().flatten().sum::<f64>() / count as f64
         };
         let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.load() == 0.0);
-        let scale = unloaded.map(|(motor, speeds)| {
+        let scale = unloaded.map(|(motor, [speeds, _])| {
             // A motor without twist has no speed but that at which a load makes it creep.
             let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
             mean(speeds).abs().max(0.01 * motor.system.platform().peak_angular_speed().max(creep))
         });
         self.wanted = settings.relative_error * scale.fold(0.0, f64::max);
-        self.shortfalls = speeds.iter().map(|speeds| shortfall(speeds, self.wanted)).collect();
+        self.shortfalls = (0..self.asked)
+            .map(|motor| {
+                let [middle, above] = &speeds[motor];
+                shortfall(middle, above, self.wanted).or_else(|| self.unbalanced(motor))
+            })
+            .collect();
     }
 
-    fn results(&self) -> Result<Vec<(Operation, Vec<f64>)>, Error> {
-        (0..self.motors.len()).map(|rotor| self.result(rotor)).collect()
+    /// What the disk still stores, if it is too much of what is put in: that of a disk that settles falls as one over the time
+    /// for which it is followed.
+    fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
+        let units = Units::of(&self.motors[motor]);
+        let sum = self.total(motor, left_out(self.windows())..self.windows());
+        let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
+        let share = stored.abs() / sum.energy_scale(&units, &self.motors[motor], self.members.len());
+        let time = sum.axial.duration;
+        let input = sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary;
+        (share > STORED_SHARE)
+            .then_some(Shortfall::PowerBalance { stored_power: stored / time, input_power: input / time })
     }
 
-    /// The operating point of a rotor, and the mean speeds (rad/s) of the members.
-    fn result(&self, rotor: usize) -> Result<(Operation, Vec<f64>), Error> {
-        let motor = &self.motors[rotor];
+    /// These windows of all members.
+    fn total(&self, rotor: usize, windows: std::ops::Range<usize>) -> Sum {
+        let mut sum = Sum::default();
+        for window in self.members.iter().flat_map(|(_, all)| &all[windows.clone()]) {
+            sum.add(window, rotor);
+        }
+        sum
+    }
+
+    fn results(&self) -> Result<Vec<(Operation, Vec<f64>, Vec<f64>)>, Error> {
+        (0..self.asked).map(|motor| self.result(motor)).collect()
+    }
+
+    /// The operating point of a motor, and the mean speeds (rad/s) of its two rotors in each member.
+    fn result(&self, index: usize) -> Result<(Operation, Vec<f64>, Vec<f64>), Error> {
+        let motor = &self.motors[index];
         let units = Units::of(motor);
         let after = left_out(self.windows());
-        // Mean over the windows of each member, and over all windows, the start-up with them.
-        let (mut members, mut whole) = (Vec::new(), Sum::default());
-        for (_, windows) in &self.members {
-            let mut averaged = Sum::default();
-            for (index, window) in windows.iter().enumerate() {
-                whole.add(window, rotor);
-                if index >= after {
-                    averaged.add(window, rotor);
-                }
-            }
-            members.push(averaged);
-        }
-        let of = |value: &dyn Fn(&Sum) -> f64| members.iter().map(value).collect::<Vec<f64>>();
-        let speeds = of(&|sum| sum.rotor.angle / sum.axial.duration * units.speed);
-        let mechanical = of(&|sum| sum.rotor.load_work / sum.axial.duration * units.rotary);
-        let input = of(&|sum| {
+        let [below, above] = [index, self.from_above(index)].map(|rotor| {
+            let member = |(_, windows): &(Member, Vec<Window>)| {
+                let mut sum = Sum::default();
+                windows[after..].iter().for_each(|window| sum.add(window, rotor));
+                sum
+            };
+            self.members.iter().map(member).collect::<Vec<Sum>>()
+        });
+        // Of each member in the middle of its two rotors, and of that from above.
+        let of = |value: &dyn Fn(&Sum) -> f64| -> [Vec<f64>; 2] {
+            let middles = below.iter().zip(&above).map(|(one, other)| 0.5 * (value(one) + value(other)));
+            [middles.collect(), above.iter().map(value).collect()]
+        };
+        let estimate = |value: &dyn Fn(&Sum) -> f64| {
+            let [middle, above] = of(value);
+            Ok::<_, Error>(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
+        };
+        let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * units.speed;
+        let mechanical = |sum: &Sum| sum.rotor.load_work / sum.axial.duration * units.rotary;
+        let input = |sum: &Sum| {
             (sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary)
                 / sum.axial.duration
-        });
-        let restitution = of(&|sum| sum.axial.restitution_loss / sum.axial.duration * units.axial);
-        let friction = of(&|sum| sum.rotor.friction_loss / sum.axial.duration * units.rotary);
-        let perturbation = of(&|sum| sum.axial.perturbation_work / sum.axial.duration * units.axial);
-        let mechanical_power = Estimate::of(&mechanical)?;
-        let efficiency = Estimate::of_ratio(&mechanical, &input).filter(|_| mechanical_power.value >= 0.0);
+        };
+        let restitution = |sum: &Sum| sum.axial.restitution_loss / sum.axial.duration * units.axial;
+        let friction = |sum: &Sum| sum.rotor.friction_loss / sum.axial.duration * units.rotary;
+        let perturbation = |sum: &Sum| sum.axial.perturbation_work / sum.axial.duration * units.axial;
+        let mechanical_power = estimate(&mechanical)?;
+        let (work, put_in) = (of(&mechanical), of(&input));
+        let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
+        let efficiency = ratio(0)
+            .zip(ratio(1))
+            .map(|(middle, above)| middle.bounded_by(above))
+            .filter(|_| mechanical_power.value >= 0.0);
         let starts = self
             .members
             .iter()
             .map(|(_, windows)| windows[..after].iter().map(|window| window.axial.duration).sum::<f64>());
+        let whole = self.total(index, 0..self.windows());
         let point = OperatingPoint {
             load_torque: motor.load_torque,
-            speed: Estimate::of(&speeds)?,
+            speed: estimate(&speed)?,
             mechanical_power,
-            input_power: Estimate::of(&input)?,
-            restitution_loss: Estimate::of(&restitution)?,
-            friction_loss: Estimate::of(&friction)?,
+            input_power: estimate(&input)?,
+            restitution_loss: estimate(&restitution)?,
+            friction_loss: estimate(&friction)?,
             efficiency,
-            perturbation_power: Estimate::of(&perturbation)?.value,
-            energy_residual: whole.energy_residual(&units, motor.system.dimensionless()),
-            averaged_time: members.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
+            perturbation_power: estimate(&perturbation)?.value,
+            energy_residual: whole.energy_residual(&units, motor, self.members.len()),
+            averaged_time: below.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
             start_up: starts.sum::<f64>() / self.members.len() as f64 * units.time,
-            impacts: members.iter().map(|sum| sum.axial.impacts).sum(),
+            impacts: below.iter().map(|sum| sum.axial.impacts).sum(),
         };
-        let operation = match self.shortfalls[rotor] {
+        let operation = match self.shortfalls[index] {
             None => Operation::Steady(point),
             Some(shortfall) => Operation::Unsettled(point, shortfall),
         };
-        Ok((operation, speeds))
+        let [middle, above] = of(&speed);
+        Ok((operation, middle, above))
     }
 }
 
@@ -378,20 +444,28 @@ impl Sum {
         self.rotor.add(&window.rotors[rotor]);
     }
 
-    /// What the energy balance leaves, relative to the energy that came in; where less came in than a disk that moves with
-    /// the platform has, relative to that: there are only roundings then.
-    fn energy_residual(&self, units: &Units, system: &DimensionlessSystem) -> f64 {
+    /// The energy that came in; where less came in than disks of all members that move with the platform have, that: there are
+    /// only roundings then.
+    fn energy_scale(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
+        let system = motor.system.dimensionless();
+        let axial = self.axial.normal_work + self.axial.perturbation_work;
+        // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
+        let rotor = &self.rotor;
+        let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
+        let put_in = axial.abs() * units.axial + rotary * units.rotary;
+        let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
+        let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
+        put_in.max(members as f64 * moving)
+    }
+
+    /// What the energy balance leaves, relative to the energy that came in.
+    fn energy_residual(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
         let rotor = &self.rotor;
         let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
         let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs();
-        // A load that drives the motor puts energy in, too.
-        let put_in =
-            axial.abs() * units.axial + (rotor.friction_work.abs().max(rotor.load_work.abs())) * units.rotary;
-        let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
-        let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
-        let scale = put_in.max(moving);
+        let scale = self.energy_scale(units, motor, members);
         if scale > 0.0 { left / scale } else { left }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{
-    Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, Phase, WorkCount,
+    Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, WorkCount,
 };
 
 use super::energy_rows::{CarryAll, Energies};
@@ -19,6 +19,7 @@ use crate::motion::impact::{axial_impulse, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
+use crate::motor::ensemble::starting_phase;
 use crate::motor::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::shared_orbit::vertical::VerticalMotion;
 use crate::motor::transient::FLIGHTS_OF_EVENT;
@@ -92,7 +93,14 @@ impl Window {
     }
 }
 
-/// A member of the ensemble: it starts at rest, at a phase and with a stream of random numbers of its own.
+/// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and what friction
+/// brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
+fn far_above(system: &DimensionlessSystem) -> f64 {
+    let friction = system.friction();
+    if friction > 0.0 { system.twist_speed() + TAU * friction } else { 0.0 }
+}
+
+/// A member of the ensemble: it starts at a phase and with a stream of random numbers of its own.
 #[derive(Debug)]
 pub(super) enum Member {
     /// The platform throws the rotors up.
@@ -102,30 +110,40 @@ pub(super) enum Member {
 }
 
 impl Member {
-    /// The member of this `index` among so many as `settings` says.
+    /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have two rotors,
+    /// one from far below all steady speeds and one, behind those of all systems, from as far above; the others start
+    /// at rest.
     pub(super) fn new(
         systems: &[DimensionlessSystem],
+        bracketed: usize,
         index: usize,
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
-        // As `ensemble_members`: half a step off zero, so that no member starts on a phase that is special.
-        let phase = Phase::new(TAU * (index as f64 + 0.5) / settings.members as f64)?;
+        let phase = starting_phase(settings.seed, index, settings.members)?;
         let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
         let policy = ChatterPolicy::Complete;
-        let mut engines = Vec::with_capacity(systems.len());
-        for system in systems {
-            engines.push(Engine::new(
-                *system,
-                InitialCondition::Contact { phase, angular_speed: 0.0 },
-                policy,
-            )?);
+        let above = systems[..bracketed].iter().map(|system| (system, far_above(system)));
+        let starts: Vec<(DimensionlessSystem, f64)> = systems
+            .iter()
+            .enumerate()
+            .map(|(own, system)| (system, if own < bracketed { -far_above(system) } else { 0.0 }))
+            .chain(above)
+            .map(|(system, speed)| (*system, speed))
+            .collect();
+        let mut rows = RotorRows::of(starts.iter().map(|start| start.0));
+        let mut engines = Vec::with_capacity(starts.len());
+        for (own, &(system, angular_speed)) in starts.iter().enumerate() {
+            engines.push(Engine::new(system, InitialCondition::Contact { phase, angular_speed }, policy)?);
+            rows[own / WIDTH].speed[own % WIDTH] = angular_speed;
         }
         let perturbation = (settings.relaunch_perturbation, seed);
         Ok(match VerticalMotion::from_rest(&systems[0], phase, policy, perturbation)? {
             Some(vertical) => Self::Bouncing(Box::new(Bouncing {
                 vertical,
+                bracketed,
+                joined: 0,
                 engines,
-                rows: RotorRows::of(systems.iter().copied()),
+                rows,
                 runner: LaneRunner::new(InstructionSet::best()),
                 window: Window::default(),
                 begun: false,
@@ -154,6 +172,10 @@ impl Member {
 #[derive(Debug)]
 pub(super) struct Bouncing {
     vertical: VerticalMotion,
+    /// How many of the first systems have a second rotor.
+    bracketed: usize,
+    /// How many had one that has met the first.
+    joined: usize,
     /// The rotors while the disk lies on the platform.
     engines: Vec<Engine>,
     rows: Vec<RotorRows<Energies>>,
@@ -225,7 +247,21 @@ impl Bouncing {
             let after = row.speed[own];
             rotor.kinetic_change = 0.5 * (after - before) * (after + before);
         }
+        let joined = self.window.rotors[..self.joined].to_vec();
+        self.window.rotors.extend(joined);
+        self.join();
         Ok(std::mem::take(&mut self.window))
+    }
+
+    /// Two rotors that have met stay together for ever: where all have, one of each is carried on and counts twice.
+    fn join(&mut self) {
+        let systems = self.engines.len() - self.bracketed;
+        let speeds = self.speeds();
+        if self.bracketed > 0 && speeds[..self.bracketed] == speeds[systems..] {
+            self.engines.truncate(systems);
+            self.rows.truncate(systems.div_ceil(WIDTH));
+            self.joined = std::mem::take(&mut self.bracketed);
+        }
     }
 
     fn speeds(&self) -> Vec<f64> {

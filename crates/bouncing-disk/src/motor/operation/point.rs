@@ -1,9 +1,10 @@
 //! What is known of a motor under a load.
 
-use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, finite, not_negative};
+use crate::motor::interval_estimate::student_quantile;
 
 /// A number that was estimated from independent runs, with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +13,8 @@ use crate::error::{Error, finite, not_negative};
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// Its standard error: the standard deviation that estimates of as many runs with other seeds would have.
+    /// Its standard error, as the half of its 95 % interval over 1.96: it holds what the scatter over a few members leaves
+    /// open (Student's distribution) and, of a mean over time, a bound on what is left of the start-up.
     pub standard_error: f64,
 }
 
@@ -28,8 +30,14 @@ impl Estimate {
     /// The mean of independent values, at least one.
     pub(crate) fn of(values: &[f64]) -> Result<Self, Error> {
         let value = finite("estimate", mean(values))?;
-        let standard_error = standard_deviation(values) / (values.len() as f64).sqrt();
+        let standard_error = error_of_mean(values);
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
+    }
+
+    /// What is in the middle of runs from two sides, with its distance to one of them as the bound of its bias.
+    pub(crate) fn bounded_by(self, one: Self) -> Self {
+        let bias = (one.value - self.value).abs();
+        Self { standard_error: self.standard_error + bias / NORMAL_975, ..self }
     }
 
     /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not positive.
@@ -41,9 +49,15 @@ impl Estimate {
         }
         let rests: Vec<f64> =
             dividends.iter().zip(divisors).map(|(one, other)| one - value * other).collect();
-        let standard_error = standard_deviation(&rests) / divisor / (rests.len() as f64).sqrt();
+        let standard_error = error_of_mean(&rests) / divisor;
         standard_error.is_finite().then_some(Self { value, standard_error })
     }
+}
+
+/// The standard error of the mean of independent values, so that 1.96 of it are Student's 95 % interval.
+pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
+    let size = values.len() as f64;
+    standard_deviation(values) / size.sqrt() * (student_quantile(size - 1.0) / NORMAL_975)
 }
 
 /// A motor in steady operation. All numbers are means over time and over the members of one ensemble of runs.
@@ -94,12 +108,19 @@ pub enum Shortfall {
         /// What was asked for (rad/s).
         wanted: f64,
     },
-    /// The speed still drifts: the early part of what was averaged differs from the late one.
+    /// The speed still drifts: the early part of what was averaged differs from the late one, or it depends on the start.
     Drift {
-        /// The late mean minus the early one (rad/s).
+        /// The late mean minus the early one (rad/s), or what rotors that started from far above are still faster by.
         drift: f64,
         /// The standard error of this difference (rad/s).
         standard_error: f64,
+    },
+    /// The disk still stores the energy that it is given: power in is not output and losses.
+    PowerBalance {
+        /// The power that is stored (W); negative where it is given back.
+        stored_power: f64,
+        /// The power that is put in (W).
+        input_power: f64,
     },
 }
 

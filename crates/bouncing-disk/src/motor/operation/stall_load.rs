@@ -45,11 +45,11 @@ pub(crate) fn stall_load(
     let motors = shares.iter().map(|&share| under(share)).collect::<Result<Vec<_>, _>>()?;
     let first = operate(&motors, settings, observer)?;
     let unloaded = speed_of(&first.operations[STEPS - 1]);
+    check_settled(&first.operations[STEPS - 1..STEPS])?;
     if !motor.turns(unloaded) || largest <= 0.0 {
         let Estimate { value: speed, standard_error } = unloaded;
         return Err(Error::DoesNotTurn { speed, standard_error });
     }
-    check_settled(&first.operations[STEPS - 1..STEPS])?;
     let sign = 1.0_f64.copysign(unloaded.value);
     // Steps away from no load, in the direction that brakes.
     let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };

@@ -225,26 +225,30 @@ fn by_differences(
             motors.push(moved(motor, parameter, -step)?);
         }
     }
-    let values = member_values(&motors, motor, quantity, &settings.operating, observer)?;
-    let own = Estimate::of(&values[0])?;
+    let (middle, above) = member_values(&motors, motor, quantity, &settings.operating, observer)?;
+    let own = Estimate::of(&middle[0])?;
+    let standing = Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error };
     if own.value.abs() <= 4.0 * own.standard_error {
-        return Err(Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error });
+        return Err(standing);
     }
-    let sign = 1.0_f64.copysign(own.value);
-    let divisors: Vec<f64> = values[0].iter().map(|value| sign * value).collect();
-    let mut pairs = values[1..].chunks_exact(2);
+    let quotient = |values: &[Vec<f64>], pair: usize, step: f64| {
+        let divisors: Vec<f64> = values[0].iter().map(|value| own.value.signum() * value).collect();
+        let ends = values[1 + 2 * pair].iter().zip(&values[2 + 2 * pair]);
+        let differences: Vec<f64> =
+            ends.map(|(up, down)| own.value.signum() * (up - down) / (2.0 * step)).collect();
+        Estimate::of_ratio(&differences, &divisors)
+    };
     let mut results = Vec::with_capacity(parameters.len());
-    for &parameter in parameters {
-        let mut quotients = Vec::with_capacity(STEPS.len());
-        for (step, pair) in STEPS.iter().zip(&mut pairs) {
-            let differences: Vec<f64> =
-                pair[0].iter().zip(&pair[1]).map(|(up, down)| sign * (up - down) / (2.0 * step)).collect();
-            quotients.push(
-                Estimate::of_ratio(&differences, &divisors)
-                    .ok_or(Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error })?,
-            );
-        }
-        results.push(balanced(parameter, &quotients));
+    for (index, &parameter) in parameters.iter().enumerate() {
+        let quotients = STEPS
+            .iter()
+            .enumerate()
+            .map(|(k, &step)| {
+                let of = |values| quotient(values, index * STEPS.len() + k, step);
+                Some(of(&middle)?.bounded_by(of(&above)?))
+            })
+            .collect::<Option<Vec<Estimate>>>();
+        results.push(balanced(parameter, &quotients.ok_or(standing.clone())?));
     }
     Ok(results)
 }
@@ -272,22 +276,24 @@ fn balanced(parameter: SensitivityParameter, quotients: &[Estimate]) -> LocalSen
     }
 }
 
-/// The quantity of each motor and member, all on the same vertical motions.
+/// The quantity of each motor and member, all on the same vertical motions: in the middle of rotors from far below and far above
+/// all steady speeds, and of those from above.
 fn member_values(
     motors: &[Motor],
     nominal: &Motor,
     quantity: SensitivityQuantity,
     settings: &OperatingSettings,
     observer: &dyn Observer,
-) -> Result<Vec<Vec<f64>>, Error> {
-    let overpowered = |motor: &LoadedMotor| Error::Overpowered { load: motor.load() };
-    match quantity {
-        SensitivityQuantity::SteadySpeed => {
-            let loaded: Vec<LoadedMotor> = motors.iter().map(LoadedMotor::of).collect();
-            let speeds = operate(&loaded, settings, observer)?.speeds;
-            let runaway = speeds.iter().position(Vec::is_empty);
-            runaway.map_or(Ok(speeds), |index| Err(overpowered(&loaded[index])))
+) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), Error> {
+    let speeds = |loaded: &[LoadedMotor]| {
+        let results = operate(loaded, settings, observer)?;
+        match results.speeds.iter().position(Vec::is_empty) {
+            Some(index) => Err(Error::Overpowered { load: loaded[index].load() }),
+            None => Ok((results.speeds, results.speeds_from_above)),
         }
+    };
+    match quantity {
+        SensitivityQuantity::SteadySpeed => speeds(&motors.iter().map(LoadedMotor::of).collect::<Vec<_>>()),
         SensitivityQuantity::StallTorque => {
             let stall = nominal.stall_load_observed(settings, observer)?.share;
             let shares = SHARES.map(|offset| (stall + offset).clamp(-0.999, 0.999));
@@ -297,20 +303,18 @@ fn member_values(
                     loaded.push(LoadedMotor::of(motor).with_load(share * motor.largest_torque())?);
                 }
             }
-            let speeds = operate(&loaded, settings, observer)?.speeds;
-            let runaway = speeds.iter().position(Vec::is_empty);
-            if let Some(index) = runaway {
-                return Err(overpowered(&loaded[index]));
-            }
-            let torques = speeds.chunks_exact(shares.len()).zip(motors).map(|(speeds, motor)| {
-                (0..speeds[0].len())
-                    .map(|member| {
-                        let share = crossing(&shares, |k| speeds[k][member], (0, shares.len() - 1));
-                        share * motor.largest_torque()
-                    })
-                    .collect()
-            });
-            Ok(torques.collect())
+            let torques = |speeds: Vec<Vec<f64>>| {
+                let of_motor = |(speeds, motor): (&[Vec<f64>], &Motor)| {
+                    let of_member = |member: usize| {
+                        crossing(&shares, |k| speeds[k][member], (0, shares.len() - 1))
+                            * motor.largest_torque()
+                    };
+                    (0..speeds[0].len()).map(of_member).collect()
+                };
+                speeds.chunks_exact(shares.len()).zip(motors).map(of_motor).collect()
+            };
+            let (middle, above) = speeds(&loaded)?;
+            Ok((torques(middle), torques(above)))
         }
     }
 }

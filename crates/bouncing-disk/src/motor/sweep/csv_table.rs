@@ -10,7 +10,7 @@ impl MotorSweepResult {
     /// names; numbers are written so that they are read to the last bit.
     ///
     /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `state`, which is `steady`, `unsettled` or
-    /// `runaway`; `shortfall`, what an unsettled one lacks: `error` or `drift`; each
+    /// `runaway`; `shortfall`, what an unsettled one lacks: `error`, `drift` or `power-balance`; each
     /// [`SweepQuantity`] followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
     /// [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. What a cell does not have is
     /// empty.
@@ -69,6 +69,7 @@ fn of_operation(operation: &Operation) -> Vec<String> {
         Operation::Steady(_) => ("steady", "", None),
         Operation::Unsettled(_, Shortfall::Error { .. }) => ("unsettled", "error", None),
         Operation::Unsettled(_, Shortfall::Drift { .. }) => ("unsettled", "drift", None),
+        Operation::Unsettled(_, Shortfall::PowerBalance { .. }) => ("unsettled", "power-balance", None),
         Operation::Runaway { largest_torque, acceleration, .. } => {
             ("runaway", "", Some((*largest_torque, *acceleration)))
         }

@@ -7,7 +7,7 @@ use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use super::*;
 use crate::testing::motor;
-use crate::{EnergyLedger, Engine, InitialCondition, Spread, TransientSettings, ensemble};
+use crate::{EnergyLedger, Engine, InitialCondition, Motor, Spread, TransientSettings, ensemble};
 
 /// Mass of the rotor (kg): any will do.
 const MASS: f64 = 0.02;
@@ -126,12 +126,23 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
         );
     }
     assert!(operated(&[exact(friction * 0.999)], &settings)[0].point().is_some());
-    // What nothing holds, nothing drives; the least load runs away with it.
+    // Torques in N m are rounded: the largest one runs away, whatever its preload was computed from.
+    for newtons in [1.0, 3.0, 5.0, 7.0, 10.0, 17.3] {
+        let sheet = Motor::paper_70_khz().with(|sheet| {
+            (sheet.preload_acceleration, sheet.preload_force) = (None, Some(newtons));
+            (sheet.contact_radius, sheet.friction) = (0.0125, 0.1);
+        });
+        let sheet = sheet.expect("legal");
+        for torque in [sheet.largest_torque(), newtons * 0.1 * 0.0125, 0.1 * (0.0125 * newtons)] {
+            let operation = sheet.operating_point(torque, &settings).expect("no failure");
+            assert!(matches!(operation, Operation::Runaway { .. }), "{newtons} {operation:?}");
+        }
+    }
+    // What nothing holds, nothing drives: it stands still to the bit. The least load runs away with it.
     let slippery = base.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
     let still = LoadedMotor { system: slippery, mass: MASS, load_torque: 0.0 };
     let point = *operated(&[still], &settings)[0].steady().expect("steady");
-    // Where its slip changes sign it is given the platform's speed, which rounding leaves.
-    assert!(point.speed.value.abs() <= 1e-12 * base.platform().peak_angular_speed(), "{point:?}");
+    assert_eq!(point.speed, Estimate { value: 0.0, standard_error: 0.0 });
     let pushed = still.with_load(1e-12).expect("legal");
     assert!(matches!(operated(&[pushed], &settings)[0], Operation::Runaway { .. }));
 }
@@ -326,7 +337,8 @@ mod searches {
             let slope = (speed(2) - speed(0)) / (high - low);
             let off = speed(1) / slope;
             assert!(off.abs() < 2.0 * stall.torque.standard_error, "{stall:?} is off by {off}");
-            assert!(stall.torque.standard_error < 3e-3 * stall.torque.value.abs(), "{stall:?}");
+            // The speeds are known to 1 % of that without load, those of the members together to less.
+            assert!(stall.torque.standard_error < 6e-3 * stall.torque.value.abs(), "{stall:?}");
             // Other members than those that found it.
             let others = OperatingSettings { seed: 77, ..settings };
             let all = operated(&motors, &others);
@@ -347,7 +359,7 @@ mod searches {
     #[test]
     fn a_stall_is_refused_where_speeds_still_drift() {
         let motor = loaded(&motor(1e-9, 0.0), 0.0);
-        let settings = OperatingSettings { most_impacts: 1_000_000, ..OperatingSettings::default() };
+        let settings = OperatingSettings { most_impacts: 100_000, ..OperatingSettings::default() };
         let error = stall_load(&motor, &settings, &Unobserved).expect_err("it drifts");
         assert!(matches!(error, Error::NotSettled { .. }), "{error}");
     }
@@ -419,4 +431,43 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
         }
     }
     assert!(squares.len() >= 6 && mean(&squares) < 2.5, "{squares:?}");
+}
+
+/// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest torque: its speed is
+/// 5.486(6) rad/s, from 60 ensembles of 64 members. Slow as its rise is under the load, a quarter of what friction takes without
+/// one left speeds down to 4.9 that were stated to 0.09.
+#[test]
+fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
+    let peak = System::motor().peak_acceleration() * System::motor().disk().preload_acceleration();
+    let system = motor(1e-8, 0.0)
+        .with_disk(|rotor| rotor.preload_acceleration = peak / (3.0 * PI))
+        .and_then(|motor| motor.with_platform(|stator| stator.phase_lag = 0.5))
+        .expect("legal");
+    let (mut within, tries) = (0, 12);
+    for seed in 10..10 + tries {
+        let settings =
+            OperatingSettings { relative_error: 0.1, members: 4, seed, ..OperatingSettings::default() };
+        let speed = operated(&[loaded(&system, 0.5)], &settings)[0].steady().expect("steady").speed;
+        within += u64::from((speed.value - 5.486).abs() <= 1.96 * speed.standard_error);
+    }
+    assert!(within + 1 >= tries, "{within} of {tries}");
+}
+
+/// A ball that is thrown in time with an elastic platform is thrown ever higher: no mean of it is steady.
+#[test]
+fn a_disk_that_stores_what_it_is_given_is_not_steady() {
+    let settings = OperatingSettings {
+        members: 8,
+        most_impacts: 400_000,
+        relative_error: 0.5,
+        ..OperatingSettings::default()
+    };
+    let base = System::motor();
+    let amplitude = 0.52 * PI * base.platform().amplitude() / base.peak_acceleration();
+    let system = motor(amplitude, 0.0)
+        .with_disk(|rotor| rotor.restitution = 1.0 - 1e-6)
+        .and_then(|motor| motor.with_platform(|stator| stator.phase_lag = 0.0))
+        .expect("legal");
+    let operation = operated(&[loaded(&system, 0.0)], &settings)[0];
+    assert_eq!(operation.steady(), None, "{operation:?}");
 }

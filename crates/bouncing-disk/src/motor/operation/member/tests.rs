@@ -20,13 +20,13 @@ fn a_member_is_the_engine_of_each_rotor() {
             systems.iter().map(|system| *system.dimensionless()).collect();
         for index in [0, 3] {
             let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
-            let mut member = Member::new(&dimensionless, index, &settings).expect("legal");
+            let mut member = Member::new(&dimensionless, 0, index, &settings).expect("legal");
             let windows: Vec<Window> = (0..3)
                 .map(|_| member.next_window(300.0, 40..=1_000_000, &mut watch.work()).expect("no failure"))
                 .collect();
             let Member::Bouncing(member) = member else { panic!("it bounces") };
             for (rotor, system) in dimensionless.iter().enumerate() {
-                let phase = Phase::new(TAU * (index as f64 + 0.5) / 5.0).expect("finite");
+                let phase = starting_phase(settings.seed, index, 5).expect("finite");
                 let start = InitialCondition::Contact { phase, angular_speed: 0.0 };
                 let mut engine = Engine::new(*system, start, ChatterPolicy::Complete).expect("legal");
                 let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
