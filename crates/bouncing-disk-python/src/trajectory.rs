@@ -2,8 +2,8 @@
 
 use bouncing_disk::core::{Error as CoreError, Watch};
 use bouncing_disk::{
-    DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PhaseSpan, PlatformState, Scales, SlipDirection,
-    Snapshot, System as Model, Trajectory as Motion, toss_trajectory as toss_motion,
+    DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PhaseSpan, PlatformState, Scales,
+    SlipDirection, Snapshot, System as Model, Trajectory as Motion, toss_trajectory as toss_motion,
 };
 use pyo3::prelude::*;
 

@@ -157,6 +157,9 @@ pub(crate) fn operate(
     Ok(results)
 }
 
+/// An operation, and the speeds of its members as in [`Operations`].
+type MotorResult = (Operation, Vec<f64>, Vec<f64>);
+
 /// An ensemble under way.
 struct Run {
     motors: Vec<LoadedMotor>,
@@ -280,7 +283,7 @@ impl Run {
     }
 
     /// The rotor of a motor that started from far above; for one that was not asked for, its only one.
-    fn from_above(&self, motor: usize) -> usize {
+    fn rotor_from_above(&self, motor: usize) -> usize {
         if motor < self.asked { self.motors.len() + motor } else { motor }
     }
 
@@ -289,7 +292,7 @@ impl Run {
     fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
         let after = left_out(self.windows());
-        let above = self.from_above(motor);
+        let above = self.rotor_from_above(motor);
         let of = |angle: &dyn Fn(&[RotorWindow]) -> f64| -> Vec<Vec<f64>> {
             let speed = |window: &Window| angle(&window.rotors) / window.axial.duration * unit;
             self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
@@ -340,16 +343,16 @@ impl Run {
         sum
     }
 
-    fn results(&self) -> Result<Vec<(Operation, Vec<f64>, Vec<f64>)>, Error> {
+    fn results(&self) -> Result<Vec<MotorResult>, Error> {
         (0..self.asked).map(|motor| self.result(motor)).collect()
     }
 
     /// The operating point of a motor, and the mean speeds (rad/s) of its two rotors in each member.
-    fn result(&self, index: usize) -> Result<(Operation, Vec<f64>, Vec<f64>), Error> {
+    fn result(&self, index: usize) -> Result<MotorResult, Error> {
         let motor = &self.motors[index];
         let units = Units::of(motor);
         let after = left_out(self.windows());
-        let [below, above] = [index, self.from_above(index)].map(|rotor| {
+        let [below, above] = [index, self.rotor_from_above(index)].map(|rotor| {
             let member = |(_, windows): &(Member, Vec<Window>)| {
                 let mut sum = Sum::default();
                 windows[after..].iter().for_each(|window| sum.add(window, rotor));

@@ -225,7 +225,7 @@ fn by_differences(
             motors.push(moved(motor, parameter, -step)?);
         }
     }
-    let (middle, above) = member_values(&motors, motor, quantity, &settings.operating, observer)?;
+    let [middle, above] = member_values(&motors, motor, quantity, &settings.operating, observer)?;
     let own = Estimate::of(&middle[0])?;
     let standing = Error::DoesNotTurn { speed: own.value, standard_error: own.standard_error };
     if own.value.abs() <= 4.0 * own.standard_error {
@@ -248,7 +248,7 @@ fn by_differences(
                 Some(of(&middle)?.bounded_by(of(&above)?))
             })
             .collect::<Option<Vec<Estimate>>>();
-        results.push(balanced(parameter, &quotients.ok_or(standing.clone())?));
+        results.push(balanced(parameter, &quotients.ok_or(standing)?));
     }
     Ok(results)
 }
@@ -284,12 +284,12 @@ fn member_values(
     quantity: SensitivityQuantity,
     settings: &OperatingSettings,
     observer: &dyn Observer,
-) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), Error> {
+) -> Result<[Vec<Vec<f64>>; 2], Error> {
     let speeds = |loaded: &[LoadedMotor]| {
         let results = operate(loaded, settings, observer)?;
         match results.speeds.iter().position(Vec::is_empty) {
             Some(index) => Err(Error::Overpowered { load: loaded[index].load() }),
-            None => Ok((results.speeds, results.speeds_from_above)),
+            None => Ok([results.speeds, results.speeds_from_above]),
         }
     };
     match quantity {
@@ -313,8 +313,7 @@ fn member_values(
                 };
                 speeds.chunks_exact(shares.len()).zip(motors).map(of_motor).collect()
             };
-            let (middle, above) = speeds(&loaded)?;
-            Ok((torques(middle), torques(above)))
+            Ok(speeds(&loaded)?.map(torques))
         }
     }
 }
