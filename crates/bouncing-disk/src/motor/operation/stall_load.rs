@@ -1,6 +1,7 @@
 //! The load that stops a motor, bracketed.
 
 use bouncing_disk_core::Observer;
+use bouncing_disk_core::elementary::hypot;
 
 use super::ensemble::{LoadedMotor, operate};
 use super::point::{Estimate, Operation, Shortfall};
@@ -9,6 +10,12 @@ use crate::error::Error;
 
 /// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
 const STEPS: usize = 16;
+
+/// A bracket of two neighbouring loads is divided again, so many times: to 1/65536 of the largest torque.
+const MOST_REFINEMENTS: u32 = 2;
+
+/// The width of an even distribution over its standard deviation, the root of 12.
+const EVEN: f64 = 3.464_101_615_137_754_5;
 
 /// A speed differs from zero beyond so many of its standard errors.
 const SIGNIFICANT: f64 = 3.0;
@@ -20,12 +27,13 @@ const SIGNIFICANT: f64 = 3.0;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StallLoad {
-    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation.
+    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that at exactly
+    /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) has what their tolerances make of it.
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
     /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its speed, and
-    /// under the second it is surely driven back.
+    /// under the second it is surely driven back. The second is mu m g a_e where no smaller one surely does that.
     pub bracket: [f64; 2],
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,
@@ -38,12 +46,14 @@ pub(crate) fn stall_load(
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {
     let largest = motor.largest_torque();
-    let under = |share: f64| motor.with_load(share * largest);
+    let under = |shares: &[f64]| {
+        let motors = shares.iter().map(|share| motor.with_load(share * largest)).collect::<Result<Vec<_>, _>>()?;
+        operate(&motors, settings, observer)
+    };
     // Which way it turns is not known before.
     let shares: Vec<f64> =
         (0..2 * STEPS - 1).map(|k| (k as f64 - (STEPS - 1) as f64) / STEPS as f64).collect();
-    let motors = shares.iter().map(|&share| under(share)).collect::<Result<Vec<_>, _>>()?;
-    let first = operate(&motors, settings, observer)?;
+    let first = under(&shares)?;
     let unloaded = speed_of(&first.operations[STEPS - 1]);
     if !motor.turns(unloaded) || largest <= 0.0 {
         let Estimate { value: speed, standard_error } = unloaded;
@@ -55,36 +65,64 @@ pub(crate) fn stall_load(
     let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
     let turns = |operation: &Operation| sign * speed_of(operation).value > 0.0;
     let last = (0..STEPS).take_while(|&step| turns(&first.operations[braked(step)])).last().unwrap_or(0);
-    // At a share of 1 it runs away: a bit less than that brackets what the last step does not.
-    let (low, high) = (last as f64 / STEPS as f64, ((last + 1) as f64 / STEPS as f64).min(1.0 - 1e-6));
-
-    // One step more on either side, for a bracket that is sure.
-    let step = (high - low) / STEPS as f64;
-    let fine: Vec<f64> =
-        (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, 1.0 - 1e-6)).collect();
-    let motors = fine.iter().map(|&share| under(sign * share)).collect::<Result<Vec<_>, _>>()?;
-    let second = operate(&motors, settings, observer)?;
-    let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
-    let sure = |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
-    let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
-    let above = speeds.iter().position(|speed| sure(speed, -sign)).unwrap_or(fine.len() - 1);
-    let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
-    check_settled(&second.operations[below..=above])?;
-    // Each member crosses zero for itself, on the straight line through its own speeds: they share their perturbations.
-    let members = second.speeds[below].len();
-    let crossings: Vec<f64> = (0..members)
-        .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
-        .collect();
-    let share = Estimate::of(&crossings)?;
+    let mut bracket = [last as f64 / STEPS as f64, (last + 1) as f64 / STEPS as f64];
+    let mut refined = 0;
+    let (share, resolved) = loop {
+        let fine = shares_between(bracket);
+        let second = under(&fine.iter().map(|share| sign * share).collect::<Vec<_>>())?;
+        let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
+        let sure =
+            |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
+        let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
+        let above = speeds.iter().position(|speed| sure(speed, -sign));
+        if above.is_none() && bracket[1] >= 1.0 {
+            // No load that friction can hold surely drives it back, and beyond the largest torque each does. A motor that
+            // still gains speed at the last load turns all the same.
+            if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &second.operations[below]
+                && sign * drift < 0.0
+            {
+                let Estimate { value: speed, standard_error } = point.speed;
+                return Err(Error::NotSettled { speed, standard_error });
+            }
+            bracket = [fine[below], 1.0];
+            break (Estimate { value: 0.5 * (fine[below] + 1.0), standard_error: 0.0 }, false);
+        }
+        let above = above.unwrap_or(fine.len() - 1);
+        let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
+        check_settled(&second.operations[below..=above])?;
+        bracket = [fine[below], fine[above]];
+        let resolved = above - below > 1;
+        if resolved || refined == MOST_REFINEMENTS {
+            // Each member crosses zero for itself, on the straight line through its own speeds: they share their
+            // perturbations.
+            let members = 0..second.speeds[below].len();
+            let crossings: Vec<f64> = members
+                .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
+                .collect();
+            break (Estimate::of(&crossings)?, resolved);
+        }
+        refined += 1;
+    };
+    // Between neighbouring loads nothing is known of the curve but the signs at both.
+    let unresolved = if resolved { 0.0 } else { (bracket[1] - bracket[0]) / EVEN };
+    let standard_error = hypot(share.standard_error, unresolved);
     Ok(StallLoad {
-        torque: Estimate {
-            value: sign * share.value * largest,
-            standard_error: share.standard_error * largest,
-        },
+        torque: Estimate { value: sign * share.value * largest, standard_error: standard_error * largest },
         share: sign * share.value,
-        bracket: [sign * fine[below] * largest, sign * fine[above] * largest],
+        bracket: bracket.map(|share| sign * share * largest),
         no_load_speed: unloaded,
     })
+}
+
+/// Shares between two, and one step more on either side for a bracket that is sure; none reaches 1, where the motor runs
+/// away.
+fn shares_between([low, high]: [f64; 2]) -> Vec<f64> {
+    let step = (high - low) / STEPS as f64;
+    let mut shares: Vec<f64> = (0..=STEPS + 2)
+        .map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, 1.0 - 0.5 * step))
+        .collect();
+    shares.dedup();
+    shares
 }
 
 /// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would
