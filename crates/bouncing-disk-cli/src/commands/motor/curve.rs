@@ -1,6 +1,8 @@
 //! `bouncing-disk motor curve`: speed, power and efficiency over the load.
 
-use bouncing_disk::{InputSpread, InputTolerance, Motor, MotorField, OperatingSettings, Operation, SweepQuantity};
+use bouncing_disk::{
+    InputSpread, InputTolerance, Motor, MotorField, OperatingSettings, Operation, SweepQuantity,
+};
 use clap::Args;
 use serde::Serialize;
 

@@ -53,7 +53,7 @@ pub(super) struct SpreadArgs {
     /// Motors that are drawn within it
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = InputTolerance::default().draws)]
     draws: usize,
-    /// Leaves the spread out, which costs about five times the rest
+    /// Leaves the spread out, which costs two to ten times the rest
     #[arg(long)]
     no_spread: bool,
 }
@@ -61,7 +61,8 @@ pub(super) struct SpreadArgs {
 impl SpreadArgs {
     pub(super) fn tolerance(&self) -> Option<InputTolerance> {
         let Self { tolerance, draws, no_spread } = *self;
-        let own = InputTolerance { preload: tolerance, amplitude: tolerance, draws, ..InputTolerance::default() };
+        let own =
+            InputTolerance { preload: tolerance, amplitude: tolerance, draws, ..InputTolerance::default() };
         (!no_spread).then_some(own)
     }
 }

@@ -15,8 +15,8 @@ use crate::output::table::Table;
 /// What stands at the end of the help.
 const AFTER: &str = "\
 A motor in a trap repeats a short cycle of flights and rest, whose speed may be far from that beside the trap, or near it. A \
-motor whose preload is known to 1 % meets a trap of relative width w with a chance of up to w/2 %. The speed is that in \
-the middle of the range, under the load of the data sheet. See docs/designing-a-motor.md.
+motor whose preload is known to 1 % meets a trap of relative width w with a chance of up to w/2 %. Speeds are \
+those near both edges and in the middle of the range, under the load of the data sheet. See docs/designing-a-motor.md.
 
 Example:
   bouncing-disk motor traps motor.toml --from 4 --to 6";
@@ -62,20 +62,24 @@ pub(super) fn run(args: &TrapsArgs, context: Context) -> Result<(), Failure> {
         ("long_flights", "1"),
         ("platform_periods", "1"),
         ("state", "1"),
-        ("speed", "rad/s"),
+        ("lower_speed", "rad/s"),
+        ("middle_speed", "rad/s"),
+        ("upper_speed", "rad/s"),
         ("speed_error", "rad/s"),
     ]);
     for trap in &traps {
-        let speed = trap.operation.point().map(|point| point.speed);
+        let [lower, middle, upper] = trap.operations.map(|own| own.point().map(|point| point.speed));
         table.push([
             (mass * trap.preload_from_to[0]).into(),
             (mass * trap.preload_from_to[1]).into(),
             (100.0 * trap.relative_width).into(),
             trap.verdict.cycle.map(|cycle| cycle.long_flights as f64).into(),
             trap.verdict.cycle.map(|cycle| cycle.platform_periods as f64).into(),
-            state(&trap.operation).into(),
-            speed.map(|speed| speed.value).into(),
-            speed.map(|speed| speed.standard_error).into(),
+            state(&trap.operations[1]).into(),
+            lower.map(|speed| speed.value).into(),
+            middle.map(|speed| speed.value).into(),
+            upper.map(|speed| speed.value).into(),
+            middle.map(|speed| speed.standard_error).into(),
         ]);
     }
     let job = Job { operation, preload_from_to, least_width: args.least_width };

@@ -12,7 +12,7 @@ use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
 use super::ensemble::{LoadedMotor, operate};
-use super::point::Estimate;
+use super::point::{Estimate, Operation, Shortfall};
 use super::settings::OperatingSettings;
 use super::stall_load::stall_load;
 use crate::error::{Error, check, finite, within_limit};
@@ -20,10 +20,12 @@ use crate::motor::data_sheet::Motor;
 
 /// A draw is computed with so many times the error that is asked for, so that it costs an eighth of a point.
 const LOOSENESS: f64 = 2.828_427_124_746_190_3;
-const SHARE_OF_IMPACTS: u64 = 8;
 
-/// Most members of a draw: their scatter over all draws gives the statistical error.
-const MEMBERS_OF_DRAW: usize = 8;
+/// And with at most this part of the impacts that are allowed: one in a trap that settles slowly costs no more than others.
+const SHARE_OF_IMPACTS: u64 = 64;
+
+/// Members of a draw: the scatter of all draws' members together gives the statistical error.
+const MEMBERS_OF_DRAW: usize = 4;
 
 /// The streams of random numbers of the draws lie behind those of any members.
 const FIRST_STREAM: u64 = 1 << 32;
@@ -80,7 +82,7 @@ impl InputTolerance {
         let decades = self.perturbation_decades * (random.unit() - 0.5);
         let settings = OperatingSettings {
             relative_error: (LOOSENESS * settings.relative_error).min(0.5),
-            members: settings.members.min(MEMBERS_OF_DRAW),
+            members: MEMBERS_OF_DRAW,
             most_impacts: (settings.most_impacts / SHARE_OF_IMPACTS).max(1),
             relaunch_perturbation: (settings.relaunch_perturbation * exp(LN_10 * decades)).min(1.0),
             seed,
@@ -107,13 +109,15 @@ pub struct InputSpread {
     pub draws: usize,
     /// Draws that have none: the load overpowers the motor; of stall loads, the motor does not turn, or not steadily.
     pub without: usize,
+    /// Draws, of those that have the number, which was not settled when their impacts were spent: taken as it was.
+    pub unsettled: usize,
     /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::TrapVerdict)).
     pub trapped: usize,
 }
 
 impl InputSpread {
     /// Of the estimates of independent draws; `None` of fewer than four.
-    fn of(draws: &[Option<Estimate>], trapped: usize) -> Result<Option<Self>, Error> {
+    fn of(draws: &[Option<Estimate>], unsettled: usize, trapped: usize) -> Result<Option<Self>, Error> {
         let known: Vec<Estimate> = draws.iter().copied().flatten().collect();
         if known.len() < 4 {
             return Ok(None);
@@ -132,10 +136,13 @@ impl InputSpread {
         let variance = mean(&excess).max(0.0);
         let uncertain = standard_deviation(&excess) / count.sqrt();
         let deviation = variance.sqrt();
-        let standard_error = (variance + uncertain).sqrt() - deviation;
+        // The variance is what is known with an error; its root is less well known downwards.
+        let most = (variance + uncertain).sqrt();
+        let least = (variance - uncertain).max(0.0).sqrt();
+        let standard_error = (most - deviation).max(deviation - least);
         let observed = standard_deviation(&values);
         // As far as the deviation may be, not as it is: nothing shrinks to a point that was only not resolved.
-        let real = if observed > 0.0 { ((deviation + standard_error) / observed).min(1.0) } else { 0.0 };
+        let real = if observed > 0.0 { (most / observed).min(1.0) } else { 0.0 };
         let at = |value: f64| centre.value + real * (value - centre.value);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -145,6 +152,7 @@ impl InputSpread {
             from_to: [at(least), at(largest)],
             draws: known.len(),
             without: draws.len() - known.len(),
+            unsettled,
             trapped,
         }))
     }
@@ -153,8 +161,8 @@ impl InputSpread {
 impl Motor {
     /// How far the mean speed (rad/s) lies apart under each of these load torques (N m) over the tolerances of the inputs:
     /// what stands beside the errors of [`Self::torque_speed_curve`] with the same settings. `None` where fewer than four
-    /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve: all cost
-    /// about five (measured: two to eight).
+    /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve, or a quarter
+    /// where the start-up is most of it: all cost two to ten curves.
     ///
     /// ```
     /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
@@ -196,19 +204,24 @@ impl Motor {
             finite("load_torque", torque)?;
         }
         let mut draws = vec![Vec::with_capacity(tolerance.draws); load_torques.len()];
+        let mut unsettled = vec![0; load_torques.len()];
         let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
             let own = LoadedMotor::of(motor);
-            let motors = load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, _>>()?;
-            for (own, operation) in draws.iter_mut().zip(operate(&motors, settings, watch)?.operations) {
-                own.push(operation.point().map(|point| point.speed));
+            let motors =
+                load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, _>>()?;
+            for (index, operation) in operate(&motors, settings, watch)?.operations.iter().enumerate() {
+                draws[index].push(operation.point().map(|point| point.speed));
+                let drifts = matches!(operation, Operation::Unsettled(_, Shortfall::Drift { .. }));
+                unsettled[index] += usize::from(drifts);
             }
             Ok(())
         })?;
-        draws.iter().map(|draws| InputSpread::of(draws, trapped)).collect()
+        let each = draws.iter().zip(unsettled);
+        each.map(|(draws, unsettled)| InputSpread::of(draws, unsettled, trapped)).collect()
     }
 
     /// How far the stall load (N m) lies apart over the tolerances of the inputs: what stands beside the error of
-    /// [`Self::stall_load`] with the same settings, and costs about five of it. `None` where fewer than four draws have a
+    /// [`Self::stall_load`] with the same settings, and costs two to ten of it. `None` where fewer than four draws have a
     /// stall load.
     ///
     /// # Errors
@@ -241,7 +254,7 @@ impl Motor {
             });
             Ok(())
         })?;
-        InputSpread::of(&draws, trapped)
+        InputSpread::of(&draws, 0, trapped)
     }
 
     /// Has something done with each motor that is drawn, and counts those in a trap.

@@ -11,8 +11,8 @@ use crate::error::Error;
 /// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
 const STEPS: usize = 16;
 
-/// A bracket of two neighbouring loads is divided again, so many times: to 1/65536 of the largest torque.
-const MOST_REFINEMENTS: u32 = 2;
+/// No load nearer to the largest torque is tried: what friction has left there settles a speed too slowly.
+const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
 /// The width of an even distribution over its standard deviation, the root of 12.
 const EVEN: f64 = 3.464_101_615_137_754_5;
@@ -47,7 +47,8 @@ pub(crate) fn stall_load(
 ) -> Result<StallLoad, Error> {
     let largest = motor.largest_torque();
     let under = |shares: &[f64]| {
-        let motors = shares.iter().map(|share| motor.with_load(share * largest)).collect::<Result<Vec<_>, _>>()?;
+        let motors =
+            shares.iter().map(|share| motor.with_load(share * largest)).collect::<Result<Vec<_>, _>>()?;
         operate(&motors, settings, observer)
     };
     // Which way it turns is not known before.
@@ -65,64 +66,67 @@ pub(crate) fn stall_load(
     let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
     let turns = |operation: &Operation| sign * speed_of(operation).value > 0.0;
     let last = (0..STEPS).take_while(|&step| turns(&first.operations[braked(step)])).last().unwrap_or(0);
-    let mut bracket = [last as f64 / STEPS as f64, (last + 1) as f64 / STEPS as f64];
-    let mut refined = 0;
-    let (share, resolved) = loop {
-        let fine = shares_between(bracket);
-        let second = under(&fine.iter().map(|share| sign * share).collect::<Vec<_>>())?;
-        let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
-        let sure =
-            |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
-        let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
-        let above = speeds.iter().position(|speed| sure(speed, -sign));
-        if above.is_none() && bracket[1] >= 1.0 {
-            // No load that friction can hold surely drives it back, and beyond the largest torque each does. A motor that
-            // still gains speed at the last load turns all the same.
-            if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &second.operations[below]
-                && sign * drift < 0.0
-            {
-                let Estimate { value: speed, standard_error } = point.speed;
-                return Err(Error::NotSettled { speed, standard_error });
-            }
-            bracket = [fine[below], 1.0];
-            break (Estimate { value: 0.5 * (fine[below] + 1.0), standard_error: 0.0 }, false);
-        }
-        let above = above.unwrap_or(fine.len() - 1);
-        let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
-        check_settled(&second.operations[below..=above])?;
-        bracket = [fine[below], fine[above]];
-        let resolved = above - below > 1;
-        if resolved || refined == MOST_REFINEMENTS {
-            // Each member crosses zero for itself, on the straight line through its own speeds: they share their
-            // perturbations.
-            let members = 0..second.speeds[below].len();
-            let crossings: Vec<f64> = members
-                .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
-                .collect();
-            break (Estimate::of(&crossings)?, resolved);
-        }
-        refined += 1;
-    };
-    // Between neighbouring loads nothing is known of the curve but the signs at both.
-    let unresolved = if resolved { 0.0 } else { (bracket[1] - bracket[0]) / EVEN };
-    let standard_error = hypot(share.standard_error, unresolved);
-    Ok(StallLoad {
-        torque: Estimate { value: sign * share.value * largest, standard_error: standard_error * largest },
+    let (low, high) = (last as f64 / STEPS as f64, (last + 1) as f64 / STEPS as f64);
+    // One step more on either side, for a bracket that is sure.
+    let step = (high - low) / STEPS as f64;
+    let mut fine: Vec<f64> =
+        (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, NEAREST)).collect();
+    fine.dedup();
+    let second = under(&fine.iter().map(|share| sign * share).collect::<Vec<_>>())?;
+    let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
+    let sure = |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
+    let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
+    let above = speeds.iter().position(|speed| sure(speed, -sign));
+    let found = |share: Estimate, bracket: [f64; 2]| StallLoad {
+        torque: Estimate {
+            value: sign * share.value * largest,
+            standard_error: share.standard_error * largest,
+        },
         share: sign * share.value,
         bracket: bracket.map(|share| sign * share * largest),
         no_load_speed: unloaded,
-    })
+    };
+    if above.is_none() && high > NEAREST {
+        // No load that was tried surely drives it back, and beyond the largest torque each does. A motor that still
+        // gains speed at the last load turns all the same.
+        if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &second.operations[below]
+            && sign * drift < 0.0
+        {
+            let Estimate { value: speed, standard_error } = point.speed;
+            return Err(Error::NotSettled { speed, standard_error });
+        }
+        let bracket = [fine[below], 1.0];
+        let [value, standard_error] = [0.5 * (bracket[0] + 1.0), (1.0 - bracket[0]) / EVEN];
+        return Ok(found(Estimate { value, standard_error }, bracket));
+    }
+    let above = above.unwrap_or(fine.len() - 1);
+    let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
+    check_settled(&second.operations[below..=above])?;
+    // Each member crosses zero for itself, on the straight line through its own speeds: they share their perturbations.
+    let members = second.speeds[below].len();
+    let crossings: Vec<f64> = (0..members)
+        .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
+        .collect();
+    let mut share = Estimate::of(&crossings)?;
+    if above - below == 1 {
+        let unresolved = unresolved(&speeds, below) * (fine[above] - fine[below]);
+        share.standard_error = hypot(share.standard_error, unresolved);
+    }
+    if share.value <= share.standard_error {
+        return Err(Error::DoesNotTurn { speed: unloaded.value, standard_error: unloaded.standard_error });
+    }
+    Ok(found(share, [fine[below], fine[above]]))
 }
 
-/// Shares between two, and one step more on either side for a bracket that is sure; none reaches 1, where the motor runs
-/// away.
-fn shares_between([low, high]: [f64; 2]) -> Vec<f64> {
-    let step = (high - low) / STEPS as f64;
-    let mut shares: Vec<f64> = (0..=STEPS + 2)
-        .map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, 1.0 - 0.5 * step))
-        .collect();
-    shares.dedup();
-    shares
+/// The error of the straight line between two neighbouring loads, as a share of their distance: from next to none, where the
+/// speeds beside them go on in the line, to that of an even distribution between them, where a locked motor jumps.
+fn unresolved(speeds: &[Estimate], below: usize) -> f64 {
+    let value = |index: usize| speeds[index].value;
+    let bends =
+        [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < speeds.len());
+    let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
+    let jump = (value(below + 1) - value(below)).abs();
+    (bend.fold(0.0, f64::max) / jump).min(1.0) / EVEN
 }
 
 /// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would

@@ -22,6 +22,9 @@ const MOST_STEPS: f64 = 1.0e7;
 /// Halvings of a step that find the edge of a trap.
 const HALVINGS: u32 = 24;
 
+/// Where in a range of preloads the speed is computed, as shares of its width.
+const PLACES: [f64; 3] = [0.1, 0.5, 0.9];
+
 /// A range of the preload that traps a motor ([`Motor::trap_ranges`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -36,8 +39,9 @@ pub struct TrapRange {
     pub forcing_from_to: [f64; 2],
     /// What the rotor does in the middle of it.
     pub verdict: TrapVerdict,
-    /// How it turns in the middle of it, under the load of its data sheet: most traps hardly slow a motor, some stop it.
-    pub operation: Operation,
+    /// How it turns at the lower edge, in the middle and at the upper edge (a tenth of the width inside), under the load of its
+    /// data sheet: most traps hardly slow a motor, some stop it.
+    pub operations: [Operation; 3],
 }
 
 /// The low-period trap that is nearest to a motor.
@@ -77,7 +81,7 @@ impl Motor {
     /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings)?;
     /// // It turns at 21 rad/s besides.
     /// assert!(!traps.is_empty());
-    /// assert!(traps.iter().all(|trap| trap.operation.point().is_some_and(|point| point.speed.value < 30.0)));
+    /// assert!(traps.iter().all(|trap| trap.operations[1].point().is_some_and(|point| point.speed.value < 30.0)));
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
     ///
@@ -121,23 +125,24 @@ impl Motor {
                 sheet.preload_acceleration = Some(own / exp(offset));
             })
         };
-        let middles = found.iter().map(|[one, other]| at(0.5 * (one + other))).collect::<Result<Vec<_>, _>>()?;
-        if middles.is_empty() {
+        if found.is_empty() {
             return Ok(Vec::new());
         }
-        let inside = operations_observed(&middles, settings, observer)?;
+        let inside = found.iter().flat_map(|[from, to]| PLACES.map(|place| at(to + place * (from - to))));
+        let motors = inside.collect::<Result<Vec<_>, _>>()?;
+        let operations = operations_observed(&motors, settings, observer)?;
         let mut all = found
             .into_iter()
-            .zip(middles.iter().zip(inside))
-            .map(|(ends, (motor, operation))| {
+            .zip(motors.chunks_exact(PLACES.len()).zip(operations.chunks_exact(PLACES.len())))
+            .map(|(ends, (motors, operations))| {
                 let forcing = self.system().peak_acceleration() / PI;
                 let [least, most] = [ends[1], ends[0]].map(|end| own / exp(end));
                 Ok(TrapRange {
                     preload_from_to: [least, most],
                     relative_width: exp(ends[1] - ends[0]) - 1.0,
                     forcing_from_to: ends.map(|end| forcing * exp(end)),
-                    verdict: motor.trap_verdict()?,
-                    operation,
+                    verdict: motors[1].trap_verdict()?,
+                    operations: [operations[0], operations[1], operations[2]],
                 })
             })
             .collect::<Result<Vec<_>, Error>>()?;
@@ -198,7 +203,8 @@ impl Scan<'_> {
     fn verdict(&self, offset: f64, work: &mut WorkCount<'_>) -> Result<TrapVerdict, Error> {
         let map = self.motor.system().dimensionless().map();
         let factor = exp(offset);
-        let map = ImpactMap::new(Vibration::new(map.vibration().peak_acceleration() * factor)?, map.restitution())?;
+        let map =
+            ImpactMap::new(Vibration::new(map.vibration().peak_acceleration() * factor)?, map.restitution())?;
         TrapVerdict::of(&map, self.motor.preload_acceleration() / factor, work)
     }
 

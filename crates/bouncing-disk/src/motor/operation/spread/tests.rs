@@ -20,7 +20,7 @@ fn the_spread_of_known_draws_is_found() {
                     Some(Estimate { value, standard_error: (square / 7.0).sqrt() })
                 })
                 .collect();
-            let spread = InputSpread::of(&draws, 0).expect("finite").expect("many");
+            let spread = InputSpread::of(&draws, 0, 0).expect("finite").expect("many");
             let Estimate { value, standard_error } = spread.standard_deviation;
             held += u32::from((value - true_spread).abs() <= 2.0 * standard_error);
             let further = 10.0 + true_spread * normal(&mut random);
@@ -29,7 +29,7 @@ fn the_spread_of_known_draws_is_found() {
         }
     }
     assert!(held * 10 >= trials * 9 && inside * 10 >= trials * 9, "{held} {inside} {trials}");
-    assert_eq!(InputSpread::of(&[None; 30], 3).expect("finite"), None);
+    assert_eq!(InputSpread::of(&[None; 30], 0, 3).expect("finite"), None);
 }
 
 /// Motors that are exactly known have no spread, whatever their statistical errors.
@@ -124,7 +124,8 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         let angle = bouncing_disk_core::elementary::acos(middle);
-        let share = (angle + peak * (1.0 - middle * middle).sqrt() * bouncing_disk_core::elementary::sin(lag))
+        let share = (angle
+            + peak * (1.0 - middle * middle).sqrt() * bouncing_disk_core::elementary::sin(lag))
             / std::f64::consts::PI;
         if share > 0.5 { low = middle } else { high = middle }
     }
@@ -134,6 +135,9 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let stall = motor.stall_load(&settings).expect("it turns");
     // S(0) of the same normal force.
     let share = 2.0 * peak * bouncing_disk_core::elementary::sin(lag) / std::f64::consts::PI;
-    assert!((stall.share - share).abs() < 3.0 * stall.torque.standard_error / motor.largest_torque() + 1e-4, "{stall:?} {share}");
+    assert!(
+        (stall.share - share).abs() < 3.0 * stall.torque.standard_error / motor.largest_torque() + 1e-4,
+        "{stall:?} {share}"
+    );
     assert!(began.elapsed() < std::time::Duration::from_secs(20));
 }
