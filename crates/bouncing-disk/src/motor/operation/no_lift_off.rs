@@ -20,12 +20,16 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// Halvings that find the steady speed: to 1e-18 of the range in which it lies.
 const HALVINGS: u32 = 60;
 
+/// Periods of the steady motion that are computed for its energies, so that the rounding of the speed at both ends is small
+/// beside them.
+const PERIODS: u64 = 16;
+
 /// Rotors that lie on the platform for ever.
 #[derive(Debug)]
 pub(super) struct Lying {
     engines: Vec<Engine>,
     phase: Phase,
-    /// The period that all rotors repeat; computed when it is first asked for.
+    /// [`PERIODS`] that all rotors repeat; computed when they are first asked for.
     round: Option<Window>,
 }
 
@@ -46,10 +50,10 @@ impl Lying {
             None => self.steady_round(work)?,
         };
         let periods = ((duration / TAU) as u64).saturating_add(1).min(most);
-        let times = periods as f64;
+        let times = periods as f64 / PERIODS as f64;
         let window = Window {
             axial: AxialWindow {
-                duration: times * TAU,
+                duration: periods as f64 * TAU,
                 impacts: periods,
                 normal_work: times * round.axial.normal_work,
                 energy_change: times * round.axial.energy_change,
@@ -76,7 +80,7 @@ impl Lying {
         for (index, engine) in self.engines.iter().enumerate() {
             let system = engine.system();
             let speed = steady_speed(system, self.phase, work)?;
-            let (ledger, rotor, _) = period(system, self.phase, speed, work)?;
+            let (ledger, rotor, _) = motion(system, self.phase, speed, PERIODS, work)?;
             window.rotors.push(rotor);
             if index == 0 {
                 window.axial.normal_work = ledger.normal_work;
@@ -90,7 +94,7 @@ impl Lying {
 /// The angular speed at a phase to which a rotor from rest tends. What a period gains falls with the speed at its
 /// beginning, so that its sign changes once.
 fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount<'_>) -> Result<f64, Error> {
-    let mut gain = |speed: f64| Ok::<_, Error>(period(system, phase, speed, work)?.2 - speed);
+    let mut gain = |speed: f64| Ok::<_, Error>(motion(system, phase, speed, 1, work)?.2 - speed);
     let first = gain(0.0)?;
     // Beyond it a rotor slides one way for a whole period, and comes back.
     let most = TAU * (system.friction() + system.load().abs()) * (1.0 + system.peak_acceleration());
@@ -106,17 +110,18 @@ fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount
     Ok(near)
 }
 
-/// One period of a rotor from a phase and an angular speed: energies, the rotor's part, the speed at its end.
-fn period(
+/// Some periods of a rotor from a phase and an angular speed: energies, the rotor's part, the speed at the end.
+fn motion(
     system: &DimensionlessSystem,
     phase: Phase,
     angular_speed: f64,
+    periods: u64,
     work: &mut WorkCount<'_>,
 ) -> Result<(EnergyLedger, RotorWindow, f64), Error> {
     let start = InitialCondition::Contact { phase, angular_speed };
     let mut engine = Engine::new(*system, start, ChatterPolicy::Complete)?;
     let before = *engine.state();
-    engine.pause_at(PhaseTime::in_first_period(phase).after(PhaseSpan { periods: 1, remainder: 0.0 }));
+    engine.pause_at(PhaseTime::in_first_period(phase).after(PhaseSpan { periods, remainder: 0.0 }));
     let mut ledger = EnergyLedger::default();
     while let Some(record) = engine.advance()? {
         work.spend(FLIGHTS_OF_EVENT)?;

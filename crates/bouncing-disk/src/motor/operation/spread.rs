@@ -203,7 +203,7 @@ impl Motor {
         for &torque in load_torques {
             finite("load_torque", torque)?;
         }
-        let mut draws = vec![Vec::with_capacity(tolerance.draws); load_torques.len()];
+        let mut draws = vec![Vec::new(); load_torques.len()];
         let mut unsettled = vec![0; load_torques.len()];
         let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
             let own = LoadedMotor::of(motor);
@@ -245,7 +245,7 @@ impl Motor {
         tolerance: &InputTolerance,
         observer: &dyn Observer,
     ) -> Result<Option<InputSpread>, Error> {
-        let mut draws = Vec::with_capacity(tolerance.draws);
+        let mut draws = Vec::new();
         let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
             draws.push(match stall_load(&LoadedMotor::of(motor), settings, watch) {
                 Ok(stall) => Some(stall.torque),

@@ -14,6 +14,9 @@ const STEPS: usize = 16;
 /// No load nearer to the largest torque is tried: what friction has left there settles a speed too slowly.
 const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
+/// A stall load below this part of the largest torque is none: the ripple of a speed within a period leaves as much.
+const LEAST: f64 = 1e-5;
+
 /// The width of an even distribution over its standard deviation, the root of 12.
 const EVEN: f64 = 3.464_101_615_137_754_5;
 
@@ -28,7 +31,7 @@ const SIGNIFICANT: f64 = 3.0;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StallLoad {
     /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that at exactly
-    /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) has what their tolerances make of it.
+    /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) says what their tolerances make of it.
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
@@ -112,7 +115,7 @@ pub(crate) fn stall_load(
         let unresolved = unresolved(&speeds, below) * (fine[above] - fine[below]);
         share.standard_error = hypot(share.standard_error, unresolved);
     }
-    if share.value <= share.standard_error {
+    if share.value <= share.standard_error.max(LEAST) {
         return Err(Error::DoesNotTurn { speed: unloaded.value, standard_error: unloaded.standard_error });
     }
     Ok(found(share, [fine[below], fine[above]]))

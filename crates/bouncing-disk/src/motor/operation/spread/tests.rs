@@ -37,8 +37,8 @@ fn the_spread_of_known_draws_is_found() {
 fn a_motor_that_is_exactly_known_has_no_spread() {
     let exact = InputTolerance { preload: 0.0, amplitude: 0.0, perturbation_decades: 0.0, draws: 16 };
     let spread = Motor::paper_70_khz().speed_spreads(&[0.0], &quick(), &exact).expect("no failure")[0];
-    let Estimate { value, standard_error } = spread.expect("each draw turns").standard_deviation;
-    assert!(value <= 2.0 * standard_error, "{value} {standard_error}");
+    let spread = spread.expect("each draw turns");
+    assert!(spread.standard_deviation.value < 0.01 * spread.mean.value, "{spread:?}");
 }
 
 /// Between 4.9 and 5.1 N this motor has speeds from 4 to 10 rad/s, while each is known to 0.04 rad/s.
@@ -71,19 +71,20 @@ fn small_motor(preload: f64) -> Motor {
         .expect("legal")
 }
 
-/// At 6 N it locks: the stall load is known to next to nothing, and lies elsewhere for its neighbours. At 2 N it is
+/// At 6 N it locks: its speed is known to next to nothing, and lies elsewhere for its neighbours. At 2 N its stall load is
 /// practically the largest torque.
 #[test]
-fn the_stall_of_a_locked_motor_has_a_spread_and_one_at_the_limit_an_error() {
+fn a_locked_motor_has_a_spread_and_a_stall_at_the_limit_an_error() {
     let motor = small_motor(6.0);
     assert!(motor.report().expect("no failure").regime.is_locked());
-    let stall = motor.stall_load(&quick()).expect("it turns");
-    let tolerance = InputTolerance { draws: 8, ..InputTolerance::default() };
-    let spread = motor.stall_spread(&quick(), &tolerance).expect("no failure").expect("most turn");
-    let deviation = spread.standard_deviation.value;
-    assert!(deviation > 20.0 * stall.torque.standard_error, "{stall:?} {spread:?}");
+    let settings = OperatingSettings { most_impacts: 1_000_000, ..quick() };
+    let speed = motor.operating_point(0.0, &settings).expect("no failure").point().expect("turns").speed;
+    let tolerance = InputTolerance { draws: 16, ..InputTolerance::default() };
+    let spread =
+        motor.speed_spreads(&[0.0], &settings, &tolerance).expect("no failure")[0].expect("all turn");
+    assert!(spread.standard_deviation.value > 20.0 * speed.standard_error, "{speed:?} {spread:?}");
     let motor = small_motor(2.0);
-    let stall = motor.stall_load(&quick()).expect("it turns");
+    let stall = motor.stall_load(&settings).expect("it turns");
     let [below, above] = stall.bracket;
     assert!(stall.share > 0.95 && above <= motor.largest_torque() * (1.0 + 1e-12), "{stall:?}");
     assert!(below < stall.torque.value && stall.torque.value <= above, "{stall:?}");
@@ -135,9 +136,13 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let stall = motor.stall_load(&settings).expect("it turns");
     // S(0) of the same normal force.
     let share = 2.0 * peak * bouncing_disk_core::elementary::sin(lag) / std::f64::consts::PI;
-    assert!(
-        (stall.share - share).abs() < 3.0 * stall.torque.standard_error / motor.largest_torque() + 1e-4,
-        "{stall:?} {share}"
-    );
-    assert!(began.elapsed() < std::time::Duration::from_secs(20));
+    assert!((stall.share - share).abs() < 2e-3, "{stall:?} {share}");
+    // In units of torque it is proportional to the amplitude alone, of which 1 % on either side has a deviation of
+    // 1 %/sqrt(3).
+    let tolerance = InputTolerance { draws: 12, ..InputTolerance::default() };
+    let spread = motor.stall_spread(&settings, &tolerance).expect("no failure").expect("each turns");
+    let Estimate { value, standard_error } = spread.standard_deviation;
+    let expected = 0.01 / 3.0_f64.sqrt() * stall.torque.value;
+    assert!((value - expected).abs() < 3.0 * standard_error.max(0.05 * expected), "{spread:?} {expected}");
+    assert!(began.elapsed() < std::time::Duration::from_secs(60));
 }
