@@ -61,7 +61,8 @@ fn the_spread_of_a_motor_is_that_of_its_neighbours() {
 fn small_motor(preload: f64) -> Motor {
     Motor::paper_70_khz()
         .with(|sheet| {
-            (sheet.drive_frequency, sheet.amplitude, sheet.phase_lag) = (40e3, 0.5e-6, 0.5236);
+            (sheet.drive_frequency, sheet.amplitude, sheet.phase_lag) =
+                (40e3, 0.5e-6, std::f64::consts::FRAC_PI_6);
             (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
             (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);
             (sheet.contact_radius, sheet.gyration_radius) = (12.5e-3, Some(10e-3));
