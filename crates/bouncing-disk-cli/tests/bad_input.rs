@@ -271,7 +271,7 @@ fn negative_values_are_values() {
     for line in [
         "verdicts -G 0.4 --start -0.1,1 --impacts 64",
         "diagram -G 0.4 --start -0.1,1 --transient 0 --recorded 1",
-        "motor curve --loads -1e-6 --relative-error 0.5 --members 4",
+        "motor curve --loads -1e-6 --relative-error 0.5 --members 4 --no-spread",
         "motor sweep --over phase_lag=-1:-0.5:2 --relative-error 0.5 --members 4",
         "basins --cells 2 --starts 1 --phase -0.5:0.5",
         "design --phase-lag -0.5:-0.25",

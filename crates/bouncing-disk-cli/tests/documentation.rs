@@ -95,8 +95,8 @@ fn a_wrong_output_is_seen() {
 #[test]
 fn every_command_has_an_example_in_its_help() {
     let folder = Folder::new();
-    let motors =
-        ["report", "transient", "curve", "stall", "phase-lag", "sweep"].map(|name| format!("motor {name}"));
+    let motors = ["report", "transient", "curve", "stall", "phase-lag", "traps", "sweep"]
+        .map(|name| format!("motor {name}"));
     let others = ["toss", "orbits", "diagram", "verdicts", "basins", "doublings", "fit", "design", "merge"];
     for command in motors.into_iter().chain(others.map(str::to_owned)) {
         let help = folder.done(&format!("{command} --help"));

@@ -14,7 +14,7 @@ const QUICK: [(&str, bool); 13] = [
     ("toss --many --transient 100 --examined 100 --periods 2", true),
     ("motor report", false),
     ("motor transient --members 5 --duration 4 --intervals 40", true),
-    ("motor curve --loads 0:45e-6:3 --relative-error 0.3 --members 4", true),
+    ("motor curve --loads 0:45e-6:3 --relative-error 0.3 --members 4 --no-spread", true),
     ("motor sweep --over load_torque=0:45e-6:3 --relative-error 0.3 --members 4", true),
     (
         "motor sweep --over friction=0.1:0.2:2 --over load_torque=0:45e-6:2 --relative-error 0.3 --members 4",
@@ -175,10 +175,10 @@ fn pictures_of_the_least_are_drawn() {
         "motor sweep --over friction=0.1 --relative-error 0.5 --members 4",
         "motor sweep --over load_torque=1e-3:2e-3:2 --relative-error 0.5 --members 4",
         "motor sweep --over load_torque=1e-3 --over phase_lag=-0.1 --relative-error 0.5 --members 4",
-        "motor curve --loads 1e-3 --relative-error 0.5 --members 4",
-        "motor curve --loads -1e-6:0:2 --set friction=0 --relative-error 0.5 --members 4",
-        "motor curve --loads 0:1e-5:2 --relative-error 0.5 --members 4",
-        "motor curve --loads 1e-3:2e-3:3 --relative-error 0.5 --members 4",
+        "motor curve --loads 1e-3 --relative-error 0.5 --members 4 --no-spread",
+        "motor curve --loads -1e-6:0:2 --set friction=0 --relative-error 0.5 --members 4 --no-spread",
+        "motor curve --loads 0:1e-5:2 --relative-error 0.5 --members 4 --no-spread",
+        "motor curve --loads 1e-3:2e-3:3 --relative-error 0.5 --members 4 --no-spread",
         "diagram -G 0.4:0.6:3 --start rest --start rise --start 0.1,1 --start 0.2,1 --start -0.123456,0.1234567",
         "diagram -G 1e6 --recorded 4 --transient 0",
         "verdicts -G 1e6 --impacts 64",
@@ -354,8 +354,9 @@ fn a_torque_curve_names_what_lies_within_its_loads() {
     for (loads, has_limit, has_nothing) in
         [("0:1e-5:2", false, false), ("0:45e-6:2", true, false), ("1e-3:2e-3:2", false, true)]
     {
-        let line =
-            format!("motor curve --loads {loads} --relative-error 0.5 --members 4 --out a.svg --force");
+        let line = format!(
+            "motor curve --loads {loads} --relative-error 0.5 --members 4 --no-spread --out a.svg --force"
+        );
         folder.done(&line);
         let svg = String::from_utf8(folder.read("a.svg")).unwrap();
         assert_eq!((svg.contains(limit), svg.contains(nothing)), (has_limit, has_nothing), "{loads}");

@@ -18,7 +18,7 @@ fn round(verdict: &TrapVerdict) -> [i64; 3] {
     })
 }
 
-/// Which preloads trap a motor in a short round of flights and rest, in which it hardly turns.
+/// Which preloads trap a motor in a short round of flights and rest, with a speed of its own.
 ///
 /// Judged from the vertical motion alone, which is all that decides.
 ///
@@ -96,7 +96,7 @@ pub(crate) fn low_period_traps<'py>(
 /// Returns
 /// -------
 /// NearestTrap or None
-///     None if there is none within the range.
+///     None if there is none within the range that is at least 0.05 % wide.
 ///
 /// Examples
 /// --------

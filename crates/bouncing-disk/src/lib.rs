@@ -116,6 +116,7 @@ pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::{operations, operations_observed};
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
+pub use motor::operation::spread::{InputSpread, InputTolerance};
 pub use motor::operation::stall_load::StallLoad;
 #[cfg(feature = "fit")]
 pub use motor::parameter_fit::ParameterFit;
@@ -145,7 +146,7 @@ pub use motor::sweep::run::MotorSweepRun;
 pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
 pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
 pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
-pub use motor::traps::nearest::NearestTrap;
+pub use motor::traps::ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
 pub use motor::traps::{TrapVerdict, low_period_traps, low_period_traps_observed};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};

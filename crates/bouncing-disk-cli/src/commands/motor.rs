@@ -7,6 +7,7 @@ mod settings;
 mod stall;
 pub(crate) mod sweep;
 pub(crate) mod transient;
+mod traps;
 
 use clap::{Args, Subcommand};
 
@@ -15,7 +16,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::parameters::motor::{MotorArgs, template};
 
-/// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, sweeps
+/// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, traps, sweeps
 #[derive(Debug, Args)]
 #[command(subcommand_required = true, arg_required_else_help = true)]
 pub(crate) struct MotorCommand {
@@ -30,6 +31,7 @@ enum Motors {
     Curve(curve::CurveArgs),
     Stall(stall::StallArgs),
     PhaseLag(lag::LagArgs),
+    Traps(traps::TrapsArgs),
     Sweep(sweep::SweepArgs),
 }
 
@@ -41,6 +43,7 @@ pub(crate) fn run(command: MotorCommand, context: Context) -> Result<(), Failure
         Motors::Curve(args) => curve::run(&args, context),
         Motors::Stall(args) => stall::run(&args, context),
         Motors::PhaseLag(args) => lag::run(&args, context),
+        Motors::Traps(args) => traps::run(&args, context),
         Motors::Sweep(args) => sweep::run(&args, context),
     }
 }

@@ -253,16 +253,6 @@ impl<L: RestitutionLaw> Engine<L> {
         }
     }
 
-    /// Goes on in contact after such an end, in the `mode` before it.
-    pub(crate) const fn resume_in(&mut self, mode: Mode) {
-        let slip = match mode {
-            Mode::Sliding(direction) => Some(direction),
-            Mode::Sticking | Mode::Flight => None,
-        };
-        self.stage = Stage::Contact(Contact { slip, separation: None });
-        self.state.mode = mode;
-    }
-
     /// The next event, or `None` after the last one.
     ///
     /// # Errors

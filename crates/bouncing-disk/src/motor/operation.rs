@@ -13,4 +13,5 @@ pub(crate) mod of_motor;
 pub(crate) mod point;
 pub(crate) mod settings;
 mod settling;
+pub(crate) mod spread;
 pub(crate) mod stall_load;

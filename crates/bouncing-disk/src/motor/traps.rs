@@ -1,11 +1,11 @@
 //! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short round of
-//! flights and rest, and hardly turns; the holes of Fig. 11, which a designer must avoid.
+//! flights and rest. Its speed there is that of the round: from none, the holes of Fig. 11, to more than beside them.
 //!
 //! Judged from the vertical motion alone, which is all that decides (docs/numerics/design.md, "Low-period
 //! traps").
 
 mod excursion;
-pub(crate) mod nearest;
+pub(crate) mod ranges;
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,6 +1,6 @@
 //! How a steady operation is computed, and of which motor.
 
-use bouncing_disk::{Motor, OperatingSettings};
+use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
 use clap::Args;
 use serde::Serialize;
 
@@ -41,6 +41,37 @@ impl SettingsArgs {
             seed: self.seed,
         }
     }
+}
+
+/// How well the inputs are known, over which the spread is stated.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Spread")]
+pub(super) struct SpreadArgs {
+    /// Relative tolerance of preload and amplitude, over which the spread is stated beside the errors
+    #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = InputTolerance::default().preload)]
+    tolerance: f64,
+    /// Motors that are drawn within it
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = InputTolerance::default().draws)]
+    draws: usize,
+    /// Leaves the spread out, which costs two to ten times the rest
+    #[arg(long)]
+    no_spread: bool,
+}
+
+impl SpreadArgs {
+    pub(super) fn tolerance(&self) -> Option<InputTolerance> {
+        let Self { tolerance, draws, no_spread } = *self;
+        let own =
+            InputTolerance { preload: tolerance, amplitude: tolerance, draws, ..InputTolerance::default() };
+        (!no_spread).then_some(own)
+    }
+}
+
+/// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
+pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
+    let regime = motor.report()?.regime;
+    let note = "the errors hold at exactly these inputs, the spread over their tolerances";
+    Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
 }
 
 /// What a command takes that looks for one operation of a motor.

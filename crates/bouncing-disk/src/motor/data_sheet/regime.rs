@@ -76,6 +76,15 @@ pub enum MotorRegime {
     },
 }
 
+impl MotorRegime {
+    /// Whether the motion repeats a short round, so that its speed has next to no statistical error, however far it lies from
+    /// those of its neighbours.
+    #[must_use]
+    pub const fn is_locked(&self) -> bool {
+        matches!(self, Self::NoLiftOff | Self::Periodic { .. } | Self::LowPeriodChattering(_))
+    }
+}
+
 impl Display for MotorRegime {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {

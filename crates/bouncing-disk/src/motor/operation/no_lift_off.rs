@@ -1,73 +1,144 @@
 //! Rotors on a platform that never falls away: they stick and slide, each by itself, and nothing is chaotic.
+//!
+//! The steady motion is computed at once, not waited for: it repeats from period to period, with a speed that the map
+//! of a period leaves as it is (docs/numerics/motors.md, "A motor that is never thrown").
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{Phase, WorkCount};
+use bouncing_disk_core::{ChatterPolicy, Phase, WorkCount};
 
 use super::member::{AxialWindow, RotorWindow, Window};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::Event;
+use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::transient::FLIGHTS_OF_EVENT;
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// Halvings that find the steady speed: to 1e-18 of the range in which it lies.
+const HALVINGS: u32 = 60;
+
+/// Periods of the steady motion that are computed for its energies, so that the rounding of the speed at both ends is small
+/// beside them.
+const PERIODS: u64 = 16;
 
 /// Rotors that lie on the platform for ever.
 #[derive(Debug)]
 pub(super) struct Lying {
     engines: Vec<Engine>,
-    now: PhaseTime,
+    phase: Phase,
+    /// [`PERIODS`] that all rotors repeat; computed when they are first asked for.
+    round: Option<Window>,
 }
 
 impl Lying {
     pub(super) const fn new(engines: Vec<Engine>, phase: Phase) -> Self {
-        Self { engines, now: PhaseTime::in_first_period(phase) }
+        Self { engines, phase, round: None }
     }
 
-    /// A window of whole periods, at least of `duration` rad but for the most of them: at its ends the platform is in the
-    /// same state.
+    /// A window of whole periods of the steady motion, at least of `duration` rad but for the most of them.
     pub(super) fn next_window(
         &mut self,
         duration: f64,
         most: u64,
         work: &mut WorkCount<'_>,
     ) -> Result<Window, Error> {
+        let round = match self.round.take() {
+            Some(round) => round,
+            None => self.steady_round(work)?,
+        };
         let periods = ((duration / TAU) as u64).saturating_add(1).min(most);
-        let end = self.now.after(PhaseSpan { periods, remainder: 0.0 });
-        let mut window = Window {
+        let times = periods as f64 / PERIODS as f64;
+        let window = Window {
             axial: AxialWindow {
-                duration: end.since(&self.now).radians(),
+                duration: periods as f64 * TAU,
                 impacts: periods,
+                normal_work: times * round.axial.normal_work,
+                energy_change: times * round.axial.energy_change,
                 ..AxialWindow::default()
             },
-            rotors: Vec::with_capacity(self.engines.len()),
+            rotors: round
+                .rotors
+                .iter()
+                .map(|rotor| RotorWindow {
+                    angle: times * rotor.angle,
+                    friction_work: times * rotor.friction_work,
+                    friction_loss: times * rotor.friction_loss,
+                    load_work: times * rotor.load_work,
+                    kinetic_change: times * rotor.kinetic_change,
+                })
+                .collect(),
         };
-        for (index, engine) in self.engines.iter_mut().enumerate() {
-            let (angle, speed) = (engine.state().angle, engine.state().angular_speed);
-            let mut ledger = EnergyLedger::default();
-            engine.pause_at(end);
-            while let Some(record) = engine.advance()? {
-                work.spend(FLIGHTS_OF_EVENT)?;
-                ledger += record.ledger;
-                if record.event == Event::Separation {
-                    engine.resume_in(record.before.mode);
-                    break;
-                }
-            }
-            let after = engine.state().angular_speed;
-            window.rotors.push(RotorWindow {
-                angle: engine.state().angle - angle,
-                friction_work: ledger.friction_work,
-                friction_loss: ledger.friction_loss,
-                load_work: ledger.load_work,
-                kinetic_change: 0.5 * (after - speed) * (after + speed),
-            });
+        self.round = Some(round);
+        Ok(window)
+    }
+
+    fn steady_round(&self, work: &mut WorkCount<'_>) -> Result<Window, Error> {
+        let mut window = Window::default();
+        for (index, engine) in self.engines.iter().enumerate() {
+            let system = engine.system();
+            let speed = steady_speed(system, self.phase, work)?;
+            let (ledger, rotor, _) = motion(system, self.phase, speed, PERIODS, work)?;
+            window.rotors.push(rotor);
             if index == 0 {
                 window.axial.normal_work = ledger.normal_work;
                 window.axial.energy_change = ledger.axial_kinetic_change + ledger.potential_change;
             }
         }
-        self.now = end;
         Ok(window)
     }
+}
+
+/// The angular speed at a phase to which a rotor from rest tends. What a period gains falls with the speed at its
+/// beginning, so that its sign changes once.
+fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount<'_>) -> Result<f64, Error> {
+    let mut gain = |speed: f64| Ok::<_, Error>(motion(system, phase, speed, 1, work)?.2 - speed);
+    let first = gain(0.0)?;
+    // Beyond it a rotor slides one way for a whole period, and comes back.
+    let most = TAU * (system.friction() + system.load().abs()) * (1.0 + system.peak_acceleration());
+    let (mut near, mut far) = (0.0, (system.twist_speed() + most).copysign(first));
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (near + far);
+        if gain(middle)? * first > 0.0 {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    Ok(near)
+}
+
+/// Some periods of a rotor from a phase and an angular speed: energies, the rotor's part, the speed at the end.
+fn motion(
+    system: &DimensionlessSystem,
+    phase: Phase,
+    angular_speed: f64,
+    periods: u64,
+    work: &mut WorkCount<'_>,
+) -> Result<(EnergyLedger, RotorWindow, f64), Error> {
+    let start = InitialCondition::Contact { phase, angular_speed };
+    let mut engine = Engine::new(*system, start, ChatterPolicy::Complete)?;
+    let before = *engine.state();
+    engine.pause_at(PhaseTime::in_first_period(phase).after(PhaseSpan { periods, remainder: 0.0 }));
+    let mut ledger = EnergyLedger::default();
+    while let Some(record) = engine.advance()? {
+        work.spend(FLIGHTS_OF_EVENT)?;
+        ledger += record.ledger;
+        if record.event == Event::Separation {
+            break;
+        }
+    }
+    let after = *engine.state();
+    let rotor = RotorWindow {
+        angle: after.angle - before.angle,
+        friction_work: ledger.friction_work,
+        friction_loss: ledger.friction_loss,
+        load_work: ledger.load_work,
+        kinetic_change: 0.5
+            * (after.angular_speed - before.angular_speed)
+            * (after.angular_speed + before.angular_speed),
+    };
+    Ok((ledger, rotor, after.angular_speed))
 }

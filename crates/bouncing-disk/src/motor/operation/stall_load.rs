@@ -1,6 +1,7 @@
 //! The load that stops a motor, bracketed.
 
 use bouncing_disk_core::Observer;
+use bouncing_disk_core::elementary::hypot;
 
 use super::ensemble::{LoadedMotor, operate};
 use super::point::{Estimate, Operation, Shortfall};
@@ -9,6 +10,15 @@ use crate::error::Error;
 
 /// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
 const STEPS: usize = 16;
+
+/// No load nearer to the largest torque is tried: what friction has left there settles a speed too slowly.
+const NEAREST: f64 = 1.0 - 1.0 / 64.0;
+
+/// A stall load below this part of the largest torque is none: the ripple of a speed within a period leaves as much.
+const LEAST: f64 = 1e-5;
+
+/// The width of an even distribution over its standard deviation, the root of 12.
+const EVEN: f64 = 3.464_101_615_137_754_5;
 
 /// A speed differs from zero beyond so many of its standard errors.
 const SIGNIFICANT: f64 = 3.0;
@@ -20,12 +30,13 @@ const SIGNIFICANT: f64 = 3.0;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StallLoad {
-    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation.
+    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that at exactly
+    /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) says what their tolerances make of it.
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
     /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its speed, and
-    /// under the second it is surely driven back.
+    /// under the second it is surely driven back. The second is mu m g a_e where no smaller one surely does that.
     pub bracket: [f64; 2],
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,
@@ -38,12 +49,15 @@ pub(crate) fn stall_load(
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {
     let largest = motor.largest_torque();
-    let under = |share: f64| motor.with_load(share * largest);
+    let under = |shares: &[f64]| {
+        let motors =
+            shares.iter().map(|share| motor.with_load(share * largest)).collect::<Result<Vec<_>, _>>()?;
+        operate(&motors, settings, observer)
+    };
     // Which way it turns is not known before.
     let shares: Vec<f64> =
         (0..2 * STEPS - 1).map(|k| (k as f64 - (STEPS - 1) as f64) / STEPS as f64).collect();
-    let motors = shares.iter().map(|&share| under(share)).collect::<Result<Vec<_>, _>>()?;
-    let first = operate(&motors, settings, observer)?;
+    let first = under(&shares)?;
     let unloaded = speed_of(&first.operations[STEPS - 1]);
     check_settled(&first.operations[STEPS - 1..STEPS])?;
     if !motor.turns(unloaded) || largest <= 0.0 {
@@ -55,19 +69,40 @@ pub(crate) fn stall_load(
     let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
     let turns = |operation: &Operation| sign * speed_of(operation).value > 0.0;
     let last = (0..STEPS).take_while(|&step| turns(&first.operations[braked(step)])).last().unwrap_or(0);
-    // At a share of 1 it runs away: a bit less than that brackets what the last step does not.
-    let (low, high) = (last as f64 / STEPS as f64, ((last + 1) as f64 / STEPS as f64).min(1.0 - 1e-6));
-
+    let (low, high) = (last as f64 / STEPS as f64, (last + 1) as f64 / STEPS as f64);
     // One step more on either side, for a bracket that is sure.
     let step = (high - low) / STEPS as f64;
-    let fine: Vec<f64> =
-        (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, 1.0 - 1e-6)).collect();
-    let motors = fine.iter().map(|&share| under(sign * share)).collect::<Result<Vec<_>, _>>()?;
-    let second = operate(&motors, settings, observer)?;
+    let mut fine: Vec<f64> =
+        (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, NEAREST)).collect();
+    fine.dedup();
+    let second = under(&fine.iter().map(|share| sign * share).collect::<Vec<_>>())?;
     let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
     let sure = |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
     let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
-    let above = speeds.iter().position(|speed| sure(speed, -sign)).unwrap_or(fine.len() - 1);
+    let above = speeds.iter().position(|speed| sure(speed, -sign));
+    let found = |share: Estimate, bracket: [f64; 2]| StallLoad {
+        torque: Estimate {
+            value: sign * share.value * largest,
+            standard_error: share.standard_error * largest,
+        },
+        share: sign * share.value,
+        bracket: bracket.map(|share| sign * share * largest),
+        no_load_speed: unloaded,
+    };
+    if above.is_none() && high > NEAREST {
+        // No load that was tried surely drives it back, and beyond the largest torque each does. A motor that still
+        // gains speed at the last load turns all the same.
+        if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &second.operations[below]
+            && sign * drift < 0.0
+        {
+            let Estimate { value: speed, standard_error } = point.speed;
+            return Err(Error::NotSettled { speed, standard_error });
+        }
+        let bracket = [fine[below], 1.0];
+        let [value, standard_error] = [0.5 * (bracket[0] + 1.0), (1.0 - bracket[0]) / EVEN];
+        return Ok(found(Estimate { value, standard_error }, bracket));
+    }
+    let above = above.unwrap_or(fine.len() - 1);
     let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
     check_settled(&second.operations[below..=above])?;
     // Each member crosses zero for itself, on the straight line through its own speeds: they share their perturbations.
@@ -75,16 +110,26 @@ pub(crate) fn stall_load(
     let crossings: Vec<f64> = (0..members)
         .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
         .collect();
-    let share = Estimate::of(&crossings)?;
-    Ok(StallLoad {
-        torque: Estimate {
-            value: sign * share.value * largest,
-            standard_error: share.standard_error * largest,
-        },
-        share: sign * share.value,
-        bracket: [sign * fine[below] * largest, sign * fine[above] * largest],
-        no_load_speed: unloaded,
-    })
+    let mut share = Estimate::of(&crossings)?;
+    if above - below == 1 {
+        let unresolved = unresolved(&speeds, below) * (fine[above] - fine[below]);
+        share.standard_error = hypot(share.standard_error, unresolved);
+    }
+    if share.value <= share.standard_error.max(LEAST) {
+        return Err(Error::DoesNotTurn { speed: unloaded.value, standard_error: unloaded.standard_error });
+    }
+    Ok(found(share, [fine[below], fine[above]]))
+}
+
+/// The error of the straight line between two neighbouring loads, as a share of their distance: from next to none, where the
+/// speeds beside them go on in the line, to that of an even distribution between them, where a locked motor jumps.
+fn unresolved(speeds: &[Estimate], below: usize) -> f64 {
+    let value = |index: usize| speeds[index].value;
+    let bends =
+        [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < speeds.len());
+    let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
+    let jump = (value(below + 1) - value(below)).abs();
+    (bend.fold(0.0, f64::max) / jump).min(1.0) / EVEN
 }
 
 /// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would

@@ -62,7 +62,10 @@ fn energy_is_balanced() {
         motors.push(loaded(&slippery, 0.0));
         for operation in operated(&motors, &settings) {
             let point = operation.point().expect("none runs away");
-            assert!(point.energy_residual < 1e-12, "{operation:?}");
+            // A rotor that is never thrown repeats its roundings with its period: those of a speed of 1e5 units in each of a
+            // few events, beside what friction changes in a period, about one.
+            let rounding = if system.peak_acceleration() <= 1.0 { 1e-11 } else { 1e-12 };
+            assert!(point.energy_residual < rounding, "{operation:?}");
             if operation.steady().is_some() {
                 // The same of the means, but for what the disk has stored in the meantime.
                 let put_in = point.input_power.value + point.perturbation_power;

@@ -1,0 +1,284 @@
+//! What the tolerances of the inputs make of a speed or a stall load.
+//!
+//! Preload and amplitude of a motor are known to about a per cent, and its response to them is rough: it is trapped by one
+//! value and free at the next. Derivatives do not tell of that, draws do (docs/numerics/motors.md, "What the tolerances of
+//! the inputs make of it").
+
+use std::f64::consts::LN_10;
+
+use bouncing_disk_core::elementary::exp;
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
+use bouncing_disk_core::{Observer, Progress, Unobserved};
+
+use super::ensemble::{LoadedMotor, operate};
+use super::point::{Estimate, Operation, Shortfall};
+use super::settings::OperatingSettings;
+use super::stall_load::stall_load;
+use crate::error::{Error, check, finite, within_limit};
+use crate::motor::data_sheet::Motor;
+
+/// A draw is computed with so many times the error that is asked for, so that it costs an eighth of a point.
+const LOOSENESS: f64 = 2.828_427_124_746_190_3;
+
+/// And with at most this part of the impacts that are allowed: one in a trap that settles slowly costs no more than others.
+const SHARE_OF_IMPACTS: u64 = 64;
+
+/// Members of a draw: the scatter of all draws' members together gives the statistical error.
+const MEMBERS_OF_DRAW: usize = 4;
+
+/// The streams of random numbers of the draws lie behind those of any members.
+const FIRST_STREAM: u64 = 1 << 32;
+
+/// How well the inputs of a motor are known, and how many motors are drawn within that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct InputTolerance {
+    /// Relative tolerance of the preload, in [0, 0.5]: the draws lie evenly within it on either side. Default 0.01.
+    pub preload: f64,
+    /// Relative tolerance of the axial amplitude, in [0, 0.5], alike. Default 0.01.
+    pub amplitude: f64,
+    /// Decades over which the size of the relaunch perturbation is drawn, evenly in its logarithm and centred on that of
+    /// the settings, in [0, 6]: nobody knows it. Default 1.
+    pub perturbation_decades: f64,
+    /// Motors that are drawn, in [8, 10000]. Default 39, the range of which holds a further one with a chance of 38 in 40.
+    pub draws: usize,
+}
+
+impl Default for InputTolerance {
+    fn default() -> Self {
+        Self { preload: 0.01, amplitude: 0.01, perturbation_decades: 1.0, draws: 39 }
+    }
+}
+
+impl InputTolerance {
+    fn check(&self) -> Result<(), Error> {
+        let Self { preload, amplitude, perturbation_decades, draws } = *self;
+        check((0.0..=0.5).contains(&preload), "tolerance of the preload", preload, "[0, 0.5]")?;
+        check((0.0..=0.5).contains(&amplitude), "tolerance of the amplitude", amplitude, "[0, 0.5]")?;
+        let decades = perturbation_decades;
+        check((0.0..=6.0).contains(&decades), "perturbation_decades", decades, "[0, 6]")?;
+        check(draws >= 8, "draws", draws as f64, "[8, 10000]")?;
+        within_limit("draws", draws, 10_000)
+    }
+
+    /// The motor and the settings of a draw.
+    fn drawn(
+        &self,
+        motor: &Motor,
+        settings: &OperatingSettings,
+        index: usize,
+    ) -> Result<(Motor, OperatingSettings), Error> {
+        let seed = SplitMix64::seed_of_stream(settings.seed, FIRST_STREAM + index as u64);
+        let mut random = SplitMix64::new(seed);
+        let mut factor = |tolerance: f64| 1.0 + tolerance * (2.0 * random.unit() - 1.0);
+        let (preload, amplitude) = (factor(self.preload), factor(self.amplitude));
+        let motor = motor.with(|sheet| {
+            sheet.amplitude *= amplitude;
+            for given in [&mut sheet.preload_force, &mut sheet.preload_acceleration] {
+                *given = given.map(|value| value * preload);
+            }
+        })?;
+        let decades = self.perturbation_decades * (random.unit() - 0.5);
+        let settings = OperatingSettings {
+            relative_error: (LOOSENESS * settings.relative_error).min(0.5),
+            members: MEMBERS_OF_DRAW,
+            most_impacts: (settings.most_impacts / SHARE_OF_IMPACTS).max(1),
+            relaunch_perturbation: (settings.relaunch_perturbation * exp(LN_10 * decades)).min(1.0),
+            seed,
+        };
+        Ok((motor, settings))
+    }
+}
+
+/// How far a number lies apart for motors whose inputs differ by no more than their tolerances: what a designer can count on,
+/// where the standard error holds at exactly the inputs given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct InputSpread {
+    /// The mean over the draws, with its standard error.
+    pub mean: Estimate,
+    /// The standard deviation over the draws without what their statistical errors add (subtracted in quadrature), and its
+    /// own standard error. It is zero where these explain all of it.
+    pub standard_deviation: Estimate,
+    /// The least and the largest of the draws, their distances from the mean reduced to what is no statistical error. A further
+    /// draw lies within with the chance (n - 1)/(n + 1) of n draws, 95 % of 39.
+    pub from_to: [f64; 2],
+    /// Draws that have the number.
+    pub draws: usize,
+    /// Draws that have none: the load overpowers the motor; of stall loads, the motor does not turn, or not steadily.
+    pub without: usize,
+    /// Draws, of those that have the number, which was not settled when their impacts were spent: taken as it was.
+    pub unsettled: usize,
+    /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::TrapVerdict)).
+    pub trapped: usize,
+}
+
+impl InputSpread {
+    /// Of the estimates of independent draws; `None` of fewer than four.
+    fn of(draws: &[Option<Estimate>], unsettled: usize, trapped: usize) -> Result<Option<Self>, Error> {
+        let known: Vec<Estimate> = draws.iter().copied().flatten().collect();
+        if known.len() < 4 {
+            return Ok(None);
+        }
+        let values: Vec<f64> = known.iter().map(|draw| draw.value).collect();
+        let centre = Estimate::of(&values)?;
+        let count = known.len() as f64;
+        // The mean of these is the variance over the inputs, without bias.
+        let excess: Vec<f64> = known
+            .iter()
+            .map(|draw| {
+                let (off, error) = (draw.value - centre.value, draw.standard_error);
+                off * off * (count / (count - 1.0)) - error * error
+            })
+            .collect();
+        let variance = mean(&excess).max(0.0);
+        let uncertain = standard_deviation(&excess) / count.sqrt();
+        let deviation = variance.sqrt();
+        // The variance is what is known with an error; its root is less well known downwards.
+        let most = (variance + uncertain).sqrt();
+        let least = (variance - uncertain).max(0.0).sqrt();
+        let standard_error = (most - deviation).max(deviation - least);
+        let observed = standard_deviation(&values);
+        // As far as the deviation may be, not as it is: nothing shrinks to a point that was only not resolved.
+        let real = if observed > 0.0 { (most / observed).min(1.0) } else { 0.0 };
+        let at = |value: f64| centre.value + real * (value - centre.value);
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Ok(Some(Self {
+            mean: centre,
+            standard_deviation: Estimate { value: deviation, standard_error },
+            from_to: [at(least), at(largest)],
+            draws: known.len(),
+            without: draws.len() - known.len(),
+            unsettled,
+            trapped,
+        }))
+    }
+}
+
+impl Motor {
+    /// How far the mean speed (rad/s) lies apart under each of these load torques (N m) over the tolerances of the inputs:
+    /// what stands beside the errors of [`Self::torque_speed_curve`] with the same settings. `None` where fewer than four
+    /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve, or a quarter
+    /// where the start-up is most of it: all cost two to ten curves.
+    ///
+    /// ```
+    /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
+    ///
+    /// let (motor, tolerance) = (Motor::paper_70_khz(), InputTolerance { draws: 12, ..InputTolerance::default() });
+    /// let settings = OperatingSettings { relative_error: 0.02, ..OperatingSettings::default() };
+    /// let spread = motor.speed_spreads(&[0.0], &settings, &tolerance)?[0].expect("no draw runs away");
+    /// let [low, high] = spread.from_to;
+    /// assert!(low < spread.mean.value && spread.mean.value < high && high - low > 0.3);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor that leaves its legal
+    /// ranges within them.
+    pub fn speed_spreads(
+        &self,
+        load_torques: &[f64],
+        settings: &OperatingSettings,
+        tolerance: &InputTolerance,
+    ) -> Result<Vec<Option<InputSpread>>, Error> {
+        self.speed_spreads_observed(load_torques, settings, tolerance, &Unobserved)
+    }
+
+    /// [`Self::speed_spreads`] with an observer; the items are the draws.
+    ///
+    /// # Errors
+    /// Those of [`Self::speed_spreads`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
+    pub fn speed_spreads_observed(
+        &self,
+        load_torques: &[f64],
+        settings: &OperatingSettings,
+        tolerance: &InputTolerance,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Option<InputSpread>>, Error> {
+        check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
+        for &torque in load_torques {
+            finite("load_torque", torque)?;
+        }
+        let mut draws = vec![Vec::new(); load_torques.len()];
+        let mut unsettled = vec![0; load_torques.len()];
+        let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
+            let own = LoadedMotor::of(motor);
+            let motors =
+                load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, _>>()?;
+            for (index, operation) in operate(&motors, settings, watch)?.operations.iter().enumerate() {
+                draws[index].push(operation.point().map(|point| point.speed));
+                let drifts = matches!(operation, Operation::Unsettled(_, Shortfall::Drift { .. }));
+                unsettled[index] += usize::from(drifts);
+            }
+            Ok(())
+        })?;
+        let each = draws.iter().zip(unsettled);
+        each.map(|(draws, unsettled)| InputSpread::of(draws, unsettled, trapped)).collect()
+    }
+
+    /// How far the stall load (N m) lies apart over the tolerances of the inputs: what stands beside the error of
+    /// [`Self::stall_load`] with the same settings, and costs two to ten of it. `None` where fewer than four draws have a
+    /// stall load.
+    ///
+    /// # Errors
+    /// Those of [`Self::speed_spreads`].
+    pub fn stall_spread(
+        &self,
+        settings: &OperatingSettings,
+        tolerance: &InputTolerance,
+    ) -> Result<Option<InputSpread>, Error> {
+        self.stall_spread_observed(settings, tolerance, &Unobserved)
+    }
+
+    /// [`Self::stall_spread`] with an observer; the items are the draws.
+    ///
+    /// # Errors
+    /// Those of [`Self::stall_spread`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
+    /// observer breaks.
+    pub fn stall_spread_observed(
+        &self,
+        settings: &OperatingSettings,
+        tolerance: &InputTolerance,
+        observer: &dyn Observer,
+    ) -> Result<Option<InputSpread>, Error> {
+        let mut draws = Vec::new();
+        let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
+            draws.push(match stall_load(&LoadedMotor::of(motor), settings, watch) {
+                Ok(stall) => Some(stall.torque),
+                Err(Error::DoesNotTurn { .. } | Error::NotSettled { .. }) => None,
+                Err(error) => return Err(error),
+            });
+            Ok(())
+        })?;
+        InputSpread::of(&draws, 0, trapped)
+    }
+
+    /// Has something done with each motor that is drawn, and counts those in a trap.
+    fn draw(
+        &self,
+        settings: &OperatingSettings,
+        tolerance: &InputTolerance,
+        observer: &dyn Observer,
+        mut each: impl FnMut(&Self, &OperatingSettings, &dyn Observer) -> Result<(), Error>,
+    ) -> Result<usize, Error> {
+        settings.check()?;
+        tolerance.check()?;
+        let (total, mut trapped) = (tolerance.draws as u64, 0);
+        for index in 0..tolerance.draws {
+            let (motor, settings) = tolerance.drawn(self, settings, index)?;
+            let done = index as u64;
+            each(&motor, &settings, &|_: Progress| observer.observe(Progress { done, total }))?;
+            trapped += usize::from(motor.trap_verdict()?.is_trap);
+        }
+        // Whatever it says, there is nothing left to stop.
+        let _ = observer.observe(Progress { done: total, total });
+        Ok(trapped)
+    }
+}
+
+#[cfg(test)]
+mod tests;
