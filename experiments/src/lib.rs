@@ -26,6 +26,7 @@ pub mod extra_pictures;
 pub mod figures;
 mod finite;
 pub mod json;
+pub mod judging;
 pub mod literature;
 pub mod measured;
 pub mod output;
