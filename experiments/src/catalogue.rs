@@ -176,7 +176,17 @@ fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>,
         json::read(text.as_bytes()).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
     let entries = content.values.0.into_iter().map(|(entry, stored)| {
         let Stored { figure, place, quantity, unit, printed, reason, class, kind } = stored;
-        PrintedEntry { key: format!("{name}.{entry}"), figure, place, quantity, unit, printed, reason, class, kind }
+        PrintedEntry {
+            key: format!("{name}.{entry}"),
+            figure,
+            place,
+            quantity,
+            unit,
+            printed,
+            reason,
+            class,
+            kind,
+        }
     });
     Ok(entries.collect())
 }

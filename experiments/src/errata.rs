@@ -210,10 +210,10 @@ mod tests {
 
     #[test]
     fn claims_are_referred_to_by_their_keys() {
-        use crate::claim::Agreement;
+        use crate::claim::Cases;
         let claims = [
             Claim::printed("section4.merging", 0.560_750_7),
-            Claim::printed_share("section5.oscillation_grows", Agreement { holding: 1, tried: 4 }, ""),
+            Claim::printed_statement("section5.oscillation_grows", Cases { holding: 1, tried: 4 }, ""),
             Claim::printed_statement("section4.coexistence", true, ""),
         ];
         let numbers = claim_numbers(&claims);

@@ -20,6 +20,7 @@ pub mod claim;
 mod colour_scale;
 pub mod committed_picture;
 pub mod count;
+pub mod digits;
 pub mod errata;
 pub mod experiment;
 pub mod extra_pictures;

@@ -13,6 +13,8 @@ use crate::claim::{self, Claim};
 const PRINTED_DOUBLINGS: usize = 5;
 /// The doublings whose ratio of distances is printed.
 const PRINTED_RATIOS: std::ops::RangeInclusive<usize> = 2..=4;
+/// Why the doublings and the ratios of their distances differ.
+const READ_OFF: &str = "doublings read off a diagram";
 /// The Feigenbaum constant.
 const FEIGENBAUM: f64 = 4.669_201_609_102_99;
 
@@ -50,7 +52,7 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
             ),
             _ => claim,
         };
-        claims.push(claim);
+        claims.push(claim.cause(READ_OFF));
     }
     let rounded: Vec<f64> = (1..=PRINTED_DOUBLINGS)
         .filter_map(|n| catalogue::number(&format!("section4.doubling_{n}"), 0).ok())
@@ -63,7 +65,8 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
                  precision are {}",
             ratio(rounded.get(n - 2..).unwrap_or_default()),
             data.doublings.iter().map(|value| format!("{value:.10}")).collect::<Vec<_>>().join(", "),
-        )));
+        ))
+        .cause(READ_OFF));
     }
     let ratios: Vec<f64> = data.doublings.windows(3).map(ratio).collect();
     let last = ratios.last().copied().unwrap_or(f64::NAN);

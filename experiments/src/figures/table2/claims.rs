@@ -20,15 +20,10 @@ const READINGS: [(&str, Read); 5] = [
 pub(super) fn claims(data: &Table2Data) -> Vec<Claim> {
     let mut claims = Vec::new();
     for effect in &data.effects {
-        let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs()).judged_over(effect.agreement);
+        let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
         claims.push(claim.note(format!(
-            "half the difference of the speeds at both ends, at the printed inputs; of {} tosses whose inputs all round to those of Table I {} give the printed \
-             number; changes at the upper end {:+.4}, at the lower end {:+.4}, slope times uncertainty {:+.4}",
-            effect.agreement.tried,
-            effect.agreement.holding,
-            effect.upper_rad_per_s,
-            effect.lower_rad_per_s,
-            effect.linear_rad_per_s
+            "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
+            effect.upper_rad_per_s, effect.lower_rad_per_s
         )));
     }
     claims.push(readings(data));
@@ -75,7 +70,8 @@ fn together(data: &Table2Data) -> [Claim; 2] {
             combined.largest_rad_per_s,
             combined.without_largest_rad_per_s,
             data.uncertainty_from_launch_speeds_rad_per_s
-        )),
+        ))
+        .cause("±5 is no sum of the effects"),
         Claim::reading(
             ID,
             KEY,
