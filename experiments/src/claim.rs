@@ -140,14 +140,6 @@ impl Claim {
         })
     }
 
-    /// The answer to the entry `key`, a printed label (a name, an ordering, a region) that must equal ours.
-    pub fn printed_label(key: &str, computed: impl Into<String>) -> Self {
-        Self::of_entry(key, |entry| {
-            let printed = entry.printed.as_deref().unwrap_or_default();
-            Self::label(&entry.figure, &entry.place, &entry.quantity, printed, computed)
-        })
-    }
-
     /// The answer to the entry `key`, a statement in words: in which cases our data agree, and the numbers that show it. The rule of
     /// its kind decides. The entry may name a number, as in "for Γ < 0.52 ...".
     ///
@@ -244,25 +236,11 @@ impl Claim {
         .into_reading()
     }
 
-    /// Like [`reading`](Self::reading) for the uncertainty of the entry, the number behind the ±.
-    pub fn printed_uncertainty(id: &str, key: &str, quantity: impl Into<String>, computed: f64) -> Self {
-        Self::of_entry(key, |entry| {
-            let printed = entry.printed.as_deref().and_then(|text| text.split_once('±'));
-            let printed = printed.map_or("", |(_, uncertainty)| uncertainty.trim());
-            Self::number(id, &entry.place, quantity, &entry.unit, printed, computed)
-        })
-        .into_reading()
-    }
-
     fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
         let claim = match catalogue::find(key) {
             Ok(entry) => Self { class: entry.class, ..make(entry) },
-            Err(error) => {
-                // The first part of the key at least says which file was meant.
-                let mut claim = Self::label("", key, "", "", "");
-                claim.verdict = Verdict::Differs;
-                claim.note(error.to_string())
-            }
+            // The key at least says which file was meant.
+            Err(error) => Self::statement("", key, "", false, error.to_string()),
         };
         Self { source: Source::Entry(key.to_owned()), ..claim }
     }
@@ -327,35 +305,6 @@ impl Claim {
         }
         claim.compare();
         claim
-    }
-
-    /// A printed label that must equal the computed one.
-    pub(crate) fn label(
-        id: impl Into<String>,
-        place: impl Into<String>,
-        quantity: impl Into<String>,
-        printed: impl Into<String>,
-        computed: impl Into<String>,
-    ) -> Self {
-        let (printed, computed) = (printed.into(), computed.into());
-        Self {
-            id: id.into(),
-            place: place.into(),
-            quantity: quantity.into(),
-            unit: String::new(),
-            verdict: if printed == computed { Verdict::Reproduced } else { Verdict::Differs },
-            printed,
-            computed: Computed::Text(computed),
-            tolerance: None,
-            class: Class::ThisWork,
-            kind: None,
-            cause: None,
-            share: None,
-            single_orbits: None,
-            note: String::new(),
-            printed_value: None,
-            source: Source::default(),
-        }
     }
 
     /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper will
@@ -682,8 +631,6 @@ mod tests {
     /// A tolerance belongs to two numbers: what is not compared has none.
     #[test]
     fn what_compares_no_numbers_has_no_tolerance() {
-        let label = Claim::label("fig04", "text", "optimum", "θ = 0", "θ = 1").within(2.0);
-        assert_eq!((label.tolerance(), label.verdict()), (None, Verdict::Differs));
         let unread = Claim::number("fig06", "caption", "ratio", "", "about five", 5.0).within(2.0);
         assert_eq!((unread.tolerance(), unread.verdict()), (None, Verdict::Differs));
         let infinite = Claim::number("fig06", "caption", "ratio", "", "5", f64::INFINITY).within(2.0);
@@ -721,7 +668,6 @@ mod tests {
         assert_eq!(wide.verdict(), Verdict::Reproduced);
         let not_a_number = Claim::number("table2", "text", "speed", "rad/s", "14", f64::NAN).within(5.0);
         assert_eq!(not_a_number.verdict(), Verdict::Differs);
-        assert_eq!(Claim::label("fig04", "text", "optimum", "θ = 0", "θ = 0").verdict(), Verdict::Reproduced);
         assert_eq!(
             Claim::statement("fig04", "text", "even in θ", false, "3 of 4").verdict(),
             Verdict::Differs

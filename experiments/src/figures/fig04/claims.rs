@@ -147,7 +147,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         }
         claims.push(claim.cause(OTHER_OPTIMUM));
     }
-    claims.extend(amplitude_ratio(data, fastest).into_iter().flatten());
+    claims.extend(amplitude_ratio(data));
     claims.push(one_optimum(data, curve));
     claims.extend(largest_ratio(data, curve).into_iter().flatten());
     claims.extend(beside_the_optimum(data, fastest));
@@ -163,23 +163,13 @@ fn in_turns(claim: Claim, computed: f64) -> Claim {
     claim
 }
 
-/// The printed L is the tangent of the printed φ_L; ours is a reading.
-fn amplitude_ratio(data: &Fig04Data, fastest: &TossPoint) -> Option<[Claim; 2]> {
-    let key = "section3.optimal_amplitude_ratio";
+/// The printed L is the tangent of the printed φ_L.
+fn amplitude_ratio(data: &Fig04Data) -> Option<Claim> {
     let printed = PrintedNumber::read(&data.printed.optimal_amplitude_angle_rad)?;
-    Some([
-        Claim::printed(key, tan(printed.value)).note(format!(
-            "the tangent of the printed φ_L = {}: printed against printed",
-            data.printed.optimal_amplitude_angle_rad
-        )),
-        Claim::reading(
-            ID,
-            key,
-            "amplitude ratio L of the fastest toss, Table I as printed",
-            tan(fastest.amplitude_angle_rad),
-        )
-        .note("L is tan φ_L, and φ_L differs as well"),
-    ])
+    Some(Claim::printed("section3.optimal_amplitude_ratio", tan(printed.value)).note(format!(
+        "the tangent of the printed φ_L = {}: printed against printed",
+        data.printed.optimal_amplitude_angle_rad
+    )))
 }
 
 fn optimal_phase_lag(data: &Fig04Data) -> Option<Claim> {

@@ -1,6 +1,6 @@
 //! What the paper says about Fig. 7.
 
-use super::data::{Fig07Data, Panel, Search, TopShares};
+use super::data::{Fig07Data, Panel, TopShares};
 use super::draw::forcing_text;
 use crate::claim::{self, Claim};
 
@@ -27,17 +27,6 @@ fn accuracy(share: f64, panel: &Panel, cells: usize) -> String {
     )
 }
 
-fn described(search: &Search) -> String {
-    format!(
-        "{}: [{:.2}, {:.2}] gives {:.1} % and {:.1} %",
-        search.family,
-        search.bottom,
-        search.top,
-        100.0 * search.a,
-        100.0 * search.b,
-    )
-}
-
 fn top_text(top: Option<f64>) -> String {
     top.map_or("no window [0, top] up to 8".to_owned(), |top| format!("the window [0, {top:.3}]"))
 }
@@ -58,10 +47,6 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
         "the window is not printed: stated for τ_imp/2π in [0, 1], |w_A Γ/(ωA)| in [0, {}]",
         data.window_top,
     );
-    let searches = |not_chattering: bool| {
-        let own = windows.searches.iter().filter(|search| search.not_chattering == not_chattering);
-        own.map(described).collect::<Vec<_>>().join("; ")
-    };
     let ranges = |tops: &[(f64, f64)]| {
         let ranges: Vec<String> = tops.iter().map(|(low, high)| format!("{low:.3} to {high:.3}")).collect();
         if ranges.is_empty() { "none".to_owned() } else { ranges.join(", ") }
@@ -93,12 +78,9 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
             !windows.tops_for_both.is_empty(),
             format!(
                 "tops up to 8 that give both to the last printed digit: {} with the period-1 orbit alone in (b), {} with \
-                 everything that does not chatter. Nearest windows of several families, period-1 orbit alone: {}. Everything \
-                 that does not chatter: {}",
+                 everything that does not chatter",
                 ranges(&windows.tops_for_both),
                 ranges(&windows.tops_for_both_not_chattering),
-                searches(false),
-                searches(true)
             ),
         ),
         Claim::printed_statement(

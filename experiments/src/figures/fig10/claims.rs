@@ -1,7 +1,5 @@
 //! What the paper says about Fig. 10.
 
-use std::f64::consts::PI;
-
 use super::data::{Fig10Data, Transient};
 use crate::catalogue;
 use crate::claim::{Cases, Claim, all};
@@ -34,13 +32,6 @@ fn axial_forcings(data: &Fig10Data) -> Vec<Claim> {
             data.tsujino_peak_acceleration
         ))
         .cause("the π of Γ left out"),
-        Claim::statement(
-            ID,
-            "Sec. I",
-            "both motors that Sec. I names operate with Γ > 1/π",
-            data.own_motor_axial_forcing.min(data.tsujino_axial_forcing) * PI > 1.0,
-            format!("Γ = {:.2} and {:.2}", data.own_motor_axial_forcing, data.tsujino_axial_forcing),
-        ),
         Claim::printed_statement(
             "section4.motor_regime",
             Cases::of(motors.map(|motor| motor.axial_forcing > merging)),

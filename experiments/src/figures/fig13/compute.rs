@@ -61,7 +61,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
                 value,
                 peak_angular_speed_rad_per_s: case.peak_angular_speed_rad_per_s,
                 statistics: case.statistics(RISES, members, relaunch_perturbation)?,
-                broken: case.statistics(RISES, members, BREAKING_PERTURBATION)?,
                 predicted_speed_ratio,
                 predicted_stall_acceleration_rad_per_s2,
                 mean_impact_speed_m_per_s,

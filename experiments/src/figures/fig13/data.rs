@@ -100,8 +100,6 @@ pub(super) struct SweepPoint {
     pub(super) value: f64,
     pub(super) peak_angular_speed_rad_per_s: f64,
     pub(super) statistics: MotorStatistics,
-    /// The same with the breaking perturbation.
-    pub(super) broken: MotorStatistics,
     /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
     pub(super) predicted_speed_ratio: f64,
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,

@@ -45,12 +45,6 @@ pub(super) fn claims(data: &Table3Data) -> Vec<Claim> {
                 drop.restitution_agreement.holding,
                 drop.restitution_agreement.tried,
             )),
-        Claim::printed_uncertainty(
-            ID,
-            "section5.estimated_restitution",
-            "uncertainty of ε: half the difference of both ends of the rebound height",
-            drop.restitution.sum,
-        ),
         Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
             "√(2 g h) for h = {:.1} cm and g = {} m/s²; heights that round to it give {slowest:.3} to {fastest:.3} m/s, and the \
              printed speed needs {shortest:.2} to {longest:.2} cm. No g is printed for the drop: of heights that round to the printed one and g from {:.2} to \
