@@ -91,6 +91,11 @@ impl PrintedInputs {
         Ok(Self { amplitude_m: Range::exactly(catalogue::number(key, 0)?.value), ..self })
     }
 
+    /// With any amplitude that rounds to the entry `key`: motors like the printed one, where the statement is not about that one alone.
+    pub(crate) fn rounded_amplitude(self, key: &str) -> Result<Self, ExperimentError> {
+        Ok(Self { amplitude_m: Range::printed(key, 0)?, ..self })
+    }
+
     /// With the preload acceleration printed as the entry `key`, in m/s². Nothing is left to draw then but the last places of the amplitude, which
     /// decide on a long cycle: all amplitudes that agree to twelve digits.
     pub(crate) fn preload_acceleration(self, key: &str) -> Result<Self, ExperimentError> {

@@ -231,9 +231,8 @@ fn estimate(data: &Fig11Data) -> Claim {
         "α̇_ss/t_c is the acceleration by the torque that stalls the motor",
         all(&data.stalls, |at| at.stall.estimate_off.abs() <= STANDARD_ERRORS * at.stall.estimate_off_error),
         format!(
-            "the paper calls the initial slope of the fitted exponential the stall torque. {}. Over all motors of the figure in the range of the trends, without those on a \
+            "the paper calls the initial slope of the fitted exponential the stall torque. Over all motors of the figure in the range of the trends, without those on a \
              low-period cycle, α̇_ss/t_c is {least:.2} to {most:.2}, on average {:.2}, of (μ a_e g/a_g²) S(0)",
-            stall_words(data),
             data.mean_estimate_over_balance,
         ),
     )

@@ -77,7 +77,7 @@ fn linear(data: &Fig12Data) -> Claim {
         "section5.linear_rise",
         low_period(found, |motor| !motor.is_exponential()),
         format!(
-            "whether a linear rise to a constant fits better than the exponential, for the first {} orbits of low period of {}. \
+            "whether a linear rise to a constant fits better than the exponential, for the first {} orbits of low period of {} with amplitudes that round to the printed one. \
              Of the motor drawn the deviation from a linear rise is {:.3}, from an exponential {:.3} rad/s; the line through the whole rise has \
              the slope {:.4} ± {:.4} rad/s² and lies {:.2} rad/s off at most: the rise consists of straight pieces. The first has {:.4} rad/s². The \
              normal impulse of a cycle is the weight times its duration (off by {:.0e}), of which the share {:.4} net pushes forwards \

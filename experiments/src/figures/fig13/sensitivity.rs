@@ -73,6 +73,7 @@ pub(super) fn amplitude(data: &Fig13Data) -> Claim {
             low_period_words(data, Parameter::Amplitude),
         ),
     )
+    .cause("short cycles in the sweep of A")
     .single_orbits(Cases::of(holds))
 }
 
