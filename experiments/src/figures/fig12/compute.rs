@@ -378,8 +378,10 @@ mod tests {
     #[test]
     fn the_low_period_case_that_is_drawn_is_not_chosen_by_rounding() {
         let cases = paper::chattering_cases().expect("reads");
-        let motor =
-            MotorCase::default_of(&paper::table_three().expect("reads"), &paper::section_five().expect("reads"));
+        let motor = MotorCase::default_of(
+            &paper::table_three().expect("reads"),
+            &paper::section_five().expect("reads"),
+        );
         let printed = MotorCase {
             amplitude_m: cases.amplitudes_m[1],
             preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
