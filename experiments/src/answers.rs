@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::catalogue::{Class, entries, find};
 use crate::claim::{Claim, Computed, Source, Verdict};
+use crate::judging::Kind;
 
 /// The claims of a figure or table that nothing can be computed for.
 pub fn not_computable(figure: &str) -> Vec<Claim> {
@@ -14,8 +15,8 @@ pub fn not_computable(figure: &str) -> Vec<Claim> {
 }
 
 /// What is wrong with the claims of a figure or table: entries that are not answered by exactly one claim, claims that
-/// answer what is not theirs, numbers that come from no entry, claims without data, and claims that count for the paper though
-/// they do not answer an entry of its own.
+/// answer what is not theirs, numbers that come from no entry, claims without data or not judged as their kind has to be, differences
+/// without a cause, and claims that count for the paper though they do not answer an entry of its own.
 pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let mut faults = Vec::new();
     let entries = match entries() {
@@ -45,6 +46,18 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
         if claim.verdict() == Verdict::Differs && claim.remarks().is_empty() {
             faults.push(format!("\"{}\" differs and no reason is given", claim.quantity()));
         }
+        let causeless = claim.verdict() == Verdict::Differs && claim.cause_of_difference().is_none();
+        if claim.class() == Class::Paper && causeless {
+            faults.push(format!("\"{}\" differs and names no cause", claim.quantity()));
+        }
+        let lacks = match claim.kind() {
+            Some(Kind::Motor) => claim.of_single_orbits().is_none(),
+            Some(Kind::Measured) => claim.class() == Class::Paper && claim.share().is_none(),
+            _ => false,
+        };
+        if lacks {
+            faults.push(format!("\"{}\" is not judged as its kind has to be", claim.quantity()));
+        }
         match claim.source() {
             Source::Entry(key) if !own.contains(key.as_str()) => {
                 faults.push(format!("{key} is no entry of {figure}"));
@@ -72,8 +85,8 @@ mod tests {
         assert_eq!(claim.verdict(), Verdict::Reproduced);
         let claim = Claim::printed_statement("section4.single_tosses_end", false, "0.36");
         assert_eq!((claim.printed_text(), claim.verdict()), ("true", Verdict::Differs));
-        let claim = Claim::printed_uncertainty("table2", "section3.predicted_airborne_speed", "all", 5.2);
-        assert_eq!((claim.id(), claim.printed_text(), claim.verdict()), ("table2", "5", Verdict::Reproduced));
+        let claim = Claim::reading("table2", "section3.predicted_airborne_speed", "all", 14.2);
+        assert_eq!((claim.id(), claim.verdict()), ("table2", Verdict::Reproduced));
         assert!(matches!(claim.source(), Source::Reading(_)));
     }
 
@@ -81,7 +94,6 @@ mod tests {
     fn an_unknown_key_differs_and_says_so() {
         for claim in [
             Claim::printed("section4.no_such_number", 1.0),
-            Claim::printed_label("section4.no_such_label", ""),
             Claim::printed_statement("section4.no_such_statement", true, ""),
             Claim::printed("section4.three_branches", 3.0),
         ] {

@@ -14,6 +14,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::json;
+use crate::judging::Kind;
 use crate::printed::PrintedNumber;
 
 /// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
@@ -69,6 +70,8 @@ pub struct PrintedEntry {
     pub reason: Option<String>,
     /// What it is: the paper's own, an input, or true by construction.
     pub class: Class,
+    /// By which rule it is judged, if it is the paper's own and can be computed.
+    pub kind: Option<Kind>,
 }
 
 /// Why an entry cannot be used.
@@ -165,14 +168,25 @@ struct Stored {
     reason: Option<String>,
     #[serde(default)]
     class: Class,
+    kind: Option<Kind>,
 }
 
 fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, CatalogueError> {
     let content: File =
         json::read(text.as_bytes()).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
     let entries = content.values.0.into_iter().map(|(entry, stored)| {
-        let Stored { figure, place, quantity, unit, printed, reason, class } = stored;
-        PrintedEntry { key: format!("{name}.{entry}"), figure, place, quantity, unit, printed, reason, class }
+        let Stored { figure, place, quantity, unit, printed, reason, class, kind } = stored;
+        PrintedEntry {
+            key: format!("{name}.{entry}"),
+            figure,
+            place,
+            quantity,
+            unit,
+            printed,
+            reason,
+            class,
+            kind,
+        }
     });
     Ok(entries.collect())
 }
@@ -257,6 +271,8 @@ mod tests {
             let legal = [Class::Paper, Class::Input, Class::Identity].contains(&entry.class);
             assert!(legal, "{}: {:?}", entry.key, entry.class);
             assert!(entry.class != Class::Identity || entry.reason.is_none(), "{}", entry.key);
+            let judged = entry.class == Class::Paper && entry.reason.is_none();
+            assert_eq!(entry.kind.is_some(), judged, "{}", entry.key);
         }
     }
 

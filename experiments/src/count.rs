@@ -3,40 +3,52 @@
 //! Results page, gallery, README and the last lines of `cargo xtask figures` all count here, so that they cannot count differently. The
 //! headline is about the paper alone: what was fitted, put in, is true by construction or was added by this work stands beside it.
 
+use std::collections::BTreeSet;
+
 use crate::claim::{Claim, Class, Verdict};
 
-/// Numbers of claims by class and verdict.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts([[usize; Verdict::ALL.len()]; Class::ALL.len()]);
+/// Numbers of claims by class and verdict, the causes of the differences, and the second verdicts of motors.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    claims: [[usize; Verdict::ALL.len()]; Class::ALL.len()],
+    causes: BTreeSet<&'static str>,
+    single_orbits: [usize; Verdict::ALL.len()],
+}
 
 impl Counts {
     /// Counts the claims.
     pub fn of<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Self {
         let mut counts = Self::default();
         for claim in claims {
-            counts.0[claim.class() as usize][claim.verdict() as usize] += 1;
+            counts.claims[claim.class() as usize][claim.verdict() as usize] += 1;
+            if claim.class() == Class::Paper {
+                counts.causes.extend(claim.cause_of_difference());
+                if let Some(single) = claim.of_single_orbits() {
+                    counts.single_orbits[single.verdict as usize] += 1;
+                }
+            }
         }
         counts
     }
 
     /// Both together.
-    pub fn and(mut self, other: Self) -> Self {
-        for (row, more) in self.0.iter_mut().zip(other.0) {
-            for (count, more) in row.iter_mut().zip(more) {
-                *count += more;
-            }
+    pub fn and(mut self, other: &Self) -> Self {
+        let own = self.claims.as_flattened_mut().iter_mut().chain(&mut self.single_orbits);
+        for (count, more) in own.zip(other.claims.as_flattened().iter().chain(&other.single_orbits)) {
+            *count += more;
         }
+        self.causes.extend(&other.causes);
         self
     }
 
     /// Claims of a class with a verdict.
     pub fn count(&self, class: Class, verdict: Verdict) -> usize {
-        self.0[class as usize][verdict as usize]
+        self.claims[class as usize][verdict as usize]
     }
 
     /// Claims of a class.
     pub fn of_class(&self, class: Class) -> usize {
-        self.0[class as usize].iter().sum()
+        self.claims[class as usize].iter().sum()
     }
 
     /// What came out of the paper's own numbers and statements, in a sentence.
@@ -44,10 +56,23 @@ impl Counts {
         let [reproduced, differs, depends, no_data] =
             Verdict::ALL.map(|verdict| self.count(Class::Paper, verdict));
         format!(
-            "Of {} numbers and statements of the paper, {reproduced} are reproduced, {differs} differ, {depends} depend on digits that \
-             it does not print, and for {no_data} there are no data to compute from.",
+            "Of {} numbers and statements of the paper, {reproduced} are reproduced, {differs} differ (for {} causes), {depends} depend on \
+             digits that it does not print, and for {no_data} its text has not what is needed to compute them.",
             self.of_class(Class::Paper),
+            self.causes.len(),
         )
+    }
+
+    /// The second verdicts on what is said of motors, in a sentence.
+    fn motors(&self) -> String {
+        let [reproduced, differs, depends, _] = self.single_orbits;
+        match reproduced + differs + depends {
+            0 => String::new(),
+            motors => format!(
+                " Of {motors} statements about the motor that count by the mean of an ensemble, single orbits reproduce {reproduced} and contradict \
+                 {differs}; for {depends} it depends on the orbit."
+            ),
+        }
     }
 
     /// What is no evidence for or against the paper, in a sentence.
@@ -56,7 +81,8 @@ impl Counts {
             [Class::Fitted, Class::Input, Class::Identity, Class::ThisWork].map(|class| self.of_class(class));
         format!(
             "Beside these and not counted with them: {fitted} numbers that we fitted, {inputs} inputs and quotations, {identities} \
-             identities, {this_work} readings and findings of this work."
+             identities, {this_work} readings and findings of this work.{}",
+            self.motors()
         )
     }
 }
@@ -69,7 +95,7 @@ mod tests {
     fn what_is_fitted_or_true_by_construction_is_not_counted_with_the_paper() {
         let claims = [
             Claim::printed("section4.doubling_1", 0.486),
-            Claim::printed("section4.doubling_2", 0.6),
+            Claim::printed("section4.doubling_2", 0.6).cause("a misprint"),
             Claim::printed("section4.share_at_fig7a", 11.6).fitted("the window"),
             Claim::printed_statement("section3.stroke_components", true, ""),
             Claim::reading("fig06", "section4.doubling_1", "again", 0.486),
@@ -78,12 +104,10 @@ mod tests {
         let counts = Counts::of(&claims);
         assert_eq!(Verdict::ALL.map(|verdict| counts.count(Class::Paper, verdict)), [1, 1, 0, 0]);
         assert_eq!(Class::ALL.map(|class| counts.of_class(class)), [2, 1, 0, 1, 2]);
-        assert!(
-            counts
-                .headline()
-                .starts_with("Of 2 numbers and statements of the paper, 1 are reproduced, 1 differ")
-        );
+        assert!(counts.headline().starts_with(
+            "Of 2 numbers and statements of the paper, 1 are reproduced, 1 differ (for 1 causes)"
+        ));
         assert!(counts.beside().contains("1 numbers that we fitted"));
-        assert_eq!(counts.and(counts).of_class(Class::ThisWork), 4);
+        assert_eq!(counts.clone().and(&counts).of_class(Class::ThisWork), 4);
     }
 }

@@ -87,8 +87,8 @@ fn push_header(page: &mut String, sections: &[Section]) {
          it. <i>Fitted</i>: a parameter of ours was chosen so that the number comes out. <i>Input</i>: a parameter, a \
          choice, a measurement or a quotation, with nothing to compute. <i>Identity</i>: true by construction, or one \
          printed number against another. <i>This work</i>: a further reading of a printed number, or a finding that \
-         the paper does not have. A statement that hangs on digits which the paper does not print is judged over \
-         inputs that all round to the printed ones.</p>\n",
+         the paper does not have. Each row of class <i>paper</i> is judged by the rule of its kind \
+         (<code>docs/judging.md</code>).</p>\n",
     );
     let _ = writeln!(
         page,
@@ -178,7 +178,7 @@ fn push_claims(page: &mut String, claims: &[Claim], beyond_paper: bool) {
             (reference, "number", printed.as_str()),
             ("Computed", "number", computed.as_str()),
             ("Tolerance", "number", tolerance.as_str()),
-            ("Class", "", class_words(claim.class())),
+            ("Class", "", &class_words(claim)),
         ];
         page.push_str("<tr>");
         for (label, class, text) in cells {
@@ -197,20 +197,25 @@ fn push_claims(page: &mut String, claims: &[Claim], beyond_paper: bool) {
     page.push_str("</tbody>\n</table>\n");
 }
 
-/// The class of a claim as one reads it.
-pub(crate) fn class_words(class: Class) -> &'static str {
-    match class {
+/// The class of a claim as one reads it, and the kind of what is the paper's own.
+pub(crate) fn class_words(claim: &Claim) -> String {
+    let class = match claim.class() {
         Class::Paper => "paper",
         Class::Fitted => "fitted",
         Class::Input => "input",
         Class::Identity => "identity",
         Class::ThisWork => "this work",
+    };
+    match claim.kind().filter(|_| claim.class() == Class::Paper) {
+        Some(kind) => format!("{class}: {}", kind.name()),
+        None => class.to_owned(),
     }
 }
 
-/// The verdict of a claim as one reads it. What is not the paper's is neither reproduced nor does it differ.
-pub(crate) fn verdict_words(claim: &Claim) -> &'static str {
-    match (claim.class(), claim.verdict()) {
+/// The verdict of a claim as one reads it, with its cause and the verdict of single orbits. What is not the paper's is neither reproduced nor does it
+/// differ.
+pub(crate) fn verdict_words(claim: &Claim) -> String {
+    let words = |verdict| match (claim.class(), verdict) {
         (Class::Input, Verdict::NotComputable) => "put in",
         (_, Verdict::NotComputable) => "no data",
         (_, Verdict::DependsOnUnprintedDigits) => "depends on unprinted digits",
@@ -218,7 +223,20 @@ pub(crate) fn verdict_words(claim: &Claim) -> &'static str {
         (Class::Paper, Verdict::Differs) => "differs",
         (_, Verdict::Reproduced) => "agrees",
         (_, Verdict::Differs) => "does not agree",
+    };
+    let mut text = words(claim.verdict()).to_owned();
+    if let Some(cause) = claim.cause_of_difference() {
+        let _ = write!(text, " ({cause})");
     }
+    if let Some(single) = claim.of_single_orbits() {
+        let verdict = match single.verdict {
+            Verdict::DependsOnUnprintedDigits => "depend on the orbit",
+            other => words(other),
+        };
+        let _ =
+            write!(text, "; single orbits: {verdict} ({} of {})", single.cases.holding, single.cases.tried);
+    }
+    text
 }
 
 /// The numbers of a claim as one reads them.

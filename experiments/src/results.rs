@@ -15,6 +15,7 @@ use serde_json::Value;
 use crate::claim::{Claim, Class, Computed, Source, Verdict};
 use crate::committed_picture::{FigureDigests, MadeFiles, digest, picture_name};
 use crate::count::Counts;
+use crate::digits;
 use crate::errata::{self, ERRATA_FILE, ErrataError};
 use crate::experiment::{ErasedData, ExperimentError, Quality, RegisteredExperiment, chain};
 use crate::output::{OutputError, OutputFolder};
@@ -161,6 +162,7 @@ pub fn write(
     let errata_page = errata::filled(errata, |id| {
         if id == errata::CLAIMS { Some(numbers.clone()) } else { data.get(id).cloned() }
     })?;
+    let errata_page = digits::rounded(&errata_page);
     digests.errata = digest(errata_page.as_bytes());
     digests.errata_template = digest(errata.as_bytes());
     let mut text = serde_json::to_vec_pretty(&digests).map_err(ResultsError::Digests)?;
@@ -219,10 +221,8 @@ const CLASSES: &str = "\
     A row of class *paper* is a number or a statement of the paper, and only these count for or against it. *Fitted*: a parameter of ours was\n\
     chosen so that the number comes out. *Input*: a parameter, a choice, a measurement or a quotation, with nothing to compute. *Identity*: true by\n\
     construction, a definition or an equation that the code implements, or one printed number against another. *This work*: a further reading of a\n\
-    printed number, or a finding that the paper does not have. A statement that hangs on digits which the paper does not print is judged over\n\
-    inputs that all round to the printed ones: reproduced where it holds for 95 % of them, differing where it holds for at most 5 %.\n\
-    A statement about a range of a parameter is meant for all of it: one counterexample, which the remark gives, makes it differ. One about \"most\" of\n\
-    something needs more than half. The counts are of rows and not of causes: one cause can move several rows.\n";
+    printed number, or a finding that the paper does not have. Each row of class *paper* is of a kind, and the rule of its kind decides it:\n\
+    [judging.md](judging.md). Rows are not causes: several may differ for one reason, which each of them names.\n";
 
 /// Title, explanation and the table of verdicts.
 fn head(claims: &[(&str, Vec<Claim>)]) -> String {
@@ -234,7 +234,7 @@ fn head(claims: &[(&str, Vec<Claim>)]) -> String {
 "
         .to_owned();
     let rows: Vec<_> = claims.iter().map(|(id, claims)| (*id, Counts::of(claims))).collect();
-    let total = rows.iter().fold(Counts::default(), |total, (_, counts)| total.and(*counts));
+    let total = rows.iter().fold(Counts::default(), |total, (_, counts)| total.and(counts));
     let _ = writeln!(text, "**{}** {}\n", total.headline(), total.beside());
     text.push_str(CLASSES);
     text.push_str("\n| | ");
@@ -279,16 +279,17 @@ fn section(entry: &dyn RegisteredExperiment, outcome: &dyn ErasedData) -> Result
     }
     for claim in &claims {
         let ClaimTexts { computed, printed, tolerance } = ClaimTexts::new(claim);
-        let verdict = match (claim.class(), claim.verdict()) {
-            (Class::Paper, Verdict::Differs) => "**differs**",
-            _ => verdict_words(claim),
+        let words = verdict_words(claim);
+        let verdict = match words.strip_prefix("differs") {
+            Some(rest) => format!("**differs**{rest}"),
+            None => words,
         };
-        let class = class_words(claim.class());
+        let class = class_words(claim);
         let left =
-            [claim.place(), claim.quantity(), &printed, &computed, &tolerance, class].map(cell).join(" | ");
+            [claim.place(), claim.quantity(), &printed, &computed, &tolerance, &class].map(cell).join(" | ");
         let _ = writeln!(text, "| {left} | {verdict} | {} |", cell(claim.remarks()));
     }
-    Ok(text)
+    Ok(digits::rounded(&text))
 }
 
 /// The text of a cell of a Markdown table.

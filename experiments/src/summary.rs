@@ -94,7 +94,7 @@ impl Summary {
                 has_table: cache_key.names().any(|name| name == format!("{id}.csv")),
                 width: folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width),
             };
-            counts = counts.and(Counts::of(&section.claims));
+            counts = counts.and(&Counts::of(&section.claims));
             claims.extend(section.claims.iter().map(|claim| claim_of(claim, &**entry, quality)));
             sections.push(section);
             origins.push(origin);

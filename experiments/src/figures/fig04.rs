@@ -1,6 +1,5 @@
 //! Fig. 4: the performance of single tosses.
 
-mod alike;
 mod claims;
 mod compute;
 mod consistency;
@@ -26,10 +25,6 @@ impl Experiment for Fig04 {
     const TITLE: &'static str = "The performance of single tosses";
     const DISCUSSION: &str = include_str!("fig04/discussion.md");
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn seeds() -> Vec<(&'static str, u64)> {
-        vec![("tosses that print alike", alike::SEED)]
-    }
 
     fn caption(data: &Fig04Data) -> String {
         let grid = &data.consistency.coarse_grid;

@@ -140,7 +140,7 @@ impl Experiment for Fig11 {
                     .into(),
                     Cell::Integer(statistics.unfitted as i64),
                     point.net_share_at_rest.into(),
-                    if statistics.is_low_period() { statistics.cycle.words().into() } else { Cell::Empty },
+                    if statistics.is_low_period() { "low period".into() } else { Cell::Empty },
                 ]);
             }
         }

@@ -11,6 +11,7 @@ use bouncing_disk_plot::Figure;
 pub use self::data::Fig12Data;
 use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::motor_case::RobustCycle;
 use crate::progress::Progress;
 
 /// Fig. 12.
@@ -32,18 +33,16 @@ impl Experiment for Fig12 {
         let (long, low) = (&data.long_period, &data.low_period);
         format!(
             "Speed transients of the motor of Table III that nothing perturbs. (a)–(c) A = {:e} m, g = {} m/s²: long-period \
-             chattering ({}); (d)–(f) g = {} m/s² and A = {:.12e} m, {:.1e} of the printed amplitude away, the nearest with a \
-             low-period cycle of more than one flight ({}). (a), (d) Speed during each flight; dashed: exponential fit, and \
-             what the impulses of one cycle predict. (b) Speed and (c), (f) height of the rotor in the blue windows, (f) over three cycles; \
-             (e) speed during each flight of ten cycles, dots of one colour for the same flight of every cycle, which form lines. At the printed amplitude itself the low-period case has a cycle of {}.",
+             chattering, one orbit of many between which the last places of the inputs choose; (d)–(f) g = {} m/s² and an amplitude {:.1e} of the printed one \
+             away from it, the nearest that was found with a low-period cycle of more than one flight which they do not choose ({}). (a), (d) Speed during each \
+             flight; dashed: exponential fit, and what the impulses of one cycle predict. (b) Speed and (c), (f) height of the rotor in the blue windows, (f) over \
+             three cycles; (e) speed during each flight of ten cycles, dots of one colour for the same flight of every cycle, which form lines. At the printed \
+             amplitude itself the length of the cycle is a matter of rounding.",
             data.cases.amplitudes_m[0],
             long.motor.preload_acceleration_m_per_s2,
-            long.cycle.words(),
             low.motor.preload_acceleration_m_per_s2,
-            low.motor.amplitude_m,
             low.amplitude_offset.abs(),
-            low.cycle.words(),
-            claims::printed_low(data).map_or_else(String::new, |reading| reading.cycle.words()),
+            low.robust_cycle.map_or_else(String::new, RobustCycle::words),
         )
     }
 
@@ -68,8 +67,8 @@ impl Experiment for Fig12 {
             pair("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
             pair("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
             pair("relaunch perturbation", "none".to_owned()),
-            pair("motors that print like (a)–(c)", data.alike[0].inputs.clone()),
-            pair("motors that print like (d)–(f)", data.alike[1].inputs.clone()),
+            pair("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
+            pair("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
         ];
         motor.shared_inputs().into_iter().chain(own).collect()
     }

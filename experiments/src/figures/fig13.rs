@@ -102,7 +102,6 @@ impl Experiment for Fig13 {
             "its standard deviation (rad/s^2)",
             "members without fit",
             "low-period cycle",
-            "speed ratio, cycles broken",
             "predicted speed ratio",
             "predicted stall acceleration (rad/s^2)",
         ]);
@@ -118,8 +117,7 @@ impl Experiment for Fig13 {
                     stall.map(|spread| spread.mean).into(),
                     stall.map(|spread| spread.deviation).into(),
                     Cell::Integer(statistics.unfitted as i64),
-                    if statistics.is_low_period() { statistics.cycle.words().into() } else { Cell::Empty },
-                    (point.broken.steady_speed_rad_per_s.mean / top).into(),
+                    if statistics.is_low_period() { "low period".into() } else { Cell::Empty },
                     point.predicted_speed_ratio.into(),
                     point.predicted_stall_acceleration_rad_per_s2.into(),
                 ]);

@@ -10,7 +10,6 @@ use bouncing_disk::{
 pub(crate) use bouncing_disk::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
 use serde::{Deserialize, Serialize};
 
-use super::samples::extent;
 use crate::claim::Claim;
 use crate::experiment::ExperimentError;
 use crate::paper::{SectionFive, TableThree};
@@ -19,6 +18,9 @@ use crate::paper::{SectionFive, TableThree};
 /// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
 /// and 32 flights, and so how much hangs on it.
 pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
+
+/// Other definitions, under which a verdict must be the same to count.
+pub(crate) const DEFINITIONS: [usize; 4] = [2, 8, 16, 32];
 
 /// Two speeds that differ by no more standard errors count as the same.
 const SAME_WITHIN: f64 = 3.0;
@@ -102,6 +104,19 @@ impl MotorCase {
         Ok(Cycle::from(unperturbed_orbit(&self.system()?, policy)?))
     }
 
+    /// The cycle of the motor that nothing perturbs, if it is also that of all motors that cannot be told from it.
+    pub(crate) fn robust_cycle(&self) -> Result<Option<RobustCycle>, ExperimentError> {
+        let cycle = self.cycle(ChatterPolicy::Complete)?;
+        let ulps = UNTOLD.map(|part| self.amplitude_m * (1.0 + part));
+        let neighbours = [self.amplitude_m.next_up(), self.amplitude_m.next_down()];
+        for amplitude_m in ulps.into_iter().chain(neighbours) {
+            if (Self { amplitude_m, ..*self }).cycle(ChatterPolicy::Complete)? != cycle {
+                return Ok(None);
+            }
+        }
+        Ok(Some(RobustCycle(cycle)))
+    }
+
     /// Transients of `members` motors over `rises` rise times, and their statistics.
     pub(crate) fn statistics(
         &self,
@@ -155,6 +170,34 @@ impl From<OrbitClass> for Cycle {
     }
 }
 
+/// Changes of the amplitude, as parts of it, that nobody could set or compute: some units in the last place, and a hundred times as much.
+const UNTOLD: [f64; 6] = [5e-16, -5e-16, 1.1e-15, -1.1e-15, 1e-13, -1e-13];
+
+/// A cycle that the last places of the inputs do not choose. Of no other is the length written or drawn: only [`MotorCase::robust_cycle`] makes one, and only it has
+/// words.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct RobustCycle(Cycle);
+
+impl RobustCycle {
+    /// The cycle.
+    pub(crate) fn cycle(self) -> Cycle {
+        self.0
+    }
+
+    /// In words.
+    pub(crate) fn words(self) -> String {
+        match self.0 {
+            Cycle::Chattering(cycle) => cycle.to_string(),
+            Cycle::Periodic { impacts, platform_periods } => {
+                format!("{impacts} impacts in {platform_periods} periods without rest")
+            }
+            Cycle::Longer => format!("more than {} impacts", EXAMINED_IMPACTS / 2),
+            Cycle::AtRest => "no bouncing".to_owned(),
+        }
+    }
+}
+
 impl Cycle {
     /// Its duration in periods of the platform.
     pub(crate) fn platform_periods(self) -> Option<u64> {
@@ -190,18 +233,6 @@ impl Cycle {
     /// Whether every flight ends in a rest.
     pub(crate) fn is_one_flight(self) -> bool {
         self.chattering_flights() == Some(1)
-    }
-
-    /// In words.
-    pub(crate) fn words(self) -> String {
-        match self {
-            Self::Chattering(cycle) => cycle.to_string(),
-            Self::Periodic { impacts, platform_periods } => {
-                format!("{impacts} impacts in {platform_periods} periods without rest")
-            }
-            Self::Longer => format!("more than {} impacts", EXAMINED_IMPACTS / 2),
-            Self::AtRest => "no bouncing".to_owned(),
-        }
     }
 }
 
@@ -307,16 +338,31 @@ pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[Perturbation
     Claim::statement(id, "our ensemble", quantity, holds, evidence)
 }
 
-/// Largest minus smallest over the mean of all values.
-pub(crate) fn relative_range(values: &[f64]) -> f64 {
-    let (low, high) = extent(values.iter().copied());
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    (high - low) / mean.abs()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8 itself does not.
+    #[test]
+    fn a_cycle_that_a_few_units_in_the_last_place_change_has_no_words() {
+        use crate::paper;
+        let motor = MotorCase::default_of(
+            &paper::table_three().expect("reads"),
+            &paper::section_five().expect("reads"),
+        );
+        let at = |amplitude_m, preload_acceleration_m_per_s2| {
+            MotorCase { amplitude_m, preload_acceleration_m_per_s2, ..motor }.robust_cycle().expect("runs")
+        };
+        for (amplitude, preload) in
+            [(1e-8, 1.0), (1.000_000_000_01e-8, 1.0), (1e-9, 9.795), (1e-9, 9.81), (1e-9, 10.0)]
+        {
+            assert_eq!(at(amplitude, preload), None, "A = {amplitude}, g = {preload}");
+        }
+        assert_eq!(
+            at(1e-9, 9.8).map(RobustCycle::words).as_deref(),
+            Some("2 long flights, 14 impacts, 15 periods")
+        );
+    }
 
     /// The cycle keeps its form in the figures' data.
     #[test]

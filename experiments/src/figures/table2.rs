@@ -25,10 +25,6 @@ impl Experiment for Table2 {
     const DISCUSSION: &str = include_str!("table2/discussion.md");
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
-    fn seeds() -> Vec<(&'static str, u64)> {
-        vec![("tosses that print alike", compute::SEED)]
-    }
-
     fn caption(data: &Table2Data) -> String {
         format!(
             "Airborne rotation speed of the toss of Table I and its uncertainties due to each input: half the \

@@ -13,7 +13,7 @@ use super::behaviour::{Behaviour, forcing_of_frequency, frequency_of_forcing, im
 use super::catalogue::Entry;
 use super::data::{Answer, rounded};
 use super::{Answers, rounds_to_printed, rounds_within};
-use crate::claim::Agreement;
+use crate::claim::Cases;
 use crate::experiment::ExperimentError;
 
 const SETTINGS: VerdictSettings =
@@ -210,7 +210,7 @@ pub(super) fn third_report(entry: &Entry) -> Answers {
     answers.push((
         "gap",
         Answer::share(
-            Agreement::of(beyond.iter().map(|share| *share > before)),
+            Cases::of(beyond.iter().map(|share| *share > before)),
             format!(
                 "{:.0} % of the speeds in the outer thirds of their range at {}, {:.0} to {:.0} % from {} to 1.79",
                 100.0 * before,

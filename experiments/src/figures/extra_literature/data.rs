@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::{AGREED_SHARE, Agreement};
+use crate::claim::Cases;
+use crate::judging::AGREED_SHARE;
 
 /// The data of the comparison with the literature.
 #[derive(Debug, Serialize, Deserialize)]
@@ -45,7 +46,7 @@ pub(super) struct Answer {
     /// The number, where it is one, with all its digits.
     pub(super) value: Option<f64>,
     /// For how many inputs that print alike it holds.
-    pub(super) agreement: Option<Agreement>,
+    pub(super) agreement: Option<Cases>,
     /// What comes out, in words.
     pub(super) computed: String,
     /// Why it differs or cannot be compared, and what else is worth knowing; may be empty.
@@ -109,7 +110,7 @@ impl Answer {
     }
 
     /// For how many inputs that print alike a statement holds, and what comes out for the printed ones.
-    pub(super) fn share(agreement: Agreement, computed: impl Into<String>) -> Self {
+    pub(super) fn share(agreement: Cases, computed: impl Into<String>) -> Self {
         let judgement = match agreement.share().unwrap_or(0.0) {
             share if share >= AGREED_SHARE => Judgement::Agrees,
             // Of whole numbers, so that one in twenty is no matter of rounding.
@@ -170,12 +171,12 @@ mod tests {
 
     #[test]
     fn a_share_is_judged_as_a_claim_is() {
-        let judged = |holding| Answer::share(Agreement { holding, tried: 20 }, "").judgement;
+        let judged = |holding| Answer::share(Cases { holding, tried: 20 }, "").judgement;
         assert_eq!(judged(20), Judgement::Agrees);
         assert_eq!(judged(19), Judgement::Agrees);
         assert_eq!(judged(18), Judgement::DependsOnUnprintedDigits);
         assert_eq!(judged(2), Judgement::DependsOnUnprintedDigits);
         assert_eq!(judged(1), Judgement::Differs);
-        assert_eq!(Answer::share(Agreement { holding: 0, tried: 0 }, "").judgement, Judgement::Differs);
+        assert_eq!(Answer::share(Cases { holding: 0, tried: 0 }, "").judgement, Judgement::Differs);
     }
 }

@@ -162,7 +162,7 @@ mod tests {
             quotation: format!("It is *here* {}", "word ".repeat(100)),
             rows,
         };
-        let agreement = crate::claim::Agreement { holding: 3, tried: 10 };
+        let agreement = crate::claim::Cases { holding: 3, tried: 10 };
         ExtraLiteratureData {
             sources: vec![
                 source("One", vec![row(Some("1"), Answer::number(2.0, 3, false).because("why"))]),

@@ -11,7 +11,7 @@ use super::behaviour::{Behaviour, Behaviours, behaviours, behaviours_of, counted
 use super::catalogue::Entry;
 use super::data::{Answer, rounded};
 use super::windows::{Window, cosine_at_doubling};
-use crate::claim::Agreement;
+use crate::claim::Cases;
 use crate::experiment::ExperimentError;
 
 /// The standard value; the program's own is read as 9.8 m/s², and the text does not say it.
@@ -74,7 +74,7 @@ pub(super) fn stable_orbit(entry: &Entry) -> Answers {
         let Some(pair) = map.period_one_pair(k.into()) else { return Ok(false) };
         Ok(pair.node.multipliers().spectral_radius() < 1.0 && pair.node.is_admissible(&map)?)
     };
-    let agreement = Agreement::of(peaks.iter().map(|peak| stable(*peak)).collect::<Result<Vec<_>, _>>()?);
+    let agreement = Cases::of(peaks.iter().map(|peak| stable(*peak)).collect::<Result<Vec<_>, _>>()?);
     let here = map(peaks[0], restitution)?;
     let multipliers = match here.period_one_pair(k.into()) {
         Some(pair) => format!("multipliers {:.3}", pair.node.multipliers()),
@@ -102,7 +102,7 @@ fn sticking_at(entry: &Entry, name: &'static str) -> Result<Answer, ExperimentEr
     let peaks = peaks(input("amplitude_m")?, input("frequency_hz")?, entry.input("gravity_m_per_s2")?);
     let (maps, verdicts) = after_rests(&peaks, restitution)?;
     let again = verdicts.iter().map(|verdict| Behaviour::of(verdict).rests_again());
-    let agreement = Agreement::of(again);
+    let agreement = Cases::of(again);
     let text = verdicts.first().map_or_else(String::new, cycle_words);
     let from_everywhere = behaviours(&maps[0], 8)?;
     Ok(Answer::share(agreement, text).because(format!(
@@ -148,7 +148,7 @@ pub(super) fn restitutions(entry: &Entry) -> Answers {
             .map(|peak| map(*peak, restitution(name)?).map_err(Into::into))
             .collect::<Result<Vec<_>, ExperimentError>>()?;
         let found = behaviours_of(&maps, 8)?;
-        let agreement = Agreement::of(found.iter().map(|at| at.iter().any(|one| one.modes() == Some(modes))));
+        let agreement = Cases::of(found.iter().map(|at| at.iter().any(|one| one.modes() == Some(modes))));
         let words = found.first().map(Behaviours::words).unwrap_or_default();
         let answer = Answer::share(agreement, words).because(format!(
             "holds where an attractor has {modes} different flights, the short ones of a chatter not counted"
@@ -158,12 +158,12 @@ pub(super) fn restitutions(entry: &Entry) -> Answers {
     let some = growths(&peaks, restitution("chaotic")?)?;
     let more = growths(&peaks, restitution("more_chaotic")?)?;
     let positive = |found: &Growth| found.exponent > 3.0 * found.standard_error;
-    let chaotic = Agreement::of(some.iter().map(positive));
+    let chaotic = Cases::of(some.iter().map(positive));
     let larger = some.iter().zip(&more).map(|(some, more)| positive(more) && more.exponent > some.exponent);
     answers.push(("chaotic", Answer::share(chaotic, growth_words(&some)).because(ROUND_OR_CHAOS)));
     answers.push((
         "more_chaotic",
-        Answer::share(Agreement::of(larger), growth_words(&more)).because(ROUND_OR_CHAOS),
+        Answer::share(Cases::of(larger), growth_words(&more)).because(ROUND_OR_CHAOS),
     ));
     Ok(answers)
 }

@@ -1,7 +1,7 @@
 //! What the maps show, and their check.
 
 use super::data::ExtraTrapsData;
-use crate::claim::{Agreement, Claim};
+use crate::claim::{Cases, Claim};
 
 const ID: &str = "extra-traps";
 const PLACE: &str = "this work";
@@ -37,7 +37,7 @@ pub(super) fn claims(data: &ExtraTrapsData) -> Vec<Claim> {
             None,
             "motors with Γ and restitution drawn at random; the report follows 20 000 impacts of one perturbed motion",
         )
-        .judged_over(Agreement { holding: checked.agreeing, tried: checked.motors })
+        .judged_over(Cases { holding: checked.agreeing, tried: checked.motors })
         .note(format!("{} of {} are traps", checked.trapped, checked.motors)),
     );
     let most = data

@@ -2,7 +2,6 @@
 
 use bouncing_disk::InitialSpin;
 
-use super::alike::alike;
 use super::consistency::consistency;
 use super::data::{self, Fig04Data};
 use super::sweep;
@@ -73,7 +72,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04
         no_launch: sweep::no_launch(&table)?,
         symmetry,
         consistency,
-        alike: alike(quality)?,
         table_i,
         printed,
     })

@@ -3,7 +3,6 @@
 use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Agreement;
 use crate::figures::toss_case::TossCase;
 use crate::paper::{SectionThree, TableOne};
 
@@ -42,16 +41,6 @@ pub struct Fig04Data {
     /// in.
     pub(super) lossless_efficiency_of_fastest: f64,
     pub(super) consistency: Consistency,
-    /// The printed numbers over tosses whose inputs all round to those of Table I.
-    pub(super) alike: Vec<PrintedShare>,
-}
-
-/// How many tosses whose inputs all round to those of Table I give a printed number.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct PrintedShare {
-    /// The entry of the catalogue.
-    pub(super) key: String,
-    pub(super) agreement: Agreement,
 }
 
 /// The performance measures of one toss.

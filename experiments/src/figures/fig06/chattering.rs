@@ -121,7 +121,7 @@ pub(super) fn single_tosses(
         last,
         first_other,
         share_beyond: singles as f64 / beyond.len() as f64,
-        periods_beyond: periods.iter().copied().min().zip(periods.iter().copied().max()),
+        periods_beyond: periods.into_iter().min(),
     })
 }
 

@@ -13,6 +13,8 @@ use crate::claim::{self, Claim};
 const PRINTED_DOUBLINGS: usize = 5;
 /// The doublings whose ratio of distances is printed.
 const PRINTED_RATIOS: std::ops::RangeInclusive<usize> = 2..=4;
+/// Why the doublings and the ratios of their distances differ.
+const READ_OFF: &str = "doublings read off a diagram";
 /// The Feigenbaum constant.
 const FEIGENBAUM: f64 = 4.669_201_609_102_99;
 
@@ -28,7 +30,7 @@ pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = doublings(data);
     claims.extend(period_one(data));
     claims.extend(introduction(data));
-    claims.extend(leaving(data));
+    claims.push(leaving(data));
     claims.extend(rotation::claims(data));
     claims.extend(regimes::claims(data));
     claims
@@ -50,7 +52,7 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
             ),
             _ => claim,
         };
-        claims.push(claim);
+        claims.push(claim.cause(READ_OFF));
     }
     let rounded: Vec<f64> = (1..=PRINTED_DOUBLINGS)
         .filter_map(|n| catalogue::number(&format!("section4.doubling_{n}"), 0).ok())
@@ -63,7 +65,8 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
                  precision are {}",
             ratio(rounded.get(n - 2..).unwrap_or_default()),
             data.doublings.iter().map(|value| format!("{value:.10}")).collect::<Vec<_>>().join(", "),
-        )));
+        ))
+        .cause(READ_OFF));
     }
     let ratios: Vec<f64> = data.doublings.windows(3).map(ratio).collect();
     let last = ratios.last().copied().unwrap_or(f64::NAN);
@@ -110,7 +113,6 @@ fn period_one(data: &Fig06Data) -> Vec<Claim> {
                 data.period_one_threshold, forms.period_one_threshold, forms.first_doubling
             ),
         ),
-        Claim::reading(ID, "section4.doubling_1", "upper end of the period-1 window", first),
         Claim::printed("section4.impact_phase_at_doubling", phase / TAU),
         Claim::printed("section4.impact_phase_at_threshold", data.phase_at_threshold_rad / TAU).note(
             "at the lowest Γ at which the orbit was found; cos τ_imp = (1 − ε)/((1 + ε)Γ), which is 1 at the threshold",
@@ -125,15 +127,8 @@ fn period_one(data: &Fig06Data) -> Vec<Claim> {
         ),
         Claim::printed("section4.semielliptical_phase_lag", -printed_phase)
             .note("printed against printed: −2π times the 0.130 printed as τ_imp/2π"),
-        Claim::reading(ID, "section4.semielliptical_phase_lag", "−τ_imp of period 1 at the first doubling", -phase),
         Claim::printed("section4.speed_at_doubling", cos(printed_phase))
             .note("printed against printed: the cosine of 2π times 0.130; the tolerance is that of the two digits of 0.26"),
-        Claim::reading(
-            ID,
-            "section4.speed_at_doubling",
-            "steady speed/(ωΦ) of the last period-1 orbit of (c)",
-            rotation::period_ones(data).last().map_or(f64::NAN, |(slice, _)| slice.linear_mean),
-        ),
     ]
 }
 
@@ -197,37 +192,22 @@ fn introduction(data: &Fig06Data) -> Vec<Claim> {
 }
 
 /// Whether a disk at rest leaves the platform.
-fn leaving(data: &Fig06Data) -> [Claim; 2] {
+fn leaving(data: &Fig06Data) -> Claim {
     let below = || data.contact.iter().filter(|contact| contact.distance_in_ulps < 0.0);
-    let above = || data.contact.iter().filter(|contact| contact.distance_in_ulps > 0.0);
-    let nearest = |low: f64| format!("{low:.0}");
-    let (_, last_below) = rotation::extent(below().map(|contact| contact.distance_in_ulps));
-    let (first_above, _) = rotation::extent(above().map(|contact| contact.distance_in_ulps));
+    let (_, nearest) = rotation::extent(below().map(|contact| contact.distance_in_ulps));
     let thrown: usize = below().map(|contact| contact.thrown).sum();
     let bouncing: usize = below().map(|contact| contact.still_bouncing).sum();
-    [
-        Claim::printed_statement(
-            "section1.no_bouncing",
-            claim::all(below(), |contact| !contact.leaves && contact.still_bouncing == 0),
-            format!(
-                "of a disk at rest it is Eq. (3), and a code check here: at {} values of Γ below 1/π, the nearest {} in units of the last place below it, {} disks at rest leave the platform, and {bouncing} of {thrown} disks thrown up \
-                 still bounce after 10000 impacts at the restitution of the figure (a rotor that bounces already can go on at a larger one: Fig. 11)",
-                below().count(),
-                nearest(-last_below),
-                below().filter(|contact| contact.leaves).count(),
-            ),
+    Claim::printed_statement(
+        "section1.no_bouncing",
+        claim::all(&data.contact, |contact| match contact.distance_in_ulps < 0.0 {
+            true => !contact.leaves && contact.still_bouncing == 0,
+            false => contact.leaves,
+        }),
+        format!(
+            "of a disk at rest it is Eq. (3), and a code check here: at {} values of Γ below 1/π, the nearest {:.0} in units of the last place below it, none leaves the platform, and {bouncing} of \
+             {thrown} disks thrown up still bounce after 10000 impacts at the restitution of the figure (at a larger one they can: Fig. 11); above it all leave",
+            below().count(),
+            -nearest,
         ),
-        Claim::statement(
-            ID,
-            "Sec. I, Sec. V B",
-            "a disk at rest leaves the platform when Γ > 1/π",
-            claim::all(above(), |contact| contact.leaves),
-            format!(
-                "{} of {} values of Γ, the nearest {} in units of the last place above it",
-                above().filter(|contact| contact.leaves).count(),
-                above().count(),
-                nearest(first_above),
-            ),
-        ),
-    ]
+    )
 }

@@ -76,8 +76,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
     let crisis = merging.axial_forcing();
     let impacts: Vec<(f64, Option<usize>)> =
         diagrams.cycles.iter().map(|(forcing, cycle)| (*forcing, cycle.map(|cycle| cycle.impacts))).collect();
-    let [low_a, low_b, low_c, ..] = section.axial_forcings_of_fig7;
-    let explored = explored::explored(first, inputs, &merging, &impacts, &[low_a, low_b, low_c])?;
+    let explored = explored::explored(first, inputs, &merging, &impacts)?;
     let (transfers, best_lags) = along_the_diagram(&diagrams, &chaotic, crisis, inputs, settings)?;
     let one_impact_decides = explored::one_impact_decides(crisis, restitution, quality)?;
     let (period_one_threshold, phase_at_threshold_rad) = period_one::threshold(inputs, first)?;

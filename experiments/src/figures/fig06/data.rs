@@ -236,27 +236,21 @@ pub struct Explored {
     pub before_with_chattering: Visited,
     /// The orbit that starts on that attractor, just after the crisis.
     pub after: Visited,
-    /// Beyond the crisis: Γ, and the share of the impacts of the orbit from rest that are near the attractor just before the crisis.
+    /// Beyond the crisis: Γ, and the share of the impacts of the orbit from rest that are near the chaotic saddle there.
     pub shadows: Vec<Shadow>,
-    /// The chattering orbits of (a) to (c): the same.
-    pub low_period: Vec<Shadow>,
-    /// Share of the plane, up to the largest speed just after, that is near the attractor.
-    pub share_of_plane: f64,
-    /// The same for ten times the distance.
-    pub share_of_plane_at_ten_times_the_distance: f64,
 }
 
-/// How many impacts of an orbit lie near the attractor.
+/// How many impacts of an orbit lie near the chaotic saddle at the same Γ.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shadow {
     /// Γ.
     pub axial_forcing: f64,
-    /// Impacts.
-    pub impacts: usize,
-    /// Share of them within a hundredth or two of the attractor, in periods and in |w_A Γ/(ωA)|.
+    /// Orbits that stayed long enough to show the saddle.
+    pub stayed: usize,
+    /// Share of the impacts within a hundredth or two of the saddle, in periods and in |w_A Γ/(ωA)|.
     pub share_near: f64,
-    /// Share of them within a tenth or two.
-    pub share_at_ten_times_the_distance: f64,
+    /// Share of the plane, up to the largest speed just after the crisis, that is so near.
+    pub share_of_plane: f64,
 }
 
 /// The phase lag with the highest mean speed at one Γ, of the followed attractor or, beyond it, of a disk from rest.
@@ -367,8 +361,8 @@ pub struct SingleTosses {
     pub first_other: f64,
     /// Share of the Γ from there to 0.52 at which the disk comes to rest once in every period.
     pub share_beyond: f64,
-    /// Fewest and most periods of the platform in a cycle from there to 0.52, over the Γ that chatter.
-    pub periods_beyond: Option<(u64, u64)>,
+    /// Fewest periods of the platform in a cycle from there to 0.52, over the Γ that chatter.
+    pub periods_beyond: Option<u64>,
 }
 
 /// Paper's cut and complete policy, over some of the Γ.

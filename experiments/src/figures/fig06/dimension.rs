@@ -1,6 +1,6 @@
 //! The numbers that the next-collision map depends on, and what Γ_T compares.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, System};
@@ -131,11 +131,6 @@ pub(super) fn torque_ratios() -> Result<Vec<TorqueRatio>, ExperimentError> {
     let toss = TossCase::from(&paper::table_one()?).system()?;
     let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
     Ok(vec![torque_ratio("the toss of Table I", &toss)?, torque_ratio("the motor of Table III", &motor)?])
-}
-
-/// π Γ_T is the ratio.
-pub(super) fn is_torque_ratio(of: &TorqueRatio) -> bool {
-    (of.ratio / (PI * of.angular_forcing) - 1.0).abs() < 1.0e-12
 }
 
 #[cfg(test)]

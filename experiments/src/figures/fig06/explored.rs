@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, follow_attractor, orbit_diagram};
+use bouncing_disk::core::{
+    ImpactState, Launch, Orbit, Phase, follow_attractor, orbit_diagram, survival_times,
+};
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, NormalImpulses, OrbitClass,
     PhasedImpulse, multi_toss,
@@ -25,10 +27,15 @@ const BESIDE: f64 = 1.0e-4;
 const VISITING: usize = 20_000;
 /// Cells of the plane of phase (periods) and speed |w_A Γ/(ωA)| a unit: near are cells next to each other.
 const CELLS: f64 = 100.0;
-/// The same with a ten times larger distance, to show what hangs on it.
-const COARSE_CELLS: f64 = 10.0;
-/// Impacts of an orbit beyond the crisis that are compared with the attractor.
+/// Impacts of an orbit beyond the crisis that are compared with the saddle.
 const SHADOWING: usize = 2_000;
+/// Starts, on the attractor just before the crisis, of the orbits that show the saddle: those that have not come to rest after so many impacts are next to it in the
+/// middle of them.
+const SADDLE_STARTS: usize = 4_000;
+/// See [`SADDLE_STARTS`].
+const SADDLE_LIFE: usize = 40;
+/// Impacts in the middle of each of these orbits.
+const SADDLE_IMPACTS: usize = 4;
 
 /// A set of cells, so many a unit.
 struct Cells {
@@ -90,13 +97,35 @@ fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, E
     orbit_diagram(orbits, 0, impacts).map_err(ExperimentError::model)
 }
 
-/// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ; `low` the Γ of Fig. 7(a)–(c).
+/// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while, and how many of them did.
+fn saddle(
+    axial_forcing: f64,
+    from: &[ImpactState],
+    inputs: Inputs,
+) -> Result<(Cells, usize), ExperimentError> {
+    let map = map(axial_forcing, inputs.restitution)?;
+    let orbits: Vec<Orbit> = from
+        .iter()
+        .take(SADDLE_STARTS)
+        .map(|state| map.orbit(*state, bouncing_disk::PAPER_CHATTER))
+        .collect();
+    let lives = survival_times(&orbits, SADDLE_LIFE).map_err(ExperimentError::model)?;
+    let stay: Vec<Orbit> = orbits
+        .into_iter()
+        .zip(lives)
+        .filter(|(_, lived)| *lived >= SADDLE_LIFE)
+        .map(|(orbit, _)| orbit)
+        .collect();
+    let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS).map_err(ExperimentError::model)?;
+    Ok((Cells::of(&states.concat(), CELLS), stay.len()))
+}
+
+/// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ.
 pub(super) fn explored(
     first: ImpactState,
     inputs: Inputs,
     merging: &Merging,
     cycles: &[(f64, Option<usize>)],
-    low: &[f64],
 ) -> Result<Explored, ExperimentError> {
     let crisis = merging.axial_forcing();
     let start = *starts(first, inputs)?.first().ok_or_else(|| no_orbit(crisis))?;
@@ -107,34 +136,24 @@ pub(super) fn explored(
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
     let beside = orbit_diagram(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING)
         .map_err(ExperimentError::model)?;
-    let cells = [CELLS, COARSE_CELLS].map(|unit| Cells::of(&beside[0], unit));
     let chattering = recorded(&[orbit_from_rest(before, inputs)?], VISITING)?;
     let union: Vec<ImpactState> = beside[0].iter().chain(&chattering[0]).copied().collect();
-    let beyond: Vec<f64> = cycles
-        .iter()
-        .filter(|(forcing, cycle)| *forcing > crisis && cycle.is_some())
-        .map(|(forcing, _)| *forcing)
-        .collect();
-    let orbits =
-        beyond.iter().map(|forcing| orbit_from_rest(*forcing, inputs)).collect::<Result<Vec<_>, _>>()?;
-    let shadows = beyond.iter().zip(recorded(&orbits, SHADOWING)?);
-    let orbits =
-        low.iter().map(|forcing| orbit_from_rest(*forcing, inputs)).collect::<Result<Vec<_>, _>>()?;
-    let low_period = low.iter().zip(recorded(&orbits, SHADOWING)?);
     let after = visited(after, &beside[1]);
-    let shadow = |(forcing, states): (&f64, Vec<ImpactState>)| Shadow {
-        axial_forcing: *forcing,
-        impacts: states.len(),
-        share_near: cells[0].share(&states),
-        share_at_ten_times_the_distance: cells[1].share(&states),
+    let beyond = cycles.iter().filter(|(forcing, cycle)| *forcing > crisis && cycle.is_some());
+    let shadow = |&(axial_forcing, _): &(f64, Option<usize>)| {
+        let (saddle, stayed) = saddle(axial_forcing, &beside[0], inputs)?;
+        let states = recorded(&[orbit_from_rest(axial_forcing, inputs)?], SHADOWING)?;
+        Ok(Shadow {
+            axial_forcing,
+            stayed,
+            share_near: saddle.share(&states[0]),
+            share_of_plane: saddle.share_of_plane(after.largest_speed),
+        })
     };
     Ok(Explored {
         before: visited(before, &beside[0]),
         before_with_chattering: visited(before, &union),
-        shadows: shadows.map(shadow).collect(),
-        low_period: low_period.map(shadow).collect(),
-        share_of_plane: cells[0].share_of_plane(after.largest_speed),
-        share_of_plane_at_ten_times_the_distance: cells[1].share_of_plane(after.largest_speed),
+        shadows: beyond.map(shadow).collect::<Result<_, ExperimentError>>()?,
         after,
     })
 }
@@ -295,8 +314,8 @@ pub(super) fn one_impact_decides(
     })
 }
 
-/// A speed of at least this share of ωΦ is the maximum, as the paper's digits go.
-pub(super) const AT_MAXIMUM: f64 = 0.995;
+/// A speed of at least this share of ωΦ is the maximum, here and everywhere: it differs by rounding.
+pub(super) const AT_MAXIMUM: f64 = 1.0 - 1.0e-9;
 
 /// On the followed attractor, or at rest.
 fn start(

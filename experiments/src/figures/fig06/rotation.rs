@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::elementary::cos;
 
 use super::data::{Fig06Data, Slice};
-use super::dimension::is_torque_ratio;
-use crate::claim::{self, Claim};
+use crate::claim::{self, Cases, Claim};
 use crate::figures::circular;
 pub(super) use crate::figures::samples::extent;
+use crate::judging::trend;
 
 /// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow approach to the
 /// orbit next to a doubling.
@@ -73,9 +73,9 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
         )),
         Claim::printed_statement(
             "section4.meaning_of_angular_forcing",
-            claim::all(&data.torque_ratios, is_torque_ratio),
+            claim::all(&data.torque_ratios, |of| of.ratio == of.angular_forcing),
             format!(
-                "the torque for the platform's largest angular acceleration over the frictional torque of the preload is π Γ_T, not Γ_T: {}",
+                "the torque for the platform's largest angular acceleration over the frictional torque of the preload is π times Γ_T: {}",
                 ratios.join("; ")
             ),
         ),
@@ -89,7 +89,7 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
         ),
         Claim::printed_statement(
             "section4.transfer_in_impacts",
-            mean_from_rest.map(mostly_in_impacts),
+            mean_from_rest.map_or_else(Cases::default, Cases::of_share),
             format!(
                 "of the sizes of all angular impulses, impacts transfer {:.3} on the mean over the orbits of the disk from rest, {weakest:.3} to {strongest:.3} by orbit \
                  ({} orbits: the disk from rest and the followed attractor, which never rests on the platform, in the motions (c) and (d), at values of Γ spread evenly). \
@@ -185,7 +185,7 @@ const SETTLED: f64 = 1.0e-9;
 fn rotation(data: &Fig06Data) -> Vec<Claim> {
     let ones = period_ones(data);
     let steps = |of: fn(&Slice) -> f64, sign: f64| {
-        claim::all(ones.windows(2), move |pair| sign * (of(pair[1].0) - of(pair[0].0)) > 0.0)
+        trend(ones.iter().map(|(slice, _)| (slice.axial_forcing, of(slice))), sign)
     };
     let ends = |of: fn(&Slice) -> f64| match (ones.first(), ones.last()) {
         (Some((first, _)), Some((last, _))) => format!(
@@ -413,11 +413,12 @@ fn mean_speeds(data: &Fig06Data) -> Vec<Claim> {
     let period_two = between(data, 0, 1);
     let period_four = between(data, 1, 2);
     let trend = |of: fn(&Slice) -> f64, sign: f64| {
-        let goes = claim::all(period_two.windows(2), |pair| sign * (of(pair[1]) - of(pair[0])) > 0.0);
+        let points = |slices: &[&Slice]| {
+            slices.iter().map(|slice| (slice.axial_forcing, of(slice))).collect::<Vec<_>>()
+        };
+        let goes = trend(points(&period_two), sign);
         // An extremum at the doubling: it has turned in the nearer half of the period-4 region.
-        let turned = claim::all(period_four[..period_four.len().div_ceil(2)].windows(2), |pair| {
-            sign * (of(pair[1]) - of(pair[0])) < 0.0
-        });
+        let turned = trend(points(&period_four[..period_four.len().div_ceil(2)]), -sign);
         let value = |slice: Option<&&Slice>| slice.map_or(f64::NAN, |slice| of(slice));
         let slope = |slices: &[&Slice]| match slices {
             [first, .., last] => (of(last) - of(first)) / (last.axial_forcing - first.axial_forcing),
@@ -442,7 +443,8 @@ fn mean_speeds(data: &Fig06Data) -> Vec<Claim> {
         Claim::printed_statement("section4.linear_turns_at_period_four", rise_ends, rise),
         Claim::printed_statement("section4.semielliptical_falls_in_period_two", falls, fall.as_str()),
         Claim::printed_statement("section4.semielliptical_turns_at_period_four", fall_ends, fall)
-            .note("where it does not turn it has a kink there: a falling mean falls on, more slowly"),
+            .note("where it does not turn it has a kink there: a falling mean falls on, more slowly")
+            .cause("a kink called an extremum"),
     ];
     claims.extend(three_branches(data, &period_four));
     claims

@@ -170,8 +170,6 @@ pub struct Windows {
     pub tops_for_both: Vec<(f64, f64)>,
     /// The same, everything that does not chatter in (b).
     pub tops_for_both_not_chattering: Vec<(f64, f64)>,
-    /// For each family of windows the one nearest to both.
-    pub searches: Vec<Search>,
 }
 
 /// One window.
@@ -185,21 +183,4 @@ pub struct CurvePoint {
     pub b: f64,
     /// Share of everything that does not chatter at the Γ of (b).
     pub b_not_chattering: f64,
-}
-
-/// The window of a family that comes nearest to both printed numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Search {
-    /// The family.
-    pub family: String,
-    /// Whether everything that does not chatter counts in (b), or the period-1 orbit alone.
-    pub not_chattering: bool,
-    /// Bottom of the window (a).
-    pub bottom: f64,
-    /// Top of the window (a).
-    pub top: f64,
-    /// Share in (a).
-    pub a: f64,
-    /// Share in (b).
-    pub b: f64,
 }

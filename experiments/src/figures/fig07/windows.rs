@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit};
 
-use super::data::{CurvePoint, Search, Windows};
+use super::data::{CurvePoint, Windows};
 use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
 use super::panels::{grid, map, others};
 use crate::experiment::ExperimentError;
@@ -108,27 +108,6 @@ fn tops_for_both(a: &[f64], b: &[f64], printed: [f64; 2]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// The larger relative deviation from the two printed numbers.
-fn misfit(a: f64, b: f64, printed: [f64; 2]) -> f64 {
-    (a / printed[0] - 1.0).abs().max((b / printed[1] - 1.0).abs())
-}
-
-/// The window [bottom, top] of a family that comes nearest to both printed numbers.
-fn nearest(a: &[f64], b: &[f64], printed: [f64; 2], bottoms: std::ops::Range<usize>) -> (usize, usize) {
-    let rows = a.len() - 1;
-    let smallest = rows / 80;
-    let mut best = (f64::INFINITY, 0, rows);
-    for bottom in bottoms {
-        for top in bottom + smallest..=rows {
-            let off = misfit(mean(a, bottom, top), mean(b, bottom, top), printed);
-            if off < best.0 {
-                best = (off, bottom, top);
-            }
-        }
-    }
-    (best.1, best.2)
-}
-
 pub(super) fn windows(
     section: &SectionFour,
     size: (usize, usize),
@@ -149,50 +128,6 @@ pub(super) fn windows(
             CurvePoint { top, a: share(&a, top), b: share(&b, top), b_not_chattering: share(&b_all, top) }
         })
         .collect();
-    let unit = LARGEST_TOP / size.0 as f64;
-    let mut searches = Vec::new();
-    for not_chattering in [false, true] {
-        let families = [
-            ("all phases, speed from 0", whole, 1),
-            ("all phases, any speed range", whole, size.0),
-            ("phases 0 to π, speed from 0", (0.0, 0.5), 1),
-            ("phases π to 2π, speed from 0", (0.5, 1.0), 1),
-            ("phases −π/2 to π/2, speed from 0", (0.75, 1.25), 1),
-            ("phases 0 to π, any speed range", (0.0, 0.5), size.0),
-            ("phases −π/2 to π/2, any speed range", (0.75, 1.25), size.0),
-        ];
-        for (family, phases, bottoms) in families {
-            let a = low.sums(phases, period_one);
-            let b = if not_chattering { high.sums(phases, bouncing) } else { high.sums(phases, period_one) };
-            let (bottom, top) = nearest(&a, &b, printed, 0..bottoms.min(size.0 - size.0 / 80));
-            searches.push(Search {
-                family: family.to_owned(),
-                not_chattering,
-                bottom: bottom as f64 * unit,
-                top: top as f64 * unit,
-                a: mean(&a, bottom, top),
-                b: mean(&b, bottom, top),
-            });
-        }
-        // The same top in |w_A|/(ωA), which is |w_A Γ/(ωA)| over Γ.
-        let b = if not_chattering { &b_all } else { &b };
-        let tops =
-            (1..=CURVE_POINTS * 10).map(|i| LARGEST_TOP / second * i as f64 / (CURVE_POINTS * 10) as f64);
-        let best =
-            tops.map(|top| (top, share(&a, top * first), share(b, top * second))).reduce(|best, next| {
-                if misfit(next.1, next.2, printed) < misfit(best.1, best.2, printed) { next } else { best }
-            });
-        if let Some((top, a, b)) = best {
-            searches.push(Search {
-                family: "all phases, |w_A|/(ωA) from 0 (not normalised with Γ)".to_owned(),
-                not_chattering,
-                bottom: 0.0,
-                top,
-                a,
-                b,
-            });
-        }
-    }
     Ok(Windows {
         grid: size,
         curve,
@@ -202,7 +137,6 @@ pub(super) fn windows(
         top_for_b_not_chattering: top_for(&b_all, printed[1]),
         tops_for_both: tops_for_both(&a, &b, printed),
         tops_for_both_not_chattering: tops_for_both(&a, &b_all, printed),
-        searches,
     })
 }
 

@@ -8,7 +8,7 @@ use bouncing_disk::{
     PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
 };
 
-use super::data::{Alike, Exception, Fig10Data, OtherPreload, Reading, Transient};
+use super::data::{Alike, Exception, Fig10Data, Reading, Transient};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;
 use crate::figures::motor_case::{MotorCase, perturbation_table};
@@ -26,8 +26,6 @@ const DURATIONS_S: [f64; 2] = [6.0, 0.9];
 const JUDGED_RISES: f64 = 6.0;
 /// Seed of the inputs that print alike.
 pub(super) const SEED: u64 = 10;
-/// Other values of g that print as 9.8, lie next to it, or are the highest of Sec. V B (m/s²).
-const OTHER_PRELOADS: [f64; 5] = [9.795, 9.805, STANDARD_GRAVITY, 9.81, 10.0];
 
 /// Curve points of the member that is drawn, and of the ensemble's band.
 pub(super) const MEMBER_INTERVALS: usize = 600;
@@ -67,9 +65,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
     progress.advance(1);
     let inputs = PrintedInputs::table_three()?;
     let count = quality.choose(DRAWN / 10, DRAWN);
-    let alike = drawn_alike(inputs, |inputs| inputs, count)?;
-    let exact_settings =
-        drawn_alike(inputs, PrintedInputs::exact_settings, quality.choose(count / 2, count / 4))?;
+    let alike = drawn_alike(inputs, count)?;
     progress.advance(1);
     let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
     let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
@@ -86,7 +82,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
         readings,
         exception,
         alike,
-        exact_settings,
         perturbations,
         own_motor_axial_forcing: axial_forcing(
             section.own_motor_amplitude_m,
@@ -108,17 +103,13 @@ fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> Result<f64,
     Ok(stator.build()?.axial_forcing(preload))
 }
 
-/// The motors of Table III at the three amplitudes, every input anywhere between what still rounds to the printed one.
-fn drawn_alike(
-    inputs: PrintedInputs,
-    settings: fn(PrintedInputs) -> PrintedInputs,
-    count: usize,
-) -> Result<Alike, ExperimentError> {
+/// The motors of Table III at the three amplitudes, with the g drawn that is not printed.
+fn drawn_alike(inputs: PrintedInputs, count: usize) -> Result<Alike, ExperimentError> {
     let motors = |key| -> Result<_, ExperimentError> {
-        alike(&settings(inputs.amplitude(key)?).drawn(count, SEED), JUDGED_RISES)
+        alike(&inputs.amplitude(key)?.drawn(count, SEED), JUDGED_RISES)
     };
     Ok(Alike {
-        inputs: settings(inputs).words(),
+        inputs: inputs.words(),
         motors: [
             motors("section5.smallest_amplitude_of_fig10")?,
             motors("section5.middle_amplitude_of_fig10")?,
@@ -131,7 +122,9 @@ fn drawn_alike(
 fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
     let printed = motor.preload_acceleration_m_per_s2;
     let at = |preload: f64| MotorCase { preload_acceleration_m_per_s2: preload, ..*motor };
-    let cycle = motor.cycle(ChatterPolicy::Complete)?;
+    let no_cycle = || ExperimentError::NoData { quantity: "cycle at 9.8 m/s²".to_owned() };
+    let robust_cycle = motor.robust_cycle()?.ok_or_else(no_cycle)?;
+    let cycle = robust_cycle.cycle();
     let repeats =
         |preload: f64| Ok::<_, ExperimentError>(at(preload).cycle(ChatterPolicy::Complete)? == cycle);
     // Doubled until the cycle is another one, then bisected; the end inside, so that the cycle is surely there.
@@ -162,19 +155,10 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
         amplitude_m: motor.amplitude_m,
         preload_acceleration_m_per_s2: printed,
         peak_acceleration_over_two_pi_squared: motor.system()?.peak_acceleration() / (2.0 * PI * PI),
-        cycle,
+        robust_cycle,
         lowest_preload_acceleration_m_per_s2: lowest,
         highest_preload_acceleration_m_per_s2: highest,
         relative_width: (highest - lowest) / printed,
-        others: OTHER_PRELOADS
-            .iter()
-            .map(|&preload| {
-                Ok(OtherPreload {
-                    preload_acceleration_m_per_s2: preload,
-                    cycle: at(preload).cycle(ChatterPolicy::Complete)?,
-                })
-            })
-            .collect::<Result<_, ExperimentError>>()?,
         time_s: curve.times.clone(),
         speed_rad_per_s: curve.speeds.clone(),
         exponential_residual_rad_per_s: fit.residual,

@@ -4,7 +4,7 @@ use bouncing_disk::{ExponentialFit, Spread};
 use serde::{Deserialize, Serialize};
 
 use crate::figures::alike::AlikeMotor;
-use crate::figures::motor_case::{Cycle, PerturbationEffect};
+use crate::figures::motor_case::{Cycle, PerturbationEffect, RobustCycle};
 use crate::paper::{SectionFive, TableThree};
 
 /// The data of Fig. 10.
@@ -20,8 +20,6 @@ pub struct Fig10Data {
     pub(super) exception: Exception,
     /// Many motors that print alike, for the verdicts.
     pub(super) alike: Alike,
-    /// The first of these draws with μ, ε, A and ωΦ exactly as printed.
-    pub(super) exact_settings: Alike,
     pub(super) perturbations: Vec<PerturbationEffect>,
     pub(super) own_motor_axial_forcing: f64,
     pub(super) tsujino_axial_forcing: f64,
@@ -73,26 +71,17 @@ pub(super) struct Exception {
     pub(super) preload_acceleration_m_per_s2: f64,
     /// Aω²/g over 2π².
     pub(super) peak_acceleration_over_two_pi_squared: f64,
-    pub(super) cycle: Cycle,
+    pub(super) robust_cycle: RobustCycle,
     /// The preload accelerations, next to the printed one, between which the motor repeats this cycle.
     pub(super) lowest_preload_acceleration_m_per_s2: f64,
     pub(super) highest_preload_acceleration_m_per_s2: f64,
     /// The width of this range, over the printed g.
     pub(super) relative_width: f64,
-    /// Other values of g that somebody might have used, and the cycles there.
-    pub(super) others: Vec<OtherPreload>,
     /// The transient there.
     pub(super) time_s: Vec<f64>,
     pub(super) speed_rad_per_s: Vec<f64>,
     pub(super) exponential_residual_rad_per_s: f64,
     pub(super) ramp_residual_rad_per_s: f64,
-}
-
-/// The motor of the smallest amplitude at another g.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct OtherPreload {
-    pub(super) preload_acceleration_m_per_s2: f64,
-    pub(super) cycle: Cycle,
 }
 
 /// Motors whose inputs all print like the paper's: the same draws at the three amplitudes.

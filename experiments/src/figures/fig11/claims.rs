@@ -1,11 +1,8 @@
 //! What the paper says about Fig. 11.
 
-use std::f64::consts::FRAC_1_PI;
-
-use super::data::{Fig11Data, Power, Trend};
-use super::trends::{EXPONENT_WITHIN, OTHER_BOUNDS, SHARP};
-use crate::claim::{Agreement, Claim, all};
-use crate::figures::motor_case::perturbation_claim;
+use super::data::{Fig11Data, Trend};
+use super::trends::{EXPONENT_WITHIN, SHARP};
+use crate::claim::{Cases, Claim, all};
 
 const ID: &str = "fig11";
 
@@ -22,160 +19,102 @@ const MIRRORED_WITHIN: f64 = 1e-6;
 
 pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
     let [default, second] = data.printed.frequencies_hz.map(|frequency| at_frequency(data, frequency));
-    let mut claims = vec![
-        Claim::printed_share(
+    let total =
+        |trends: &[&Trend], of: fn(&Trend) -> Cases| trends.iter().map(|trend| of(trend)).sum::<Cases>();
+    let near = |exponent: Option<f64>, of: f64| {
+        exponent.is_some_and(|exponent| (exponent - of).abs() <= EXPONENT_WITHIN)
+    };
+    vec![
+        Claim::printed_statement(
             "section5.torque_proportional_to_preload",
-            default.iter().map(|trend| trend.torque).sum::<Agreement>(),
+            all(&default, |trend| near(trend.torque_exponent, 1.0)),
             format!(
-                "a motor agrees if its stall torque over preload is within {} % of the middle one of its curve{}; {}",
+                "whether the exponent of stall torque against preload is within {EXPONENT_WITHIN} of 1 at each A: {}; a single motor agrees if its torque over preload is \
+                 within {} % of the middle one of its curve",
+                words(&default, |trend| trend.torque_exponent),
                 100.0 * SHARP,
-                other_bounds(&default, |trend| trend.torque_for_other_bounds),
-                counted(&default, |trend| trend.torque)
             ),
-        ),
-        Claim::printed_share(
+        )
+        .single_orbits(total(&default, |trend| trend.torque)),
+        Claim::printed_statement(
             "section5.speed_independent_of_preload",
-            default.iter().map(|trend| trend.speed).sum::<Agreement>(),
+            all(&default, |trend| near(trend.speed_exponent, 0.0)),
             format!(
-                "a motor agrees if its steady speed is within {} % of the middle one of its curve{}; {}",
+                "whether the exponent of steady speed against preload is within {EXPONENT_WITHIN} of 0 at each A: {}; a single motor agrees if its speed is within {} % of the \
+                 middle one of its curve",
+                words(&default, |trend| trend.speed_exponent),
                 100.0 * SHARP,
-                other_bounds(&default, |trend| trend.speed_for_other_bounds),
-                counted(&default, |trend| trend.speed)
             ),
-        ),
-        same_trends(data, &default, &second),
-        Claim::printed_share(
+        )
+        .single_orbits(total(&default, |trend| trend.speed)),
+        Claim::printed_statement(
+            "section5.both_frequencies",
+            all(default.iter().zip(&second), |(one, other)| {
+                let alike = |one: Option<f64>, other: Option<f64>| one.is_some_and(|one| near(other, one));
+                alike(one.torque_exponent, other.torque_exponent) && alike(one.speed_exponent, other.speed_exponent)
+            }),
+            format!(
+                "whether the exponents of torque and speed differ by at most {EXPONENT_WITHIN} between the frequencies; at the second: {} and {}; a single motor agrees if it is on both \
+                 trends",
+                words(&second, |trend| trend.torque_exponent),
+                words(&second, |trend| trend.speed_exponent),
+            ),
+        )
+        .single_orbits([&default, &second].into_iter().map(|trends| total(trends, |trend| trend.both)).sum()),
+        Claim::printed_statement(
             "section5.no_sharp_fall",
-            default.iter().map(|trend| trend.no_fall).sum::<Agreement>(),
+            all(default.iter().flat_map(|trend| trend.outside_over_inside), |ratio| ratio >= 1.0 - SHARP),
             format!(
-                "a motor below or above the preloads of the trends agrees if it is not slower by more than {} % than the middle of those inside: {}; \
-                 without the motors on a low-period cycle {}",
-                100.0 * SHARP,
-                share_words(&default, |trend| trend.no_fall),
-                share_words(&default, |trend| trend.no_fall_without),
+                "middle steady speed below and above the preloads of the trends over that inside, at each A: {}; a sharp change is one of more than {} %",
+                ratios(&default),
+                100.0 * SHARP
             ),
-        ),
-        plateau(data, &default),
-        Claim::printed_share(
+        )
+        .single_orbits(total(&default, |trend| trend.no_fall)),
+        Claim::printed_statement(
+            "section5.no_plateau",
+            all(&default, |trend| trend.high_torque_exponent.is_some_and(|exponent| exponent > NEARER_TO_TREND)),
+            format!(
+                "exponent of the stall torque above {} mN, 1 on the trend and 0 on a plateau: {}; a single motor agrees if it is nearer to the trend of its curve",
+                1e3 * data.printed.plateau_n,
+                words(&default, |trend| trend.high_torque_exponent),
+            ),
+        )
+        .single_orbits(total(&default, |trend| trend.no_plateau)),
+        Claim::printed_statement(
             "section5.no_sharp_rise",
-            second.iter().map(|trend| trend.no_rise_above).sum::<Agreement>(),
-            format!(
-                "a motor above the preloads of the trends agrees if it is not faster by more than {} % than the middle of those inside: {}",
-                100.0 * SHARP,
-                share_words(&second, |trend| trend.no_rise_above),
-            ),
-        ),
+            all(&second, |trend| trend.outside_over_inside[1] <= 1.0 + SHARP),
+            format!("middle steady speed below and above the preloads of the trends over that inside, at each A: {}", ratios(&second)),
+        )
+        .single_orbits(total(&second, |trend| trend.no_rise_above)),
         reduced_twist(data),
         bouncing_ends(data),
-        without_low_period_torque(data),
-        without_low_period_speed(data),
-        without_low_period_sharp(data),
         holes(data),
-        still_bouncing(data),
         balance(data),
         estimate(data),
         mirrored(data),
-    ];
-    for (frequency, table) in data.printed.frequencies_hz.iter().zip(&data.perturbations) {
-        let quantity = format!(
-            "at {} kHz and the middle of the preloads the steady speed does not depend on the size of the relaunch perturbation",
-            frequency / 1e3
-        );
-        claims.push(perturbation_claim(ID, &quantity, table));
-    }
-    claims
+    ]
 }
 
 fn at_frequency(data: &Fig11Data, frequency_hz: f64) -> Vec<&Trend> {
     data.trends.iter().filter(|trend| trend.frequency_hz.total_cmp(&frequency_hz).is_eq()).collect()
 }
 
-/// How many agree, by amplitude, and what the motors on a low-period cycle have to do with it.
-fn counted(trends: &[&Trend], of: fn(&Trend) -> Agreement) -> String {
-    let sum = |count: fn(&Trend) -> usize| trends.iter().map(|trend| count(trend)).sum::<usize>();
-    format!(
-        "{}; of {} motors on a low-period cycle {} have speed and torque on the trend; {} motors have no stall torque, since no curve fits their transients",
-        share_words(trends, of),
-        sum(|trend| trend.low_period),
-        sum(|trend| trend.low_period_on_trend),
-        sum(|trend| trend.without_torque),
-    )
-}
-
-/// How many agree with other bounds than [`SHARP`].
-fn other_bounds(trends: &[&Trend], of: fn(&Trend) -> [Agreement; 2]) -> String {
-    let words = OTHER_BOUNDS.iter().enumerate().map(|(index, bound)| {
-        let Agreement { holding, tried } = trends.iter().map(|trend| of(trend)[index]).sum::<Agreement>();
-        format!("{holding} of {tried} with {:.0} %", 100.0 * bound)
-    });
-    format!(" ({})", words.collect::<Vec<_>>().join(", "))
-}
-
-fn share_words(trends: &[&Trend], of: fn(&Trend) -> Agreement) -> String {
+/// Exponents, medians over all pairs of motors of a curve, by amplitude.
+fn words(trends: &[&Trend], of: fn(&Trend) -> Option<f64>) -> String {
     let words = trends.iter().map(|trend| {
-        let Agreement { holding, tried } = of(trend);
-        format!("{}: {holding} of {tried}", trend.name())
+        let exponent = of(trend).map_or_else(|| "none".to_owned(), |exponent| format!("{exponent:+.3}"));
+        format!("{}: {exponent}", trend.name())
     });
     words.collect::<Vec<_>>().join(", ")
 }
 
-fn power_words(trends: &[&Trend], of: fn(&Trend) -> Option<Power>) -> String {
+fn ratios(trends: &[&Trend]) -> String {
     let words = trends.iter().map(|trend| {
-        let power = of(trend).map_or_else(|| "no fit".to_owned(), Power::words);
-        format!("{} Hz, {}: {power}", trend.frequency_hz, trend.name())
+        let [below, above] = trend.outside_over_inside;
+        format!("{}: {below:.3} and {above:.3}", trend.name())
     });
-    words.collect::<Vec<_>>().join("; ")
-}
-
-/// That the exponents of speed and torque are the same at both frequencies, amplitude by amplitude.
-fn same_trends(data: &Fig11Data, default: &[&Trend], second: &[&Trend]) -> Claim {
-    let pairs: Vec<(&Trend, &Trend)> = default.iter().copied().zip(second.iter().copied()).collect();
-    let exponents = |trend: &Trend| Some([trend.torque_exponent?, trend.speed_exponent?]);
-    let alike = |one: &Trend, other: &Trend| {
-        exponents(one).zip(exponents(other)).is_some_and(|(one, other)| {
-            one.iter().zip(other).all(|(one, other)| (one - other).abs() <= EXPONENT_WITHIN)
-        })
-    };
-    let words = pairs.iter().flat_map(|(one, other)| [one, other]).map(|trend| {
-        let [torque, speed] = exponents(trend).unwrap_or([f64::NAN; 2]);
-        format!("{} kHz, {}: {torque:+.3} and {speed:+.3}", 1e-3 * trend.frequency_hz, trend.name())
-    });
-    Claim::printed_statement(
-        "section5.both_frequencies",
-        all(&pairs, |(one, other)| alike(one, other)),
-        format!(
-            "whether the exponents of stall torque and steady speed against preload differ by at most {EXPONENT_WITHIN} between the frequencies at each A; medians over all \
-             pairs of motors inside, those on a low-period cycle among them: {}. Without these: torque {}; speed {}. On the trend of their curve are at {} kHz {}; at {} kHz {}",
-            words.collect::<Vec<_>>().join("; "),
-            power_words(&data.trends.iter().collect::<Vec<_>>(), |trend| trend.torque_power),
-            power_words(&data.trends.iter().collect::<Vec<_>>(), |trend| trend.speed_power),
-            data.printed.frequencies_hz[0] / 1e3,
-            counted(default, |trend| trend.both),
-            data.printed.frequencies_hz[1] / 1e3,
-            counted(second, |trend| trend.both),
-        ),
-    )
-}
-
-/// The stall torque above the preload of the measured plateau. A plateau belongs to a curve and not to a motor: next to its beginning the two differ by less than the scatter.
-fn plateau(data: &Fig11Data, default: &[&Trend]) -> Claim {
-    let exponents = default.iter().map(|trend| {
-        let exponent = trend.high_torque_exponent.unwrap_or(f64::NAN);
-        format!("{}: {exponent:.2}", trend.name())
-    });
-    let nearer = default.iter().map(|trend| trend.no_plateau).sum::<Agreement>();
-    Claim::printed_statement(
-        "section5.no_plateau",
-        all(default, |trend| trend.high_torque_exponent.is_some_and(|exponent| exponent > NEARER_TO_TREND)),
-        format!(
-            "exponent of the stall torque above {} mN, 1 on the trend of its curve and 0 on a plateau, the median over all pairs of motors, those on a low-period cycle among them; above \
-             {NEARER_TO_TREND} is nearer to the trend: {}; without these: {}. Motor by motor {} are nearer to the trend of their curve than to a plateau",
-            1e3 * data.printed.plateau_n,
-            exponents.collect::<Vec<_>>().join("; "),
-            power_words(default, |trend| trend.high_torque_power_without),
-            nearer.words(),
-        ),
-    )
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// The first of the paper's explanations of what the simulations do not show.
@@ -204,96 +143,28 @@ fn reduced_twist(data: &Fig11Data) -> Claim {
             reduced.mean / printed.mean,
         ),
     )
+    .single_orbits(data.reduced_twist.slower)
 }
 
-/// The second one.
+/// The second one. A statement about the motor, whose restitution is an estimate.
 fn bouncing_ends(data: &Fig11Data) -> Claim {
     let end = &data.end_of_bouncing;
     let [low, high] = end.restitutions;
-    Claim::printed_share(
-        "section5.bouncing_ends",
-        end.at_rest,
-        format!(
-            "rotors with ε = {low} to {high} and Γ from 0 to 1/π, launched at random phases with up to {:.0} g/ω: {} of {} come to rest for good, after {} impacts \
-             at most. A periodic orbit, which needs no separation from rest, exists for part of these ε and Γ only and attracts few starts",
-            end.largest_launch_speed, end.at_rest.holding, end.at_rest.tried, end.most_impacts
-        ),
-    )
-}
-
-fn still_bouncing(data: &Fig11Data) -> Claim {
-    let end = &data.end_of_bouncing;
     let coexisting = &end.coexisting;
-    Claim::statement(
-        ID,
-        SECTION,
-        "a rotor that bounces already can go on bouncing at Γ < 1/π if ε is large enough",
-        coexisting.bounces && coexisting.axial_forcing < FRAC_1_PI,
+    Claim::printed_statement(
+        "section5.bouncing_ends",
+        end.at_rest.tried > 0 && end.at_rest.holding == end.at_rest.tried && !coexisting.bounces,
         format!(
-            "the period-1 orbit needs Γ > (1 − ε)/(1 + ε), less than 1/π = {FRAC_1_PI:.4} for ε > {:.4}; at ε = {} and Γ = {:.4} a rotor launched on it bounces after {} \
-             impacts",
-            end.threshold_restitution, coexisting.restitution, coexisting.axial_forcing, coexisting.impacts
+            "of rotors with ε = {low} to {high} and Γ from 0 to 1/π, launched at random, {} come to rest for good. But period 1 needs Γ > (1 − ε)/(1 + ε) only, less than \
+             1/π for ε > {:.4}: at ε = {} and Γ = {:.4} rotors launched on it, or with 1 % more or less speed, bounce after {} impacts. At the ε = 0.5 of Table III none does",
+            end.at_rest.words(),
+            end.threshold_restitution,
+            coexisting.restitution,
+            coexisting.axial_forcing,
+            coexisting.impacts
         ),
     )
-}
-
-fn without_low_period_torque(data: &Fig11Data) -> Claim {
-    let holds = |trend: &Trend| {
-        trend.torque_power.is_some_and(|power| (power.exponent - 1.0).abs() <= EXPONENT_WITHIN)
-    };
-    let trends: Vec<&Trend> = data.trends.iter().collect();
-    Claim::statement(
-        ID,
-        SECTION,
-        "without the motors on a low-period cycle the stall torque is proportional to preload at every amplitude and both frequencies",
-        all(&trends, |trend| holds(trend)),
-        format!(
-            "exponent of stall acceleration against preload, within {EXPONENT_WITHIN} of 1: {}",
-            power_words(&trends, |trend| trend.torque_power)
-        ),
-    )
-}
-
-fn without_low_period_speed(data: &Fig11Data) -> Claim {
-    let holds = |trend: &Trend| {
-        trend
-            .speed_power
-            .is_some_and(|power| power.exponent.abs() + 2.0 * power.standard_error <= EXPONENT_WITHIN)
-    };
-    let trends: Vec<&Trend> = data.trends.iter().collect();
-    Claim::statement(
-        ID,
-        SECTION,
-        "without the motors on a low-period cycle the steady speed does not depend on preload at any amplitude and frequency",
-        all(&trends, |trend| holds(trend)),
-        format!(
-            "exponent of steady speed against preload, within {EXPONENT_WITHIN} of 0 with two standard errors: {}",
-            power_words(&trends, |trend| trend.speed_power)
-        ),
-    )
-}
-
-fn without_low_period_sharp(data: &Fig11Data) -> Claim {
-    let trends: Vec<&Trend> = data.trends.iter().collect();
-    let whole = |agreement: Agreement| agreement.tried > 0 && agreement.holding == agreement.tried;
-    let speeds = trends.iter().filter_map(|trend| {
-        trend.outside_without_rad_per_s.map(|[slow, fast]| {
-            format!(
-                "{} Hz, {}: {slow:.1} to {fast:.1} rad/s, inside {:.1}",
-                trend.frequency_hz,
-                trend.name(),
-                trend.median_speed_rad_per_s
-            )
-        })
-    });
-    let speeds = speeds.collect::<Vec<_>>().join("; ");
-    Claim::statement(
-        ID,
-        SECTION,
-        "without the motors on a low-period cycle no steady speed falls sharply at low or high preload, or rises sharply at high preload",
-        all(&trends, |trend| whole(trend.no_fall_without) && whole(trend.no_rise_above_without)),
-        format!("steady speeds outside the preloads of the trends: {speeds}"),
-    )
+    .cause("period 1 bounces below Γ = 1/π")
 }
 
 /// What the trends' holes are.
@@ -360,9 +231,8 @@ fn estimate(data: &Fig11Data) -> Claim {
         "α̇_ss/t_c is the acceleration by the torque that stalls the motor",
         all(&data.stalls, |at| at.stall.estimate_off.abs() <= STANDARD_ERRORS * at.stall.estimate_off_error),
         format!(
-            "the paper calls the initial slope of the fitted exponential the stall torque. {}. Over all motors of the figure in the range of the trends, without those on a \
+            "the paper calls the initial slope of the fitted exponential the stall torque. Over all motors of the figure in the range of the trends, without those on a \
              low-period cycle, α̇_ss/t_c is {least:.2} to {most:.2}, on average {:.2}, of (μ a_e g/a_g²) S(0)",
-            stall_words(data),
             data.mean_estimate_over_balance,
         ),
     )

@@ -7,8 +7,11 @@ use super::data::{
     Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Mirrored, Point, ReducedTwist, StallAt, Trend,
     trend_mn,
 };
+use crate::claim::Cases;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::motor_case::{MotorCase, perturbation_table};
+use crate::figures::alike::alike;
+use crate::figures::motor_case::MotorCase;
+use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::stall::{Stall, net_share_at_rest};
 use crate::figures::synthetic::Noise;
 use crate::paper;
@@ -16,9 +19,6 @@ use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g): seven time constants or more.
 const RISES: f64 = 6.0;
-
-/// Relaunch perturbations (g/ω) for which the results are compared: none, and all sizes that were tried.
-const PERTURBATIONS: [f64; 8] = [0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 
 /// Seed of the preloads.
 pub(super) const PRELOAD_SEED: u64 = 46_201;
@@ -45,10 +45,10 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     let [low, high] = printed.measured_range_n.map(|preload| preload / rotor_mass_kg);
     let three_preloads = [low, 0.5 * (low + high), high];
     let [_, middle, _] = three_preloads;
-    progress.start((frequencies.len() * (amplitudes.len() + three_preloads.len() + 1)) as u64, "curves");
+    progress.start((frequencies.len() * (amplitudes.len() + three_preloads.len())) as u64, "curves");
 
     let mut noise = Noise::new(PRELOAD_SEED);
-    let (mut curves, mut perturbations, mut stalls) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut curves, mut stalls) = (Vec::new(), Vec::new());
     for frequency_hz in frequencies {
         for (amplitude_m, members) in amplitudes.into_iter().zip(members) {
             let case = MotorCase { frequency_hz, amplitude_m, ..motor };
@@ -76,9 +76,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
             });
             progress.advance(1);
         }
-        let case = MotorCase { frequency_hz, preload_acceleration_m_per_s2: middle, ..motor };
-        perturbations.push(perturbation_table(&case, &PERTURBATIONS, 2.0 * RISES, quality.choose(4, 24))?);
-        progress.advance(1);
     }
     let trends: Vec<Trend> =
         curves.iter().map(|curve| Trend::of(curve, trend_mn(&printed), 1e3 * printed.plateau_n)).collect();
@@ -88,7 +85,12 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
         holes: Holes::of(&curves),
         estimate_over_balance: super::trends::extent(&over_balance).ok_or_else(|| no_data("stall torque"))?,
         mean_estimate_over_balance: over_balance.iter().sum::<f64>() / over_balance.len() as f64,
-        reduced_twist: reduced_twist(&motor, quality.choose(4, 16), relaunch_perturbation)?,
+        reduced_twist: reduced_twist(
+            &motor,
+            quality.choose(4, 16),
+            quality.choose(DRAWN / 10, DRAWN),
+            relaunch_perturbation,
+        )?,
         mirrored: mirrored(&second, rotor_mass_kg, members[1], relaunch_perturbation)?,
         end_of_bouncing: EndOfBouncing::of(&motor)?,
         motor,
@@ -101,7 +103,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
         curves,
         trends,
         stalls,
-        perturbations,
         measured: MeasuredMotors::default(),
     })
 }
@@ -154,6 +155,7 @@ fn preloads([first, last]: [f64; 2], count: u32, noise: &mut Noise) -> Vec<f64> 
 fn reduced_twist(
     motor: &MotorCase,
     members: usize,
+    drawn: usize,
     relaunch_perturbation: f64,
 ) -> Result<ReducedTwist, ExperimentError> {
     let twist = motor.peak_angular_speed_rad_per_s;
@@ -162,6 +164,14 @@ fn reduced_twist(
         MotorCase { peak_angular_speed_rad_per_s, ..*motor }.statistics(RISES, members, relaunch_perturbation)
     };
     let [printed, reduced] = [statistics(speeds[0])?, statistics(speeds[1])?];
+    let single = PrintedInputs::table_three()?.drawn(drawn, PRELOAD_SEED);
+    let orbits = |peak_angular_speed_rad_per_s: f64| {
+        let with = |motor: &MotorCase| MotorCase { peak_angular_speed_rad_per_s, ..*motor };
+        alike(&single.iter().map(with).collect::<Vec<_>>(), RISES)
+    };
+    let pairs = orbits(speeds[0])?.into_iter().zip(orbits(speeds[1])?);
+    let slower =
+        Cases::of(pairs.map(|(one, other)| other.steady_speed_rad_per_s < one.steady_speed_rad_per_s));
     Ok(ReducedTwist {
         peak_angular_speeds_rad_per_s: speeds,
         steady_speeds_rad_per_s: [printed.steady_speed_rad_per_s, reduced.steady_speed_rad_per_s],
@@ -169,6 +179,7 @@ fn reduced_twist(
             .stall_acceleration_rad_per_s2
             .zip(reduced.stall_acceleration_rad_per_s2)
             .map(|(printed, reduced)| [printed, reduced]),
+        slower,
     })
 }
 

@@ -3,8 +3,8 @@
 use bouncing_disk::Spread;
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Agreement;
-use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
+use crate::claim::Cases;
+use crate::figures::motor_case::{MotorCase, MotorStatistics};
 use crate::figures::stall::Stall;
 use crate::paper::Preloads;
 
@@ -32,8 +32,6 @@ pub struct Fig11Data {
     pub(super) mean_estimate_over_balance: f64,
     /// What stalls the default motor at the lowest, the middle and the highest preload of the trends, by frequency.
     pub(super) stalls: Vec<StallAt>,
-    /// The default amplitude at the middle of these preloads, by frequency.
-    pub(super) perturbations: Vec<Vec<PerturbationEffect>>,
     /// The default motor at full preload with the printed and with a smaller ωΦ.
     pub(super) reduced_twist: ReducedTwist,
     /// The motor at the second frequency with θ and with θ + π.
@@ -80,6 +78,8 @@ pub(super) struct ReducedTwist {
     pub(super) peak_angular_speeds_rad_per_s: [f64; 2],
     pub(super) steady_speeds_rad_per_s: [Spread; 2],
     pub(super) stall_accelerations_rad_per_s2: Option<[Spread; 2]>,
+    /// Single orbits that are slower with the reduced one.
+    pub(super) slower: Cases,
 }
 
 /// A motor and the same with the phase lag shifted by π.
@@ -107,16 +107,6 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
     printed.measured_range_n.map(|preload| 1e3 * preload)
 }
 
-/// A power of the preload, fitted to logarithms.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Power {
-    pub(super) exponent: f64,
-    pub(super) standard_error: f64,
-    /// Share of the variance that it explains.
-    pub(super) explained: f64,
-    pub(super) motors: usize,
-}
-
 /// One curve: what its motors do inside the preloads of the measured trends, and beside them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Trend {
@@ -126,37 +116,21 @@ pub(super) struct Trend {
     pub(super) median_speed_rad_per_s: f64,
     pub(super) median_stall_per_preload_rad_per_s2_mn: f64,
     /// How many motors inside have a speed, a torque or both on the trend. A motor without a stall torque is off it.
-    pub(super) speed: Agreement,
-    pub(super) torque: Agreement,
-    pub(super) both: Agreement,
-    /// Speed and torque for [`OTHER_BOUNDS`](super::trends::OTHER_BOUNDS) instead of [`SHARP`](super::trends::SHARP).
-    pub(super) speed_for_other_bounds: [Agreement; 2],
-    pub(super) torque_for_other_bounds: [Agreement; 2],
-    /// Motors inside on a low-period cycle, and those of them with speed and torque on the trend.
-    pub(super) low_period: usize,
-    pub(super) low_period_on_trend: usize,
-    /// Motors inside without a stall torque.
-    pub(super) without_torque: usize,
-    /// Exponents inside without the motors on a low-period cycle.
-    pub(super) torque_power: Option<Power>,
-    pub(super) speed_power: Option<Power>,
+    pub(super) speed: Cases,
+    pub(super) torque: Cases,
+    pub(super) both: Cases,
     /// How many motors above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
-    pub(super) no_plateau: Agreement,
+    pub(super) no_plateau: Cases,
     /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
     pub(super) speed_exponent: Option<f64>,
     pub(super) torque_exponent: Option<f64>,
     /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
     pub(super) high_torque_exponent: Option<f64>,
-    /// The exponent there without the motors on a low-period cycle.
-    pub(super) high_torque_power_without: Option<Power>,
     /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
-    pub(super) no_fall: Agreement,
-    pub(super) no_rise_above: Agreement,
-    /// The same without the motors on a low-period cycle.
-    pub(super) no_fall_without: Agreement,
-    pub(super) no_rise_above_without: Agreement,
-    /// Slowest and fastest steady speed outside, of these.
-    pub(super) outside_without_rad_per_s: Option<[f64; 2]>,
+    pub(super) no_fall: Cases,
+    pub(super) no_rise_above: Cases,
+    /// Middle steady speed below and above the preloads of the trends, over that inside.
+    pub(super) outside_over_inside: [f64; 2],
 }
 
 /// The motors on a low-period cycle, and what those of a single flight do.
@@ -183,7 +157,7 @@ pub(super) struct EndOfBouncing {
     /// The largest launch speed (g/ω): A ω²/g of the default motor.
     pub(super) largest_launch_speed: f64,
     /// How many come to rest for good.
-    pub(super) at_rest: Agreement,
+    pub(super) at_rest: Cases,
     /// The most impacts that one of these needed.
     pub(super) most_impacts: usize,
     /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.

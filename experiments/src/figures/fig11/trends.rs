@@ -1,18 +1,12 @@
 //! The trends of Fig. 11 over the preloads.
 
-use bouncing_disk::core::elementary::ln;
-
-use super::data::{Curve, Holes, Point, Power, Trend};
-use crate::claim::Agreement;
-use crate::figures::regression::StraightLine;
+use super::data::{Curve, Holes, Point, Trend};
+use crate::claim::Cases;
 use crate::figures::samples;
 
 /// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
 /// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
 pub(super) const SHARP: f64 = 0.2;
-
-/// Other bounds, for which the motors on the trend are counted, too: the verdicts should not hang on [`SHARP`].
-pub(super) const OTHER_BOUNDS: [f64; 2] = [0.1, 0.3];
 
 /// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload, and largest exponent of either
 /// sign (with two standard errors) at which the speed counts as independent of it: over the 3.5-fold range of preloads both make 13 %.
@@ -28,48 +22,28 @@ impl Trend {
         let per_preload = |point: &Point| stall(point).map(|stall| stall / point.preload_mn);
         let median_speed = median(inside.iter().map(|point| speed(point)));
         let median_stall = median(inside.iter().filter_map(|point| per_preload(point)));
-        let near = |value: f64, middle: f64, bound: f64| (value - middle).abs() <= bound * middle.abs();
-        let speed_within = |point: &Point, bound: f64| near(speed(point), median_speed, bound);
-        let torque_within = |point: &Point, bound: f64| {
-            per_preload(point).is_some_and(|value| near(value, median_stall, bound))
+        let near = |value: f64, middle: f64| (value - middle).abs() <= SHARP * middle.abs();
+        let speed_holds = |point: &Point| near(speed(point), median_speed);
+        let torque_holds = |point: &Point| per_preload(point).is_some_and(|value| near(value, median_stall));
+        let no_fall = |points: &[&Point]| {
+            Cases::of(points.iter().map(|point| speed(point) >= (1.0 - SHARP) * median_speed))
         };
-        let speed_holds = |point: &Point| speed_within(point, SHARP);
-        let torque_holds = |point: &Point| torque_within(point, SHARP);
-        let chaotic = |points: &[&'_ Point]| -> Vec<Point> {
-            points.iter().filter(|point| !point.statistics.is_low_period()).map(|&&point| point).collect()
+        let no_rise = |points: &[&Point]| {
+            Cases::of(points.iter().map(|point| speed(point) <= (1.0 + SHARP) * median_speed))
         };
-        let all = |points: &[&'_ Point]| -> Vec<Point> { points.iter().map(|&&point| point).collect() };
-        let no_fall = |points: &[Point]| {
-            Agreement::of(points.iter().map(|point| speed(point) >= (1.0 - SHARP) * median_speed))
-        };
-        let no_rise = |points: &[Point]| {
-            Agreement::of(points.iter().map(|point| speed(point) <= (1.0 + SHARP) * median_speed))
-        };
+        let over_inside = |points: &[&Point]| median(points.iter().map(|point| speed(point))) / median_speed;
+        let outside_over_inside = [over_inside(&below), over_inside(&above)];
         let outside = [below, above.clone()].concat();
         let high: Vec<&Point> = every().filter(|point| point.preload_mn > plateau_mn).collect();
-        let inside_chaotic = chaotic(&inside);
         Self {
             frequency_hz: curve.frequency_hz,
             amplitude_m: curve.amplitude_m,
             median_speed_rad_per_s: median_speed,
             median_stall_per_preload_rad_per_s2_mn: median_stall,
-            speed: Agreement::of(inside.iter().map(|point| speed_holds(point))),
-            torque: Agreement::of(inside.iter().map(|point| torque_holds(point))),
-            both: Agreement::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
-            speed_for_other_bounds: OTHER_BOUNDS
-                .map(|bound| Agreement::of(inside.iter().map(|point| speed_within(point, bound)))),
-            torque_for_other_bounds: OTHER_BOUNDS
-                .map(|bound| Agreement::of(inside.iter().map(|point| torque_within(point, bound)))),
-            low_period: inside.len() - inside_chaotic.len(),
-            low_period_on_trend: inside
-                .iter()
-                .filter(|point| point.statistics.is_low_period())
-                .filter(|point| speed_holds(point) && torque_holds(point))
-                .count(),
-            without_torque: inside.iter().filter(|point| stall(point).is_none()).count(),
-            torque_power: Power::through(&inside_chaotic, stall),
-            speed_power: Power::through(&inside_chaotic, |point| Some(speed(point))),
-            no_plateau: Agreement::of(high.iter().map(|point| {
+            speed: Cases::of(inside.iter().map(|point| speed_holds(point))),
+            torque: Cases::of(inside.iter().map(|point| torque_holds(point))),
+            both: Cases::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
+            no_plateau: Cases::of(high.iter().map(|point| {
                 // Halfway between the line through the origin and what the torque is where the plateau begins.
                 let halfway = 0.5 * median_stall * (point.preload_mn + plateau_mn);
                 stall(point).is_some_and(|stall| stall > halfway)
@@ -77,41 +51,15 @@ impl Trend {
             speed_exponent: median_exponent(&inside, |point| Some(speed(point))),
             torque_exponent: median_exponent(&inside, stall),
             high_torque_exponent: median_exponent(&high, stall),
-            high_torque_power_without: Power::through(&chaotic(&high), stall),
-            no_fall: no_fall(&all(&outside)),
-            no_rise_above: no_rise(&all(&above)),
-            no_fall_without: no_fall(&chaotic(&outside)),
-            no_rise_above_without: no_rise(&chaotic(&above)),
-            outside_without_rad_per_s: extent(&chaotic(&outside).iter().map(speed).collect::<Vec<_>>()),
+            no_fall: no_fall(&outside),
+            no_rise_above: no_rise(&above),
+            outside_over_inside,
         }
     }
 
     /// The amplitude in words.
     pub(super) fn name(&self) -> String {
         format!("{:e} m", self.amplitude_m)
-    }
-}
-
-impl Power {
-    /// Through the motors for which `of` reads a positive number.
-    fn through(points: &[Point], of: fn(&Point) -> Option<f64>) -> Option<Self> {
-        let logarithms: Vec<(f64, f64)> = points
-            .iter()
-            .filter_map(|point| of(point).map(|value| (point.preload_mn, value)))
-            .filter(|(_, value)| *value > 0.0)
-            .map(|(preload, value)| (ln(preload), ln(value)))
-            .collect();
-        StraightLine::through(&logarithms).map(|line| Self {
-            exponent: line.slope,
-            standard_error: line.slope_error,
-            explained: line.explained,
-            motors: logarithms.len(),
-        })
-    }
-
-    /// In words.
-    pub(super) fn words(self) -> String {
-        format!("{:+.3} ± {:.3}", self.exponent, self.standard_error)
     }
 }
 
@@ -149,21 +97,9 @@ pub(super) fn speed(point: &Point) -> f64 {
     point.statistics.steady_speed_rad_per_s.mean
 }
 
-/// The median exponent of what `of` reads against preload over all pairs of motors for which it is positive (Theil and Sen, in logarithms).
+/// The exponent of what `of` reads against preload.
 fn median_exponent(points: &[&Point], of: fn(&Point) -> Option<f64>) -> Option<f64> {
-    let read: Vec<(f64, f64)> = points
-        .iter()
-        .filter_map(|point| {
-            of(point).filter(|value| *value > 0.0).map(|value| (ln(point.preload_mn), ln(value)))
-        })
-        .collect();
-    let slopes = read
-        .iter()
-        .enumerate()
-        .flat_map(|(index, one)| read[index + 1..].iter().map(move |other| (one, other)))
-        .filter(|(one, other)| (other.0 - one.0).abs() > 0.0)
-        .map(|(one, other)| (other.1 - one.1) / (other.0 - one.0));
-    samples::median(slopes)
+    samples::median_exponent(points.iter().filter_map(|point| Some((point.preload_mn, of(point)?))))
 }
 
 /// The middle one; zero of none.
@@ -213,18 +149,15 @@ mod tests {
         points[2] = point(40.0, 3.0, None, 1);
         let curve = Curve { frequency_hz: 7e4, amplitude_m: 1e-8, points, further: Vec::new() };
         let trend = Trend::of(&curve, [80.0, 280.0], 200.0);
-        assert_eq!(trend.speed, Agreement { holding: 20, tried: 21 });
-        assert_eq!(trend.torque, Agreement { holding: 20, tried: 21 });
-        assert_eq!((trend.low_period, trend.low_period_on_trend, trend.without_torque), (1, 0, 1));
-        assert_eq!(trend.no_fall, Agreement { holding: 8, tried: 9 });
-        assert_eq!(trend.no_fall_without, Agreement { holding: 8, tried: 8 });
-        assert_eq!(trend.no_rise_above, Agreement { holding: 3, tried: 3 });
+        assert_eq!(trend.speed, Cases { holding: 20, tried: 21 });
+        assert_eq!(trend.torque, Cases { holding: 20, tried: 21 });
+        assert_eq!(trend.no_fall, Cases { holding: 8, tried: 9 });
+        assert!((trend.outside_over_inside[0] - 1.0).abs() < 1e-12, "the middle one is not in the hole");
+        assert_eq!(trend.no_rise_above, Cases { holding: 3, tried: 3 });
         let exponent = trend.torque_exponent.expect("many motors");
         assert!((exponent - 1.0).abs() < 1e-12, "{exponent}");
         assert!(trend.speed_exponent.is_some_and(|exponent| exponent.abs() < 1e-12), "{trend:?}");
-        assert_eq!(trend.no_plateau, Agreement { holding: 11, tried: 11 });
-        let power = trend.torque_power.expect("many motors");
-        assert!((power.exponent - 1.0).abs() < 1e-12 && power.motors == 20, "{power:?}");
+        assert_eq!(trend.no_plateau, Cases { holding: 11, tried: 11 });
         let holes = Holes::of(&[curve]);
         assert_eq!((holes.motors, holes.low_period, holes.one_flight), (30, 2, 2));
         assert_eq!(
@@ -245,6 +178,6 @@ mod tests {
         assert!(trend.torque_exponent.expect("many motors").abs() < 1e-12);
         assert!((trend.speed_exponent.expect("many motors") - 1.0).abs() < 1e-12);
         assert_eq!(trend.no_plateau.holding, 0, "{:?}", trend.no_plateau);
-        assert!(trend.high_torque_power_without.expect("many motors").exponent.abs() < 1e-12);
+        assert!(trend.high_torque_exponent.expect("many motors").abs() < 1e-12);
     }
 }

@@ -2,30 +2,26 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::core::{ChatterPolicy, Launch, OrbitEvent, Phase};
 use bouncing_disk::{
     CollisionEvent, Collisions, Engine, InitialCondition, LONG_FLIGHT, NormalImpulses, PhasedImpulse,
     RampFit, Trajectory, TransientSettings, transient,
 };
 use rayon::prelude::*;
 
-use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Reading, Rounding, Shown, Zoom};
+use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;
-use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error, perturbation_table};
+use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
 use crate::paper;
 use crate::progress::Progress;
 
-/// Relative distance of the amplitudes that are tried.
-const AMPLITUDE_STEP: f64 = 1e-13;
+/// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two flights.
+const AMPLITUDE_STEP: f64 = 1e-9;
 /// Most amplitudes tried on each side.
-const MOST_STEPS: u32 = 5_000;
-/// Flights for which shares are counted.
-const FLIGHT_COUNTS: [usize; 7] = [1, 2, 3, 4, 10, 20, 50];
-/// Relaunch perturbations (g/ω) of the low-period case.
-const PERTURBATIONS: [f64; 8] = [0.0, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3, 1e-2, 1e-1];
+const MOST_STEPS: u32 = 40_000;
 /// Duration drawn, in rise times ωΦ a_g²/(μ a_e g).
 const LONG_RISES: f64 = 6.0;
 /// Duration drawn of the low-period case, in predicted times to the steady speed.
@@ -61,35 +57,12 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12
         preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
         ..motor
     };
-    progress.start(7, "cases");
-    let mut printed = Vec::new();
-    for case in [long, low] {
-        // ω read as 2π times 70 kHz, and as 70 000 rad/s.
-        for frequency_hz in [case.frequency_hz, case.frequency_hz / TAU] {
-            for policy in [ChatterPolicy::Complete, bouncing_disk::PAPER_CHATTER] {
-                printed.push(Reading {
-                    amplitude_m: case.amplitude_m,
-                    preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
-                    angular_frequency_rad_per_s: TAU * frequency_hz,
-                    papers_cut: policy == bouncing_disk::PAPER_CHATTER,
-                    cycle: MotorCase { frequency_hz, ..case }.cycle(policy)?,
-                });
-            }
-        }
-    }
-    progress.advance(1);
-    let rounding = [long, low]
-        .iter()
-        .map(|case| rounding(case, quality.choose(100, 2_000)))
-        .collect::<Result<Vec<_>, _>>()?;
-    progress.advance(1);
+    progress.start(4, "cases");
     let near = nearest_low_period(&low)?;
     progress.advance(1);
     let long_period = shown(long, long.amplitude_m)?;
     progress.advance(1);
     let low_period = shown(near, low.amplitude_m)?;
-    progress.advance(1);
-    let perturbations = perturbation_table(&near, &PERTURBATIONS, 6.0, quality.choose(4, 16))?;
     progress.advance(1);
     let count = quality.choose(DRAWN / 10, DRAWN);
     let inputs = PrintedInputs::table_three()?;
@@ -103,20 +76,15 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12
         Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
     };
     let [long_like, low_like] = both.map(|inputs| drawn(inputs, count));
-    let [long_exactly, low_exactly] =
-        both.map(|inputs| drawn(inputs.exact_settings(), quality.choose(count / 2, count / 4)));
-    let alike_of_low_period = first_of_low_period(&both[1], count)?;
+    let around = both[1].rounded_amplitude("section5.amplitude_of_low_period")?;
+    let alike_of_low_period = first_of_low_period(&around, count)?;
     progress.advance(1);
     Ok(Fig12Data {
         cases,
         long_period,
         low_period,
-        printed,
-        rounding,
         low_period_flights: LOW_PERIOD_FLIGHTS,
-        perturbations,
         alike: [long_like?, low_like?],
-        exact_settings: [long_exactly?, low_exactly?],
         alike_of_low_period,
     })
 }
@@ -210,39 +178,37 @@ fn beside(case: &MotorCase, step: f64) -> MotorCase {
     MotorCase { amplitude_m: case.amplitude_m * (1.0 + AMPLITUDE_STEP * step), ..*case }
 }
 
-/// The cycles of amplitudes next to that of `case`, on both sides.
-fn rounding(case: &MotorCase, amplitudes: u32) -> Result<Rounding, ExperimentError> {
-    let mut flights = Vec::new();
-    for index in 0..amplitudes {
-        let step = f64::from(index) - 0.5 * f64::from(amplitudes - 1);
-        flights.push(beside(case, step).cycle(ChatterPolicy::Complete)?.flights());
+/// Whether the rotor, thrown from rest, is at rest again after two flights or a few.
+fn is_short(motor: &MotorCase) -> Result<bool, ExperimentError> {
+    let system = motor.system()?;
+    let map = system.dimensionless().map();
+    let Some(leaves) = map.vibration().separation_phase() else { return Ok(false) };
+    let launch = Launch::new(leaves, 0.0).map_err(core_error)?;
+    let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
+    let mut flights = 0;
+    while flights <= LOW_PERIOD_FLIGHTS {
+        match orbit.advance().map_err(core_error)? {
+            Some(OrbitEvent::Impact(impact)) => {
+                flights += usize::from(impact.periods > 0 || impact.remainder > LONG_FLIGHT);
+            }
+            Some(OrbitEvent::Attachment(_)) => return Ok(flights > 1),
+            _ => break,
+        }
     }
-    let share = |&count: &usize| {
-        let within = flights.iter().filter(|flights| flights.is_some_and(|flights| flights <= count)).count();
-        (count, within as f64 / flights.len() as f64)
-    };
-    Ok(Rounding {
-        amplitude_m: case.amplitude_m,
-        preload_acceleration_m_per_s2: case.preload_acceleration_m_per_s2,
-        step: AMPLITUDE_STEP,
-        amplitudes: flights.len(),
-        share_up_to: FLIGHT_COUNTS.iter().map(share).collect(),
-    })
+    Ok(false)
 }
 
-/// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a low-period cycle of more than
-/// one flight; `case` itself if there is none within [`MOST_STEPS`].
+/// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a robust low-period cycle of more than one flight.
 fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
     for step in 0..MOST_STEPS {
         for sign in [1.0, -1.0] {
             let near = beside(case, sign * f64::from(step));
-            let cycle = near.cycle(ChatterPolicy::Complete)?;
-            if cycle.is_low_period() && !cycle.is_one_flight() {
+            if is_short(&near)? && near.robust_cycle()?.is_some() {
                 return Ok(near);
             }
         }
     }
-    Ok(*case)
+    Err(ExperimentError::NoData { quantity: "robust low-period cycle".to_owned() })
 }
 
 /// A rotor at rest on the stator at its lowest point.
@@ -262,8 +228,11 @@ fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentEr
     Ok(Shown {
         amplitude_offset: motor.amplitude_m / printed_amplitude - 1.0,
         axial_forcing: system.axial_forcing(),
-        cycle,
-        cycle_duration_s: cycle.platform_periods().map(|periods| periods as f64 / motor.frequency_hz),
+        robust_cycle: motor.robust_cycle()?,
+        cycle_duration_s: cycle
+            .platform_periods()
+            .filter(|_| low)
+            .map(|periods| periods as f64 / motor.frequency_hz),
         largest_acceleration_rad_per_s2: motor.largest_acceleration(),
         duration_s,
         fits: fits(&motor, duration_s)?,
@@ -399,4 +368,30 @@ fn zoom(
         zoom.height_m.push(state.height);
     }
     Ok(zoom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of what is drawn in (d) to (f) no change of the inputs by some units in the last place alters anything; of the printed amplitude it does.
+    #[test]
+    fn the_low_period_case_that_is_drawn_is_not_chosen_by_rounding() {
+        let cases = paper::chattering_cases().expect("reads");
+        let motor = MotorCase::default_of(
+            &paper::table_three().expect("reads"),
+            &paper::section_five().expect("reads"),
+        );
+        let printed = MotorCase {
+            amplitude_m: cases.amplitudes_m[1],
+            preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
+            ..motor
+        };
+        assert_eq!(printed.robust_cycle().expect("runs"), None);
+        let drawn = nearest_low_period(&printed).expect("there is one");
+        let robust = drawn.robust_cycle().expect("runs").expect("robust").cycle();
+        assert_eq!((robust.flights(), robust.platform_periods()), (Some(2), Some(1_533)));
+        let off = (drawn.amplitude_m / printed.amplitude_m - 1.0).abs();
+        assert!((1.0e-5..1.5e-5).contains(&off), "{off}");
+    }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::figures::alike::AlikeMotor;
-use crate::figures::motor_case::{Cycle, MotorCase, PerturbationEffect};
+use crate::figures::motor_case::{MotorCase, RobustCycle};
 use crate::paper::ChatteringCases;
 
 /// The data of Fig. 12.
@@ -12,20 +12,12 @@ pub struct Fig12Data {
     pub(super) cases: ChatteringCases,
     /// The printed long-period case.
     pub(super) long_period: Shown,
-    /// The low-period case, at the amplitude next to the printed one that repeats a low-period cycle.
+    /// The low-period case, at the amplitude nearest to the printed one that repeats a robust low-period cycle of more than one flight.
     pub(super) low_period: Shown,
-    /// The printed values of both cases, each under every reading.
-    pub(super) printed: Vec<Reading>,
-    /// Both cases: how often a change of the amplitude in its last places makes a low-period cycle.
-    pub(super) rounding: Vec<Rounding>,
     /// Most flights of a cycle that counts as one of low period.
     pub(super) low_period_flights: usize,
-    /// The motor of the low-period case against the size of the relaunch perturbation.
-    pub(super) perturbations: Vec<PerturbationEffect>,
-    /// Motors that print like those of both cases.
+    /// Motors of both cases whose amplitudes agree to twelve digits.
     pub(super) alike: [Alike; 2],
-    /// The first of these draws with μ, ε, A and ωΦ exactly as printed.
-    pub(super) exact_settings: [Alike; 2],
     /// Motors of low period among those that print like the low-period case.
     pub(super) alike_of_low_period: LowPeriod,
 }
@@ -58,28 +50,6 @@ pub(super) struct Lines {
     pub(super) gap_over_peak_angular_speed: f64,
 }
 
-/// A printed case under one reading of its frequency and one chattering policy.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Reading {
-    pub(super) amplitude_m: f64,
-    pub(super) preload_acceleration_m_per_s2: f64,
-    pub(super) angular_frequency_rad_per_s: f64,
-    pub(super) papers_cut: bool,
-    pub(super) cycle: Cycle,
-}
-
-/// The cycles at amplitudes that differ from the printed one in the last places.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Rounding {
-    pub(super) amplitude_m: f64,
-    pub(super) preload_acceleration_m_per_s2: f64,
-    /// Relative distance of neighbouring amplitudes.
-    pub(super) step: f64,
-    pub(super) amplitudes: usize,
-    /// Number of flights, and the share of amplitudes with cycles of no more.
-    pub(super) share_up_to: Vec<(usize, f64)>,
-}
-
 /// A motor whose transient is drawn. Nothing perturbs it.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Shown {
@@ -87,7 +57,8 @@ pub(super) struct Shown {
     /// Amplitude over the printed one minus 1.
     pub(super) amplitude_offset: f64,
     pub(super) axial_forcing: f64,
-    pub(super) cycle: Cycle,
+    /// Its cycle, if rounding does not choose it.
+    pub(super) robust_cycle: Option<RobustCycle>,
     pub(super) cycle_duration_s: Option<f64>,
     pub(super) largest_acceleration_rad_per_s2: f64,
     pub(super) duration_s: f64,

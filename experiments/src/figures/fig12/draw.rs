@@ -106,7 +106,7 @@ fn lines(area: Rect, shown: &Shown) -> Panel {
     let zoom = &shown.zoom;
     let points: Vec<(f64, f64)> =
         zoom.flight_time_s.iter().copied().zip(zoom.flight_speed_rad_per_s.iter().copied()).collect();
-    let flights = shown.cycle.flights().unwrap_or(1).max(1);
+    let flights = shown.robust_cycle.and_then(|robust| robust.cycle().flights()).unwrap_or(1).max(1);
     let extent = |of: fn(&(f64, f64)) -> f64| {
         let values = points.iter().map(of);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))

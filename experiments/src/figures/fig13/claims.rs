@@ -1,9 +1,8 @@
 //! What the paper says about Fig. 13.
 
-use super::data::{Fig13Data, ID, Parameter};
+use super::data::{Fig13Data, Parameter};
 use super::{orbits, sensitivity};
 use crate::claim::Claim;
-use crate::figures::motor_case::perturbation_claim;
 
 pub(super) fn claims(data: &Fig13Data) -> Vec<Claim> {
     let mut claims = vec![
@@ -20,7 +19,7 @@ pub(super) fn claims(data: &Fig13Data) -> Vec<Claim> {
         orbits::simplistic(data),
         orbits::form(data),
     ];
-    claims.extend(orbits::prevalent(data));
+    claims.push(orbits::prevalent(data));
     claims.extend(orbits::commonness(data));
     claims.extend(orbits::phases_of_impulse(data));
     claims.push(sensitivity::most_sensitive(
@@ -35,15 +34,5 @@ pub(super) fn claims(data: &Fig13Data) -> Vec<Claim> {
         sensitivity::stall_change,
         [Parameter::PhaseLag, Parameter::Restitution, Parameter::Friction],
     ));
-    for motor in &data.perturbations {
-        claims.push(perturbation_claim(
-            ID,
-            &format!(
-                "at ε = {} the steady speed does not depend on the size of the relaunch perturbation",
-                motor.restitution
-            ),
-            &motor.effects,
-        ));
-    }
     claims
 }

@@ -6,14 +6,13 @@ use bouncing_disk::core::elementary::{ln, pow};
 use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
 
 use super::data::{
-    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, PerturbedMotor, Prevalence, Sensitivity, Sweep,
-    SweepPoint,
+    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep, SweepPoint,
 };
-use super::sweeps::cosine_fit;
-use crate::claim::Agreement;
+use super::sweeps::{cosine_fit, trend_change};
+use crate::claim::Cases;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
-use crate::figures::motor_case::{MotorCase, perturbation_table};
+use crate::figures::motor_case::MotorCase;
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
 use crate::figures::samples;
@@ -24,10 +23,6 @@ use crate::progress::Progress;
 const RISES: f64 = 6.0;
 /// The perturbation (g/ω) with which each sweep is repeated.
 const BREAKING_PERTURBATION: f64 = 0.1;
-/// Sizes (g/ω) that are compared.
-const PERTURBATIONS: [f64; 7] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-9, 0.0];
-/// Another ε for which the sizes are compared: one where low-period cycles govern.
-const LOW_PERIOD_RESTITUTION: f64 = 0.3;
 /// ε of the distributions of impulse.
 const RESTITUTIONS: [f64; 3] = [0.2, 0.5, 0.8];
 /// Parts of the cycle in these distributions.
@@ -49,7 +44,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
     let impacts = quality.choose(4_000, 40_000);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
     let grids = Parameter::ALL.map(|parameter| values(parameter, &section.amplitudes_of_fig10_m, quality));
-    progress.start(grids.iter().map(|grid| grid.len() as u64).sum::<u64>() + 3, "motors");
+    progress.start(grids.iter().map(|grid| grid.len() as u64).sum::<u64>() + 2, "motors");
 
     let mut sweeps = Vec::new();
     for (parameter, grid) in Parameter::ALL.into_iter().zip(grids) {
@@ -66,7 +61,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
                 value,
                 peak_angular_speed_rad_per_s: case.peak_angular_speed_rad_per_s,
                 statistics: case.statistics(RISES, members, relaunch_perturbation)?,
-                broken: case.statistics(RISES, members, BREAKING_PERTURBATION)?,
                 predicted_speed_ratio,
                 predicted_stall_acceleration_rad_per_s2,
                 mean_impact_speed_m_per_s,
@@ -97,15 +91,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
     progress.advance(1);
     let alike = alike_motors(quality)?;
     progress.advance(1);
-    let perturbations = [motor.restitution, LOW_PERIOD_RESTITUTION]
-        .into_iter()
-        .map(|restitution| {
-            let case = MotorCase { restitution, ..motor };
-            let effects = perturbation_table(&case, &PERTURBATIONS, 2.0 * RISES, 2 * members)?;
-            Ok(PerturbedMotor { restitution, effects })
-        })
-        .collect::<Result<Vec<_>, ExperimentError>>()?;
-    progress.advance(1);
     Ok(Fig13Data {
         default: motor.statistics(RISES, 2 * members, relaunch_perturbation)?,
         motor,
@@ -116,7 +101,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
         sweeps,
         impulses,
         alike,
-        perturbations,
     })
 }
 
@@ -151,7 +135,7 @@ fn predict(case: &MotorCase, impulses: &NormalImpulses) -> (f64, Option<f64>) {
     (levels.steady_speed(), stall)
 }
 
-/// The motors of Table III, every input but ε anywhere between what still rounds to the printed one; and each of them with other values of one of the others.
+/// Motors of Table III with the g drawn that is not printed, at several ε; and each of them with other values of one of the others.
 fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
     let inputs = PrintedInputs::table_three()?;
     let count = quality.choose(DRAWN / 10, DRAWN);
@@ -232,13 +216,7 @@ impl Varied {
             StraightLine::through(&points.iter().map(|(x, y)| (coordinate(*x), *y)).collect::<Vec<_>>())
         };
         let change = |points: &[(f64, f64)], default: Option<f64>| {
-            let (first, last) = (points.first()?, points.last()?);
-            let change = match self.parameter {
-                Parameter::PhaseLag => 2.0 * cosine_fit(points)?.0,
-                Parameter::Amplitude => line(points)?.slope * (ln(last.0) - ln(first.0)),
-                _ => line(points)?.slope * (last.0 - first.0),
-            };
-            Some((change / default?).abs())
+            Some((trend_change(self.parameter, points)? / default?).abs())
         };
         let exponent = |points: &[(f64, f64)]| {
             let positive = points.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
@@ -324,8 +302,7 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
                 .platform_periods()
                 .is_some_and(|periods| periods as f64 / motor.frequency_hz <= SHORT_CYCLE * rises[index])
         }),
-        median_flights: flights.get(flights.len() / 2).copied().filter(|flights| *flights < usize::MAX),
-        within_limit: Agreement::of(
+        within_limit: Cases::of(
             motors.iter().filter_map(|motor| motor.stall_over_limit).map(|stall| stall <= 1.0),
         ),
         median_speed_ratio: median(|motor| Some(speed_ratio(motor))).unwrap_or_default(),

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Agreement;
+use crate::claim::Cases;
 use crate::figures::circular::Concentration;
-use crate::figures::motor_case::{MotorCase, MotorStatistics, PerturbationEffect};
+use crate::figures::motor_case::{MotorCase, MotorStatistics};
 
 /// The identifier of the figure.
 pub(super) const ID: &str = "fig13";
@@ -25,8 +25,6 @@ pub struct Fig13Data {
     pub(super) impulses: Vec<ImpulsePhases>,
     /// Motors that print alike, by ε.
     pub(super) alike: AlikeMotors,
-    /// The default motor, and one with a low-period cycle.
-    pub(super) perturbations: Vec<PerturbedMotor>,
 }
 
 /// A parameter of Fig. 13.
@@ -102,8 +100,6 @@ pub(super) struct SweepPoint {
     pub(super) value: f64,
     pub(super) peak_angular_speed_rad_per_s: f64,
     pub(super) statistics: MotorStatistics,
-    /// The same with the breaking perturbation.
-    pub(super) broken: MotorStatistics,
     /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
     pub(super) predicted_speed_ratio: f64,
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
@@ -166,10 +162,8 @@ pub(super) struct Prevalence {
     pub(super) share_up_to: Vec<(usize, f64)>,
     /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in lines.
     pub(super) share_of_short: f64,
-    /// Half of the motors have cycles of no more flights; `None` if that is not known of half of them.
-    pub(super) median_flights: Option<usize>,
     /// Of the motors that settle, how many have an α̇_ss/t_c of at most the limit μ a_e g/a_g².
-    pub(super) within_limit: Agreement,
+    pub(super) within_limit: Cases,
     /// Medians over the motors: steady speed over ωΦ; α̇_ss/t_c over the limit, over those that settle.
     pub(super) median_speed_ratio: f64,
     pub(super) median_stall_over_limit: Option<f64>,
@@ -219,11 +213,4 @@ impl Draw {
     pub(super) fn sensitivity(&self, parameter: Parameter) -> Option<&Sensitivity> {
         self.sensitivities.iter().find(|sensitivity| sensitivity.parameter == parameter)
     }
-}
-
-/// A motor against the size of the relaunch perturbation.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct PerturbedMotor {
-    pub(super) restitution: f64,
-    pub(super) effects: Vec<PerturbationEffect>,
 }

@@ -5,11 +5,12 @@ use std::f64::consts::{FRAC_PI_8, PI};
 use bouncing_disk::core::elementary::ln;
 
 use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
-use super::sweeps::{extent, sweep, sweep_points, words};
-use crate::claim::{Agreement, Claim, Verdict, all};
+use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
+use crate::claim::{Cases, Claim, all};
 use crate::figures::circular::Concentration;
 use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
 use crate::figures::regression::StraightLine;
+use crate::judging::trend;
 
 /// A quotient that changes by less than this share over two decades of A counts as constant.
 const CONSTANT_WITHIN: f64 = 0.1;
@@ -33,84 +34,53 @@ fn up_to(entry: &Prevalence, index: usize) -> f64 {
 }
 
 /// The ε below which most motors are of low period, by the one definition, and by others.
-pub(super) fn prevalent(data: &Fig13Data) -> Vec<Claim> {
+pub(super) fn prevalent(data: &Fig13Data) -> Claim {
     let alike = &data.alike;
-    let rows = alike.prevalence.iter().map(|entry| {
-        let shares =
-            entry.share_up_to.iter().map(|(flights, share)| format!("{:.0} % ≤ {flights}", 100.0 * share));
-        format!(
-            "ε = {:.2}: {} (median {})",
-            entry.restitution,
-            shares.collect::<Vec<_>>().join(", "),
-            entry.median_flights.map_or_else(|| "more".to_owned(), |flights| flights.to_string()),
-        )
-    });
     const KEY: &str = "section5.low_period_restitution";
     let counts = alike.prevalence.first().map_or(0, |entry| entry.share_up_to.len());
-    // What is not printed is the definition: the verdict is taken over all that are tried.
-    let by_definition = (0..counts)
-        .map(|index| crossing(data, |entry| up_to(entry, index)))
-        .chain([crossing(data, |entry| entry.share_of_short)]);
-    let definitions =
-        by_definition.map(|crossing| Claim::reading(ID, KEY, "", crossing).verdict() == Verdict::Reproduced);
-    let definitions = Agreement::of(definitions);
-    let mut claims = vec![Claim::printed(KEY, crossing(data, |entry| entry.share_of_low_period)).judged_over(definitions).note(format!(
-        "the ε at which half of {} motors that print alike ({}; ε set; nothing perturbs them) are of low period. The paper does not say what low period is, and the answer hangs on it: the printed \
-         number comes out for {} of {} definitions, and the verdict is taken over these. The number computed is that of the one used in all figures, a chattering cycle of at most \
-         {LOW_PERIOD_FLIGHTS} flights of more than half a period, from rest to rest; the others: at most so many flights, or a hundredth of the rise time. Flights in a \
-         cycle: {}",
-        alike.drawn,
-        alike.inputs,
-        definitions.holding,
-        definitions.tried,
-        rows.collect::<Vec<_>>().join("; ")
-    ))];
-    for index in 0..counts {
+    let by_flights = (0..counts).map(|index| {
         let flights = alike.prevalence[0].share_up_to[index].0;
-        if flights == LOW_PERIOD_FLIGHTS {
-            continue;
-        }
-        let quantity = format!("the same if cycles of at most {flights} flights are called low-period");
-        let claim = Claim::reading(ID, KEY, quantity, crossing(data, |entry| up_to(entry, index)));
-        claims.push(claim.note("another definition of low period"));
-    }
-    claims.push(
-        Claim::reading(
-            ID,
-            KEY,
-            "the same if cycles of at most a hundredth of the rise time are",
-            crossing(data, |entry| entry.share_of_short),
-        )
-        .note("another definition of low period: the speed rises in lines"),
-    );
-    claims
+        (format!("{flights} flights"), crossing(data, |entry| up_to(entry, index)))
+    });
+    let definitions: Vec<(String, f64)> = by_flights
+        .chain([("a hundredth of the rise time".to_owned(), crossing(data, |entry| entry.share_of_short))])
+        .collect();
+    let words = definitions.iter().map(|(name, crossing)| format!("{name}: {crossing:.3}"));
+    let verdicts = definitions.iter().map(|(_, crossing)| Claim::printed(KEY, *crossing).verdict());
+    Claim::printed(KEY, crossing(data, |entry| entry.share_of_low_period))
+        .note(format!(
+            "the ε at which half of {} single orbits ({}) are of low period, a chattering cycle of at most {LOW_PERIOD_FLIGHTS} flights of more than half a period; with other bounds: {}",
+            alike.drawn,
+            alike.inputs,
+            words.collect::<Vec<_>>().join("; ")
+        ))
+        .by_definition(&verdicts.collect::<Vec<_>>())
 }
 
 /// How often the exponential fits better, and that low period is the more common the smaller ε is.
 pub(super) fn commonness(data: &Fig13Data) -> [Claim; 2] {
     let alike = &data.alike;
-    let mut shares: Vec<f64> = alike.draws.iter().map(|draw| draw.share_of_exponential).collect();
-    shares.sort_by(f64::total_cmp);
-    let middle = shares.get(shares.len() / 2).copied().unwrap_or(f64::NAN);
+    let shares: Vec<f64> = alike.draws.iter().map(|draw| draw.share_of_exponential).collect();
+    let mean = shares.iter().sum::<f64>() / shares.len() as f64;
     let low = alike
         .prevalence
         .iter()
         .map(|entry| format!("{:.2}: {:.1} %", entry.restitution, 100.0 * entry.share_of_low_period));
-    let rows = alike.prevalence.windows(2);
+    let shares_of_low = alike.prevalence.iter().map(|entry| (entry.restitution, entry.share_of_low_period));
     [
-        Claim::printed_share(
+        Claim::printed_statement(
             "section5.most_transients_exponential",
-            Agreement::of(shares.iter().map(|share| *share > 0.5)),
+            Cases::of_share(mean),
             format!(
-                "whether the exponential fits better than a linear rise to a constant at more than half of the {} values of ε, for motors that print alike; the median \
-                 share is {:.0} %",
+                "the exponential fits better than a linear rise to a constant for {:.0} % of {} single orbits at {} values of ε from 0 on",
+                100.0 * mean,
+                shares.len(),
                 alike.prevalence.len(),
-                100.0 * middle
             ),
         ),
         Claim::printed_statement(
             "section5.smaller_restitution_gives_low_period",
-            all(rows, |pair| pair[0].share_of_low_period >= pair[1].share_of_low_period),
+            trend(shares_of_low, -1.0),
             format!(
                 "share of low period among {} motors that print alike, by ε: {}",
                 alike.drawn,
@@ -243,21 +213,22 @@ fn negative(slope: Option<f64>) -> bool {
 
 /// Both fall with ε.
 pub(super) fn restitution_lowers_both(data: &Fig13Data) -> Claim {
-    let falls = data.alike.draws.iter();
-    Claim::printed_share(
+    let draws = data.alike.draws.iter();
+    let falls = [speed as Quantity, stall].map(|of| trend(read(data, Parameter::Restitution, of), -1.0));
+    Claim::printed_statement(
         "section5.restitution_lowers_both",
-        Agreement::of(
-            falls.map(|draw| negative(draw.speed_ratio_slope) && negative(draw.stall_over_limit_slope)),
-        ),
+        all(falls, |pairs| 2 * pairs.holding > pairs.tried),
         format!(
-            "signs of the slopes against ε of both, for {} motors that print alike ({}; ε set; nothing perturbs them). Medians: steady speed/(ωΦ) {}; α̇_ss/t_c \
-             over its limit {}",
-            data.alike.drawn,
+            "of all pairs of ε the speed falls in {}, α̇_ss/t_c in {}; of single orbits the signs of both slopes ({}). Medians of these: steady speed/(ωΦ) {}; α̇_ss/t_c over its \
+             limit {}",
+            falls[0].words(),
+            falls[1].words(),
             data.alike.inputs,
             ends(data, |entry| Some(entry.median_speed_ratio)),
             ends(data, |entry| entry.median_stall_over_limit),
         ),
     )
+    .single_orbits(Cases::of(draws.map(|draw| negative(draw.speed_ratio_slope) && negative(draw.stall_over_limit_slope))))
 }
 
 /// Ĥ/ΔT ~ μ g (1 + ε).
@@ -269,18 +240,22 @@ pub(super) fn simplistic(data: &Fig13Data) -> Claim {
         .first()
         .zip(rows.last())
         .map_or(f64::NAN, |(first, last)| (last.restitution - first.restitution) / (1.0 + first.restitution));
-    Claim::printed_share(
+    let mean = StraightLine::through(&read(data, Parameter::Restitution, stall))
+        .zip(rows.first().zip(rows.last()))
+        .map(|(line, (first, last))| line.slope * (last.restitution - first.restitution) / line.intercept);
+    Claim::printed_statement(
         "section5.scaling_fails_for_restitution",
-        Agreement::of(rises.map(|rise| rise.is_some_and(|rise| rise < 0.5 * predicted))),
+        mean.map(|rise| rise < 0.5 * predicted),
         format!(
-            "whether α̇_ss/t_c rises with ε by less than half of what the scaling has it rise by ({:.0} % over the range of ε), for {} motors that print alike. Medians, over the limit: \
+            "whether α̇_ss/t_c rises with ε by less than half of what the scaling has it rise by ({:.0} % over the range of ε): the mean by {:.0} %. Medians of single orbits, over the limit: \
              {}. The interval between impacts is not w_A/g: the normal impulse (1 + ε)w_A per time equals the weight for any ε, so the factor 1 + ε \
              cancels, and ε acts only through the phases of the impulse",
             100.0 * predicted,
-            data.alike.drawn,
+            100.0 * mean.unwrap_or(f64::NAN),
             ends(data, |entry| entry.median_stall_over_limit),
         ),
     )
+    .single_orbits(Cases::of(rises.map(|rise| rise.is_some_and(|rise| rise < 0.5 * predicted))))
 }
 
 /// How well the phases of the impulse predict all points.

@@ -1,13 +1,10 @@
 //! How steady speed and stall torque depend on the parameters.
 
-use bouncing_disk::core::elementary::cos;
-
 use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::sweeps::{
-    Quantity, cosine_fit, elasticity, extent, low_period_words, read, speed, stall, sweep_points, words,
+    Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep_points, trend_change,
 };
-use crate::claim::{Agreement, Claim};
-use crate::figures::motor_case::relative_range;
+use crate::claim::{Cases, Claim};
 use crate::figures::regression::StraightLine;
 use crate::figures::samples;
 
@@ -36,105 +33,96 @@ pub(super) fn cosine(data: &Fig13Data) -> Claim {
         cosine_fit(&read(data, Parameter::PhaseLag, stall)).unwrap_or(nothing);
     let draws = &data.alike.draws;
     let is_cosine = |share: Option<f64>| share.is_some_and(|share| share >= EXPLAINED);
-    let speeds = Agreement::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine)));
-    let stalls = Agreement::of(draws.iter().map(|draw| is_cosine(draw.stall_cosine)));
-    let off = |point: &&(f64, f64)| (point.1 - factor * cos(point.0)).abs();
-    let worst = ratio.iter().max_by(|one, other| off(one).total_cmp(&off(other)));
-    Claim::printed_share(
+    let speeds = Cases::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine)));
+    let stalls = Cases::of(draws.iter().map(|draw| is_cosine(draw.stall_cosine)));
+    Claim::printed_statement(
         "section5.cosine_of_phase_lag",
-        Agreement::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine) && is_cosine(draw.stall_cosine))),
+        explained >= EXPLAINED && stall_explained >= EXPLAINED,
         format!(
-            "whether a cosine of θ explains {:.0} % of the variance of steady speed and of α̇_ss/t_c, over {} lags, for {} motors that print alike and that nothing perturbs; of the \
-             speed alone it does for {}, of α̇_ss/t_c for {}. In the figure, means over an ensemble: steady speed/(ωΦ) = {factor:.3} cos θ explains {:.2} % of the variance, stall acceleration = {stall_factor:.1} cos θ \
-             {:.2} % of its. {} The curve is not even in θ, since the impulses do not fall evenly about τ = 0",
+            "whether a cosine of θ explains {:.0} % of the variance: steady speed/(ωΦ) = {factor:.3} cos θ explains {:.2} %, stall acceleration = {stall_factor:.1} cos θ {:.2} %. Of single orbits \
+             the speed follows one for {}, α̇_ss/t_c for {}",
             100.0 * EXPLAINED,
-            data.alike.phase_lags_rad.len(),
-            draws.len(),
-            speeds.words(),
-            stalls.words(),
             100.0 * explained,
             100.0 * stall_explained,
-            worst.map_or_else(String::new, |point| format!(
-                "The speed ratio is farthest off at θ = {:.2}π, {:.3} against {:.3}.",
-                point.0 / std::f64::consts::PI,
-                point.1,
-                factor * cos(point.0)
-            )),
+            speeds.words(),
+            stalls.words(),
         ),
     )
+    .single_orbits(Cases::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine) && is_cosine(draw.stall_cosine))))
+}
+
+/// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among them.
+fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
+    samples::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
 }
 
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
-    let lines = [speed as Quantity, stall].map(|of| elasticity(data, Parameter::Amplitude, of));
-    let range = |of: Quantity| {
-        let values: Vec<f64> = read(data, Parameter::Amplitude, of).iter().map(|point| point.1).collect();
-        100.0 * relative_range(&values)
-    };
-    let draws = &data.alike.draws;
-    let small = |exponent: Option<f64>| exponent.is_some_and(|exponent| exponent.abs() < INSIGNIFICANT);
-    let holds =
-        draws.iter().map(|draw| small(draw.speed_amplitude_exponent) && small(draw.stall_amplitude_exponent));
-    Claim::printed_share(
+    let [of_speed, of_stall] = [speed as Quantity, stall].map(|of| exponent(data, Parameter::Amplitude, of));
+    let small = |exponent: f64| exponent.abs() < INSIGNIFICANT;
+    let holds = data.alike.draws.iter().map(|draw| {
+        [draw.speed_amplitude_exponent, draw.stall_amplitude_exponent]
+            .into_iter()
+            .all(|one| one.is_some_and(small))
+    });
+    Claim::printed_statement(
         "section5.amplitude_insensitivity",
-        Agreement::of(holds),
+        small(of_speed) && small(of_stall),
         format!(
-            "whether the exponents of A in both are below {INSIGNIFICANT} over the three printed amplitudes, for {} motors that print alike. Of the motors drawn in \
-             the figure the exponents are {} (range {:.0} %) and {} (range {:.0} %), {}",
-            draws.len(),
-            words(lines[0]),
-            range(speed),
-            words(lines[1]),
-            range(stall),
+            "whether the exponents of A are below {INSIGNIFICANT} over two decades: {of_speed:+.3} of the speed and {of_stall:+.3} of α̇_ss/t_c, {}; single orbits at the three printed \
+             amplitudes",
             low_period_words(data, Parameter::Amplitude),
         ),
     )
+    .cause("short cycles in the sweep of A")
+    .single_orbits(Cases::of(holds))
 }
 
 /// The agreement of the motors that print alike on what a parameter changes.
-fn agreement(data: &Fig13Data, parameter: Parameter, holds: impl Fn(&Sensitivity) -> bool) -> Agreement {
+fn agreement(data: &Fig13Data, parameter: Parameter, holds: impl Fn(&Sensitivity) -> bool) -> Cases {
     let draws = data.alike.draws.iter();
-    Agreement::of(draws.map(|draw| draw.sensitivity(parameter).is_some_and(&holds)))
+    Cases::of(draws.map(|draw| draw.sensitivity(parameter).is_some_and(&holds)))
 }
 
 pub(super) fn twist(data: &Fig13Data) -> Claim {
-    Claim::printed_share(
+    let mean = exponent(data, Parameter::PeakAngularSpeed, stall);
+    let single = agreement(data, Parameter::PeakAngularSpeed, |of| {
+        of.stall_exponent.is_some_and(|exponent| exponent.abs() < INSIGNIFICANT)
+    });
+    Claim::printed_statement(
         "section5.torque_independent_of_twist",
-        agreement(data, Parameter::PeakAngularSpeed, |of| {
-            of.stall_exponent.is_some_and(|exponent| exponent.abs() < INSIGNIFICANT)
-        }),
+        mean.abs() < INSIGNIFICANT,
         format!(
-            "whether the exponent of ωΦ in α̇_ss/t_c is below {INSIGNIFICANT} from {} to {} rad/s, for {} motors that print alike and that nothing perturbs. In the figure, means over an \
-             ensemble: exponent {}; that of the steady speed {}",
-            data.alike.peak_angular_speeds_rad_per_s.first().copied().unwrap_or(f64::NAN),
-            data.alike.peak_angular_speeds_rad_per_s.last().copied().unwrap_or(f64::NAN),
-            data.alike.drawn,
-            words(elasticity(data, Parameter::PeakAngularSpeed, stall)),
-            words(elasticity(data, Parameter::PeakAngularSpeed, speed))
+            "whether the exponent of ωΦ in α̇_ss/t_c is below {INSIGNIFICANT}: {mean:+.3}; that of the steady speed is {:+.3}",
+            exponent(data, Parameter::PeakAngularSpeed, speed)
         ),
     )
+    .single_orbits(single)
 }
 
 pub(super) fn friction(data: &Fig13Data) -> Claim {
-    let straight = StraightLine::through(&read(data, Parameter::Friction, stall));
-    Claim::printed_share(
+    let mean = exponent(data, Parameter::Friction, stall);
+    let explained = StraightLine::through(&read(data, Parameter::Friction, stall))
+        .map_or(f64::NAN, |line| line.explained);
+    let linear = |exponent: f64, explained: f64| {
+        (exponent - 1.0).abs() <= PROPORTIONAL_WITHIN && explained >= EXPLAINED
+    };
+    let single = agreement(data, Parameter::Friction, |of| {
+        of.stall_exponent
+            .zip(of.stall_explained)
+            .is_some_and(|(exponent, explained)| linear(exponent, explained))
+    });
+    Claim::printed_statement(
         "section5.torque_linear_in_friction",
-        agreement(data, Parameter::Friction, |of| {
-            of.stall_exponent.is_some_and(|exponent| (exponent - 1.0).abs() <= PROPORTIONAL_WITHIN)
-                && of.stall_explained.is_some_and(|explained| explained >= EXPLAINED)
-        }),
+        linear(mean, explained),
         format!(
-            "whether the exponent of μ in α̇_ss/t_c is within {PROPORTIONAL_WITHIN} of 1 and a straight line explains {:.0} % of its variance, from μ = {} to {}, for {} motors that print alike and \
-             that nothing perturbs. In the figure, means over an ensemble: exponent {}; straight line R² = {:.4}, intercept {:.2} rad/s²; the steady speed has the exponent {}",
+            "whether the exponent of μ in α̇_ss/t_c is within {PROPORTIONAL_WITHIN} of 1 and a straight line explains {:.0} % of the variance: {mean:+.3} and {:.2} %; the exponent in the steady \
+             speed is {:+.3}",
             100.0 * EXPLAINED,
-            data.alike.frictions.first().copied().unwrap_or(f64::NAN),
-            data.alike.frictions.last().copied().unwrap_or(f64::NAN),
-            data.alike.drawn,
-            words(elasticity(data, Parameter::Friction, stall)),
-            straight.map_or(f64::NAN, |line| line.explained),
-            straight.map_or(f64::NAN, |line| line.intercept),
-            words(elasticity(data, Parameter::Friction, speed)),
+            100.0 * explained,
+            exponent(data, Parameter::Friction, speed),
         ),
     )
+    .single_orbits(single)
 }
 
 /// What is read off the trend of a parameter.
@@ -158,65 +146,95 @@ fn medians(data: &Fig13Data, of: Change) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// How much a trend changes, in words.
-const CHANGE: &str = "change along the trend over the range, a straight line (of A in its logarithm, of θ a cosine), relative to the motor as printed; the ranges are ours, those of A the \
-    three printed amplitudes";
-
-/// That the parameters `named` are those with the largest changes.
-pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Parameter; 3]) -> Claim {
-    let holds = |draw: &Draw| {
-        let mut changes: Vec<(Parameter, f64)> =
-            draw.sensitivities.iter().filter_map(|one| Some((one.parameter, of(one)?))).collect();
-        changes.sort_by(|one, other| other.1.total_cmp(&one.1));
-        changes.len() == Parameter::ALL.len()
-            && changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter))
+/// What each parameter changes in the means that the figure draws, by the same measure as in a single orbit.
+fn mean_changes(data: &Fig13Data, of: Quantity, default: Option<f64>) -> Vec<(Parameter, f64)> {
+    let change = |parameter: Parameter| {
+        let points = read(data, parameter, of);
+        (
+            parameter,
+            trend_change(parameter, &points)
+                .zip(default)
+                .map_or(f64::NAN, |(change, default)| (change / default).abs()),
+        )
     };
-    let lacks = |draw: &&Draw| draw.sensitivities.iter().any(|one| of(one).is_none());
-    let incomplete = data.alike.draws.iter().filter(lacks).count();
-    Claim::printed_share(
-        key,
-        Agreement::of(data.alike.draws.iter().map(holds)),
-        format!(
-            "whether the named three have the largest changes, for {} motors that print alike and that nothing perturbs ({} of them lack a value, since too few of their transients are fitted, and count \
-             as not agreeing); medians: {}. {CHANGE}",
-            data.alike.drawn,
-            incomplete,
-            medians(data, of)
-        ),
-    )
+    Parameter::ALL.map(change).to_vec()
 }
+
+fn mean_speed_changes(data: &Fig13Data) -> Vec<(Parameter, f64)> {
+    mean_changes(data, speed, Some(data.default.steady_speed_rad_per_s.mean))
+}
+
+fn mean_stall_changes(data: &Fig13Data) -> Vec<(Parameter, f64)> {
+    mean_changes(data, stall, data.default.stall_acceleration_rad_per_s2.map(|spread| spread.mean))
+}
+
+fn change_words(changes: &[(Parameter, f64)]) -> String {
+    let words = changes.iter().map(|(parameter, change)| format!("{} {change:.2}", parameter.symbol()));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Whether the parameters `named` are those with the largest changes.
+fn are_largest(mut changes: Vec<(Parameter, f64)>, named: [Parameter; 3]) -> bool {
+    changes.sort_by(|one, other| other.1.total_cmp(&one.1));
+    changes.len() == Parameter::ALL.len()
+        && changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter))
+}
+
+/// That the parameters `named` are those with the largest changes of the steady speed, or of the stall torque.
+pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Parameter; 3]) -> Claim {
+    let means =
+        if key == "section5.speed_sensitivity" { mean_speed_changes(data) } else { mean_stall_changes(data) };
+    let single = |draw: &Draw| {
+        are_largest(
+            draw.sensitivities.iter().filter_map(|one| Some((one.parameter, of(one)?))).collect(),
+            named,
+        )
+    };
+    Claim::printed_statement(
+        key,
+        are_largest(means.clone(), named),
+        format!("{CHANGE}: {}; medians of single orbits: {}", change_words(&means), medians(data, of)),
+    )
+    .single_orbits(Cases::of(data.alike.draws.iter().map(single)))
+}
+
+/// How much a trend changes, in words.
+const CHANGE: &str = "change along the trend over the range, relative to the default motor; the ranges are ours, those of A the three printed amplitudes";
 
 /// That only θ and ε change both the steady speed and the stall torque.
 pub(super) fn both(data: &Fig13Data) -> Claim {
+    let named = |parameter| matches!(parameter, Parameter::Restitution | Parameter::PhaseLag);
     let significant = |change: Option<f64>| change.is_some_and(|change| change > SIGNIFICANT);
-    let holds = |draw: &Draw| {
+    let single = |draw: &Draw| {
         Parameter::ALL.into_iter().all(|parameter| {
-            let both = draw
-                .sensitivity(parameter)
-                .is_some_and(|of| significant(of.speed_change) && significant(of.stall_change));
-            both == matches!(parameter, Parameter::Restitution | Parameter::PhaseLag)
+            let of = draw.sensitivity(parameter);
+            of.is_some_and(|of| significant(of.speed_change) && significant(of.stall_change))
+                == named(parameter)
         })
     };
-    Claim::printed_share(
+    let (speeds, stalls) = (mean_speed_changes(data), mean_stall_changes(data));
+    let mean = speeds.iter().zip(&stalls).all(|((parameter, speed), (_, stall))| {
+        (*speed > SIGNIFICANT && *stall > SIGNIFICANT) == named(*parameter)
+    });
+    Claim::printed_statement(
         "section5.both_sensitivity",
-        Agreement::of(data.alike.draws.iter().map(holds)),
+        mean,
         format!(
-            "whether θ and ε, and no other, change both by more than {SIGNIFICANT}, for {} motors that print alike and that nothing perturbs; medians of the change of the steady speed: {}; of \
-             α̇_ss/t_c: {}. {CHANGE}",
-            data.alike.drawn,
-            medians(data, speed_change),
-            medians(data, stall_change)
+            "whether θ and ε, and no other, change both by more than {SIGNIFICANT}; {CHANGE}: steady speed {}; α̇_ss/t_c {}",
+            change_words(&speeds),
+            change_words(&stalls)
         ),
     )
+    .single_orbits(Cases::of(data.alike.draws.iter().map(single)))
 }
 
 pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
     let ratio = sweep_points(data).map(|point| point.speed_ratio().abs()).fold(0.0, f64::max);
     let draws = &data.alike.draws;
     let largest = extent(draws.iter().map(|draw| draw.largest_speed_ratio)).1;
-    Claim::printed_share(
+    Claim::printed_statement(
         "section5.speed_limit",
-        Agreement::of(draws.iter().map(|draw| draw.largest_speed_ratio <= 1.0 && ratio <= 1.0)),
+        Cases::of(draws.iter().map(|draw| draw.largest_speed_ratio <= 1.0 && ratio <= 1.0)),
         format!(
             "largest steady speed of the {} motors drawn in the figure: {ratio:.3} ωΦ; of the motors that print alike, at all ε: {largest:.3} ωΦ",
             sweep_points(data).count()
@@ -239,25 +257,14 @@ pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
     }
     let (share, place) = largest;
     let alike = &data.alike;
-    let above = alike
-        .prevalence
-        .iter()
-        .map(|entry| format!("ε = {:.2}: {}", entry.restitution, entry.within_limit.words()));
-    let everywhere = Agreement::of(alike.draws.iter().map(|draw| draw.largest_stall_over_limit <= 1.0));
-    Claim::printed_share(
+    Claim::printed_statement(
         "section5.torque_limit",
-        alike.prevalence.iter().map(|entry| entry.within_limit).sum(),
+        share <= 1.0,
         format!(
-            "whether α̇_ss/t_c stays below μ a_e g/a_g², for all motors that settle at {} values of ε from 0 to {:.1} and {} draws of the other inputs ({}). By ε: {}. Below it at \
-             every ε: {} of the draws. In the figure the largest quotient is, two standard errors below the mean, {share:.3} of the limit at {place}. The normal impulse per time is the \
-             weight, whatever the orbit, so no motor accelerates faster than the limit; but where the speed rises in lines rather than exponentially, at \
-             small ε, the fit makes more of α̇_ss/t_c than any acceleration",
-            alike.prevalence.len(),
-            alike.prevalence.last().map_or(f64::NAN, |entry| entry.restitution),
-            alike.drawn,
-            alike.inputs,
-            above.collect::<Vec<_>>().join("; "),
-            everywhere.words(),
+            "whether α̇_ss/t_c stays below μ a_e g/a_g², at all motors drawn: the largest is, two standard errors below the mean, {share:.3} of the limit, at {place}. No motor accelerates faster \
+             than the limit, for the normal impulse per time is the weight; but at small ε the speed rises in lines, and the fit makes more of α̇_ss/t_c than any acceleration",
         ),
     )
+    .cause("an initial slope of a fit that is no acceleration")
+    .single_orbits(alike.prevalence.iter().map(|entry| entry.within_limit).sum())
 }

@@ -59,14 +59,17 @@ pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     Some((factor, 1.0 - rest / all))
 }
 
-/// Elasticity: the exponent of a power law through all positive points.
-pub(super) fn elasticity(data: &Fig13Data, parameter: Parameter, of: Quantity) -> Option<StraightLine> {
-    let points: Vec<(f64, f64)> = read(data, parameter, of)
-        .into_iter()
-        .filter(|(value, quantity)| *value > 0.0 && *quantity > 0.0)
-        .map(|(value, quantity)| (ln(value), ln(quantity)))
-        .collect();
-    StraightLine::through(&points)
+/// By how much a quantity changes over the range of a parameter: along a straight line, of A in its logarithm, of θ along a cosine.
+pub(super) fn trend_change(parameter: Parameter, points: &[(f64, f64)]) -> Option<f64> {
+    let (first, last) = (points.first()?.0, points.last()?.0);
+    match parameter {
+        Parameter::PhaseLag => cosine_fit(points).map(|fit| 2.0 * fit.0),
+        Parameter::Amplitude => {
+            let logarithms: Vec<_> = points.iter().map(|(x, y)| (ln(*x), *y)).collect();
+            Some(StraightLine::through(&logarithms)?.slope * (ln(last) - ln(first)))
+        }
+        _ => Some(StraightLine::through(points)?.slope * (last - first)),
+    }
 }
 
 pub(super) fn words(line: Option<StraightLine>) -> String {

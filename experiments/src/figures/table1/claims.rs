@@ -1,7 +1,7 @@
 //! What the paper says about the single toss's inputs, compared with the data.
 
 use super::data::Table1Data;
-use crate::claim::{Agreement, Claim};
+use crate::claim::{Cases, Claim};
 use crate::figures::uncertainty::Propagated;
 
 const ID: &str = "table1";
@@ -29,7 +29,7 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
         Claim::reading(ID, frequency, "ω by Eq. (14) with the launch speeds taken at τ_sep", corrected.value),
         over_alike(friction, entries.friction.value, data.alike.friction)
             .note(format!("tan({}°)", data.slip_slope_deg.value)),
-        Claim::printed("table1.friction_uncertainty", entries.friction.sum)
+        over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
             .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
         Claim::printed_statement(
             "section3.start_is_lowest",
@@ -60,7 +60,8 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
                 arc.half_m,
                 arc.per_period_m
             ),
-        ),
+        )
+        .cause("half of the arc called the arc"),
         Claim::printed_statement(
             "section3.restitution_is_no_input",
             (!restitution.tried.is_empty()).then_some(
@@ -104,7 +105,7 @@ fn combined(key: &str, computed: &Propagated) -> Claim {
 }
 
 /// An entry that the paper computes, judged over inputs that all round to the printed ones.
-fn over_alike(key: &str, computed: f64, agreement: Agreement) -> Claim {
+fn over_alike(key: &str, computed: f64, agreement: Cases) -> Claim {
     Claim::printed(key, computed).judged_over(agreement).note(format!(
         "at the printed inputs; of {} inputs that all round to them {} give the printed number",
         agreement.tried, agreement.holding
@@ -132,4 +133,5 @@ fn launch_without_slip(data: &Table1Data) -> Claim {
             data.computed_entries.angular_frequency_rad_per_s.value,
         ),
     )
+    .cause("the hand's largest speeds taken for those at separation")
 }

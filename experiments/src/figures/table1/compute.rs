@@ -52,7 +52,7 @@ pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
         fastest: fastest(&case)?,
         arc: arc(&case, platform)?,
         restitution: restitution(&case)?,
-        alike: alike()?,
+        alike: alike(slip_slope_deg.uncertainty)?,
         table_i,
         section,
         slip_slope_deg,
@@ -91,7 +91,7 @@ fn computed_entries(
 pub(super) const SEED: u64 = 1;
 
 /// The computed entries over inputs that all round to the printed ones.
-fn alike() -> Result<Alike, ExperimentError> {
+fn alike(uncertainty_deg: f64) -> Result<Alike, ExperimentError> {
     let launch = [
         ("section3.launch_speed", 0),
         ("section3.launch_angular_speed", 0),
@@ -104,6 +104,10 @@ fn alike() -> Result<Alike, ExperimentError> {
         .collect::<Result<Vec<_>, _>>()
         .map_err(ExperimentError::model)?;
     let slopes = draws([("section3.slip_slope", 0)], DRAWN, SEED)?;
+    let tangent = |slope: f64| tan(PI / 180.0 * slope);
+    // Both ends of the slope's range are printed to whole degrees.
+    let half_width =
+        |[slope]: &[f64; 1]| 0.5 * (tangent(slope + uncertainty_deg) - tangent(slope - uncertainty_deg));
     Ok(Alike {
         angular_frequency: agreement(
             "table1.angular_frequency",
@@ -113,7 +117,8 @@ fn alike() -> Result<Alike, ExperimentError> {
             "table1.amplitude_angle",
             strokes.iter().map(|stroke| stroke.amplitude_angle),
         )?,
-        friction: agreement("table1.friction", slopes.iter().map(|[slope]| tan(PI / 180.0 * slope)))?,
+        friction: agreement("table1.friction", slopes.iter().map(|[slope]| tangent(*slope)))?,
+        friction_uncertainty: agreement("table1.friction_uncertainty", slopes.iter().map(half_width))?,
     })
 }
 

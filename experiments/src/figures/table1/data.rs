@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Agreement;
+use crate::claim::Cases;
 use crate::figures::uncertainty::Propagated;
 use crate::paper::{SectionThree, TableOne, Uncertain};
 
@@ -26,9 +26,10 @@ pub struct Table1Data {
 /// How many inputs that all print alike give the printed entries.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Alike {
-    pub(super) angular_frequency: Agreement,
-    pub(super) amplitude_angle: Agreement,
-    pub(super) friction: Agreement,
+    pub(super) angular_frequency: Cases,
+    pub(super) amplitude_angle: Cases,
+    pub(super) friction: Cases,
+    pub(super) friction_uncertainty: Cases,
 }
 
 /// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled

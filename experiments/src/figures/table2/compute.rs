@@ -4,7 +4,6 @@ use bouncing_disk::{LaunchSpeeds, Stroke};
 
 use super::data::{Combined, Effect, Table2Data};
 use crate::experiment::ExperimentError;
-use crate::figures::printed_inputs::{DRAWN, agreement, tosses};
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
 use crate::paper::{self, SectionThree, TableOne, TableTwo, Uncertain};
@@ -12,9 +11,6 @@ use crate::progress::Progress;
 
 /// Share of an uncertainty over which a slope is taken.
 const SLOPE_STEP: f64 = 1e-4;
-
-/// Seed of the tosses that print alike.
-pub(super) const SEED: u64 = 2;
 
 /// An input of the toss: how the paper names it and how it is changed.
 struct Input {
@@ -25,7 +21,6 @@ struct Input {
     printed_value: Uncertain,
     printed: f64,
     set: fn(&mut TossCase, f64),
-    get: fn(&TossCase) -> f64,
 }
 
 fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
@@ -38,7 +33,6 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             printed_value: table.stroke_m,
             printed: printed.stroke_effect_rad_per_s,
             set: |case, value| case.stroke_m = value,
-            get: |case| case.stroke_m,
         },
         Input {
             symbol: "ω",
@@ -48,7 +42,6 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             printed_value: table.angular_frequency_rad_per_s,
             printed: printed.angular_frequency_effect_rad_per_s,
             set: |case, value| case.angular_frequency_rad_per_s = value,
-            get: |case| case.angular_frequency_rad_per_s,
         },
         Input {
             symbol: "a_e",
@@ -58,7 +51,6 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             printed_value: table.contact_radius_m,
             printed: printed.contact_radius_effect_rad_per_s,
             set: |case, value| case.contact_radius_m = value,
-            get: |case| case.contact_radius_m,
         },
         Input {
             symbol: "a_g",
@@ -68,7 +60,6 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             printed_value: table.gyration_radius_m,
             printed: printed.gyration_radius_effect_rad_per_s,
             set: |case, value| case.gyration_radius_m = value,
-            get: |case| case.gyration_radius_m,
         },
         Input {
             symbol: "μ",
@@ -78,7 +69,6 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             printed_value: table.friction,
             printed: printed.friction_effect_rad_per_s,
             set: |case, value| case.friction = value,
-            get: |case| case.friction,
         },
         Input {
             symbol: "φ_L",
@@ -88,35 +78,22 @@ fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
             printed_value: table.amplitude_angle_rad,
             printed: printed.amplitude_angle_effect_rad_per_s,
             set: |case, value| case.amplitude_angle_rad = value,
-            get: |case| case.amplitude_angle_rad,
         },
     ]
 }
 
-fn effect(table: &TossCase, input: &Input, alike: &[TossCase]) -> Result<Effect, ExperimentError> {
+fn effect(table: &TossCase, input: &Input) -> Result<Effect, ExperimentError> {
     let Uncertain { value, uncertainty } = input.printed_value;
     let speed = |share: f64| {
         let mut case = *table;
         (input.set)(&mut case, value + share * uncertainty);
         case.airborne_speed()
     };
-    let half_difference = |toss: &TossCase| -> Result<f64, ExperimentError> {
-        let end = |sign: f64| {
-            let mut case = *toss;
-            (input.set)(&mut case, (input.get)(toss) + sign * uncertainty);
-            case.airborne_speed()
-        };
-        Ok(0.5 * (end(1.0)? - end(-1.0)?).abs())
-    };
-    let key = format!("table2.{}_effect", input.name);
-    let of_alike = alike.iter().map(half_difference).collect::<Result<Vec<_>, _>>()?;
-    let agreement = agreement(&key, of_alike)?;
     let middle = speed(0.0)?;
     let (upper, lower) = (speed(1.0)? - middle, speed(-1.0)? - middle);
     Ok(Effect {
         input: input.symbol.to_owned(),
-        key,
-        agreement,
+        key: format!("table2.{}_effect", input.name),
         unit: input.unit.to_owned(),
         value,
         uncertainty,
@@ -180,10 +157,9 @@ pub(super) fn compute(progress: &dyn Progress) -> Result<Table2Data, ExperimentE
     let table = TossCase::from(&table_i);
     let inputs = inputs(&table_i, &printed);
     progress.start(inputs.len() as u64, "inputs");
-    let alike = tosses(DRAWN, SEED)?;
     let mut effects = Vec::new();
     for input in &inputs {
-        effects.push(effect(&table, input, &alike)?);
+        effects.push(effect(&table, input)?);
         progress.advance(1);
     }
     Ok(Table2Data {

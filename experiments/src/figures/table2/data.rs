@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Agreement;
 use crate::paper::{SectionThree, TableOne};
 
 /// The data of Table II.
@@ -38,8 +37,6 @@ pub(super) struct Effect {
     pub(super) printed_rad_per_s: f64,
     /// The symbol as it is set in print.
     pub(super) label: String,
-    /// Of tosses whose inputs all round to those of Table I, those whose half difference rounds to the printed effect.
-    pub(super) agreement: Agreement,
 }
 
 /// The effects of all inputs together, in rad/s, from central effects.

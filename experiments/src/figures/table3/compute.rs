@@ -3,11 +3,10 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::TransientSettings;
-use bouncing_disk::core::ChatterPolicy;
 
 use super::data::{Drop, Following, Input, Table3Data};
 use crate::catalogue;
-use crate::claim::Agreement;
+use crate::claim::Cases;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
 use crate::figures::printed_inputs::DRAWN;
@@ -41,7 +40,7 @@ pub(super) fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
         varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
         derived: derived(&cases, &stalls, mass)?,
         stalls,
-        drop: ball_drop(&section, &as_frequency)?,
+        drop: ball_drop(&section)?,
         ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
     })
 }
@@ -183,7 +182,7 @@ fn derived(
     ])
 }
 
-fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, ExperimentError> {
+fn ball_drop(section: &SectionFive) -> Result<Drop, ExperimentError> {
     let heights = paper::ball_drop()?;
     let gravity = section.gravity_m_per_s2;
     let inputs = [Uncertain { value: heights.drop_height_m, uncertainty: 0.0 }, heights.rebound_height_m];
@@ -204,18 +203,16 @@ fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, Experimen
     let needed = |speed: f64, height: f64| speed * speed / (2.0 * height);
     let mut noise = Noise::new(DROP_SEED);
     let mut even = |[low, high]: [f64; 2]| low + (high - low) * noise.even();
-    let agreement = Agreement::of((0..DRAWN).map(|_| {
+    let agreement = Cases::of((0..DRAWN).map(|_| {
         let (height, gravity) = (even(printed_heights), even(printed_gravities));
         (printed_speeds[0]..=printed_speeds[1]).contains(&(2.0 * gravity * height).sqrt())
     }));
     let printed_rebounds = ends("section5.rebound_height", -2)?;
     let printed_restitutions = ends("section5.estimated_restitution", 0)?;
-    let restitution_agreement = Agreement::of((0..DRAWN).map(|_| {
+    let restitution_agreement = Cases::of((0..DRAWN).map(|_| {
         let (height, rebound) = (even(printed_heights), even(printed_rebounds));
         (printed_restitutions[0]..=printed_restitutions[1]).contains(&(rebound / height).sqrt())
     }));
-    let smallest = MotorCase { amplitude_m: section.amplitudes_of_fig10_m[0], ..*motor };
-    let at_highest = MotorCase { preload_acceleration_m_per_s2: highest, ..smallest };
     let drop_height = heights.drop_height_m;
     Ok(Drop {
         impact_speed_m_per_s: speed(drop_height),
@@ -230,9 +227,6 @@ fn ball_drop(section: &SectionFive, motor: &MotorCase) -> Result<Drop, Experimen
         agreement,
         highest_varied_m_per_s2: highest,
         impact_speed_at_highest_m_per_s: (2.0 * highest * drop_height).sqrt(),
-        smallest_amplitude_m: smallest.amplitude_m,
-        cycle_at_gravity: smallest.cycle(ChatterPolicy::Complete)?,
-        cycle_at_highest: at_highest.cycle(ChatterPolicy::Complete)?,
         heights,
         restitution,
         restitution_range: [0, 1].map(|end| (printed_rebounds[end] / printed_heights[1 - end]).sqrt()),

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Agreement;
-use crate::figures::motor_case::Cycle;
+use crate::claim::Cases;
 use crate::figures::stall::Stall;
 use crate::figures::uncertainty::Propagated;
 use crate::paper::BallDrop;
@@ -61,7 +60,7 @@ pub(super) struct Drop {
     /// The least and the largest ε of heights that round to the printed ones.
     pub(super) restitution_range: [f64; 2],
     /// Of these heights, drawn evenly, those whose ε rounds to the printed one.
-    pub(super) restitution_agreement: Agreement,
+    pub(super) restitution_agreement: Cases,
     pub(super) impact_speed_m_per_s: f64,
     /// For the heights that are printed as the drop height.
     pub(super) impact_speed_range_m_per_s: [f64; 2],
@@ -73,12 +72,8 @@ pub(super) struct Drop {
     /// What rounds to the printed gravity, up to the highest g of Sec. V B: no g is printed for the drop.
     pub(super) printed_gravity_range_m_per_s2: [f64; 2],
     /// Of the heights that round to the printed one and of these g, drawn evenly, those that give the printed speed.
-    pub(super) agreement: Agreement,
+    pub(super) agreement: Cases,
     /// The highest g of Sec. V B, and the impact speed with it.
     pub(super) highest_varied_m_per_s2: f64,
     pub(super) impact_speed_at_highest_m_per_s: f64,
-    /// The motor with the smallest A of Fig. 10 at gravity and at that highest g.
-    pub(super) smallest_amplitude_m: f64,
-    pub(super) cycle_at_gravity: Cycle,
-    pub(super) cycle_at_highest: Cycle,
 }
