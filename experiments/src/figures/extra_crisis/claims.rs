@@ -10,7 +10,7 @@ const PLACE: &str = "this work";
 const ERRORS: f64 = 3.0;
 
 pub(super) fn claims(data: &ExtraCrisisData) -> Vec<Claim> {
-    let (crisis, tangency) = (&data.crisis, &data.tangency);
+    let (crisis, tangency) = (&data.crisis, &data.contact);
     let (none, some) = crisis.bracket;
     let fitted = data.lives.scaling.as_ref().ok().zip(data.expected_exponent);
     vec![

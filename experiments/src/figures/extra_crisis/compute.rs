@@ -68,7 +68,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Extra
         orbits,
         most_impacts,
         expected_exponent: crisis.life_exponent(),
-        tangency,
+        contact: tangency,
         crisis,
     })
 }

@@ -11,7 +11,7 @@ pub(super) type Spot = (f64, f64);
 pub struct ExtraCrisisData {
     pub(super) crisis: Crisis,
     /// The tangency that is its reason.
-    pub(super) tangency: Tangency,
+    pub(super) contact: Tangency,
     /// Γ at which the unstable manifold of the period-1 orbit, in the midst of the attractor, touches the same
     /// stable manifold.
     pub(super) midst_forcing: f64,
@@ -53,8 +53,8 @@ impl ExtraCrisisData {
              the multipliers of the saddle tell.",
             self.crisis.restitution,
             self.crisis.forcing,
-            self.tangency.touched.period(),
-            self.tangency.touched.platform_periods,
+            self.contact.touched.period(),
+            self.contact.touched.platform_periods,
             self.orbits,
         )
     }
@@ -63,7 +63,7 @@ impl ExtraCrisisData {
         [
             ("restitution", self.crisis.restitution.to_string()),
             ("Γ of the crisis", format!("{:.7} ± {:.0e}", self.crisis.forcing, self.crisis.forcing_error)),
-            ("multipliers of the saddle", format!("{:.4}", self.tangency.touched.multipliers())),
+            ("multipliers of the saddle", format!("{:.4}", self.contact.touched.multipliers())),
             ("orbits at each Γ", self.orbits.to_string()),
             ("impacts of an orbit at most", self.most_impacts.to_string()),
         ]
