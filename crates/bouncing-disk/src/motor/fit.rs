@@ -183,7 +183,12 @@ fn exponential(x: f64) -> f64 {
 /// Checks that times and speeds are those of a curve that can be fitted, and begins at time zero or later.
 pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     let first = times.first().copied().unwrap_or(0.0);
-    check(first >= 0.0 || first.is_nan(), "times of the speed curve", first, "finite, not negative, rising (s)")?;
+    check(
+        first >= 0.0 || first.is_nan(),
+        "times of the speed curve",
+        first,
+        "finite, not negative, rising (s)",
+    )?;
     check_rows(times, speeds)
 }
 
@@ -231,14 +236,10 @@ impl Saturation {
         work: &mut WorkCount<'_>,
     ) -> Result<Self, Error> {
         let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
-        let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
-        let fit = Self::of_scaled(
-            &scaled(times, time_scale),
-            &scaled(speeds, speed_scale),
-            shape,
-            start,
-            work,
-        )?;
+        let scaled =
+            |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
+        let fit =
+            Self::of_scaled(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape, start, work)?;
         Ok(Self {
             constant: positive("fitted time (s)", fit.constant / time_scale)?,
             steady: finite("fitted steady speed (rad/s)", fit.steady / speed_scale)?,

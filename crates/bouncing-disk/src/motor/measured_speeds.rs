@@ -4,9 +4,11 @@
 pub(crate) mod csv_file;
 #[cfg(feature = "csv")]
 pub(crate) mod error;
+pub(crate) mod units;
 
 use bouncing_disk_core::{Observer, Unobserved};
 
+use self::units::{SpeedUnit, TimeUnit};
 use crate::error::{Error, check, within_limit};
 use crate::motor::braking_fit::{BrakingFit, BrakingRotor};
 use crate::motor::ensemble::MAX_SPEEDS;
@@ -43,6 +45,8 @@ pub struct MeasuredRun {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredSpeeds {
     runs: Vec<MeasuredRun>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    units: (TimeUnit, SpeedUnit),
 }
 
 impl MeasuredSpeeds {
@@ -61,13 +65,19 @@ impl MeasuredSpeeds {
         }
         let speeds = runs.iter().map(|run| run.speeds.len()).sum();
         within_limit("speeds of all runs", speeds, MAX_SPEEDS)?;
-        Ok(Self { runs })
+        Ok(Self { runs, units: Default::default() })
     }
 
     /// The runs, at least one.
     #[must_use]
     pub fn runs(&self) -> &[MeasuredRun] {
         &self.runs
+    }
+
+    /// The units that the file had, from which times and speeds were converted.
+    #[must_use]
+    pub const fn file_units(&self) -> (TimeUnit, SpeedUnit) {
+        self.units
     }
 
     /// Steady speed and time constant with intervals, of all runs together ([`TransientFit::of_measured`]).

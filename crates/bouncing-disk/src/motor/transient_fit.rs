@@ -280,8 +280,12 @@ impl TransientFit {
 
     /// Refuses a start from rest that a fit without it denies.
     fn refuse_other_start(&self, free: &Self) -> Result<(), Error> {
-        let Some(start) = free.exponential.start_speed else { return Ok(()) };
-        let by = self.speed(free.start_time) - start.value;
+        let (own, other, shape): (_, _, fn(f64) -> f64) = match free.form {
+            RiseForm::Exponential => (Some(self.exponential), Some(free.exponential), exponential),
+            RiseForm::Ramp => (self.ramp, free.ramp, ramp),
+        };
+        let (Some(own), Some(start)) = (own, other.and_then(|rise| rise.start_speed)) else { return Ok(()) };
+        let by = own.steady_speed.value * shape(free.start_time / own.constant.value) - start.value;
         let reach = if by > 0.0 { start.high - start.value } else { start.value - start.low };
         if by.abs() > DENIED * reach {
             let (zero_time, start_time) = (free.zero_time(), free.start_time);
@@ -327,7 +331,11 @@ struct Rows {
 
 impl Rows {
     /// Of legal curves, which are computed if their flights are known.
-    fn of(curves: &[(&[f64], &[f64])], flights: Option<f64>, work: &mut WorkCount<'_>) -> Result<Self, Error> {
+    fn of(
+        curves: &[(&[f64], &[f64])],
+        flights: Option<f64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
         let members = curves.len();
         if members < LEAST_MEMBERS && (members != 1 || flights.is_some()) {
             return refused(FitRefusal::TooFewMembers { members, least: LEAST_MEMBERS });
@@ -335,7 +343,8 @@ impl Rows {
         within_limit("members of an ensemble", members, MAX_MEMBERS)?;
         let all: usize = curves.iter().map(|(times, _)| times.len()).sum();
         within_limit("speeds of an ensemble", all, MAX_SPEEDS)?;
-        let largest = |(_, speeds): &(&[f64], &[f64])| speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
+        let largest =
+            |(_, speeds): &(&[f64], &[f64])| speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
         let scale = summing_scale(&curves.iter().map(largest).collect::<Vec<_>>());
         let have_same_times = curves.iter().all(|(times, _)| *times == curves[0].0);
         let groups = if have_same_times { members.min(MOST_GROUPS) } else { members };
@@ -386,7 +395,8 @@ impl Rows {
         let unit = summing_scale(&self.runs[0].times);
         for rows in self.sorted().chunks(self.runs.len()) {
             let weight: f64 = rows.iter().map(|row| row[0]).sum();
-            let mean = |of: &dyn Fn(&[f64; 3]) -> f64| rows.iter().map(|row| row[0] * of(row)).sum::<f64>() / weight;
+            let mean =
+                |of: &dyn Fn(&[f64; 3]) -> f64| rows.iter().map(|row| row[0] * of(row)).sum::<f64>() / weight;
             let is_one = rows.iter().all(|row| row[1].total_cmp(&rows[0][1]).is_eq());
             self.times.push(if is_one { rows[0][1] } else { mean(&|row| row[1] * unit) / unit });
             self.speeds.push(mean(&|row| row[2]));
@@ -409,7 +419,12 @@ impl Rows {
         if misfit > LARGEST_MISFIT && misfit.is_finite() { misfit } else { 1.0 }
     }
 
-    fn fit(&self, start: Start, settings: &FitSettings, work: &mut WorkCount<'_>) -> Result<TransientFit, Error> {
+    fn fit(
+        &self,
+        start: Start,
+        settings: &FitSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<TransientFit, Error> {
         let before = if start == Start::AnySpeed && self.times.len() > LEAST_POINTS {
             rows_before_rise(&self.times, &self.speeds, work)?
         } else {
@@ -430,7 +445,8 @@ impl Rows {
         }
         let curve = Saturation::of(&part.times, part.speeds, ramp, start, work)?;
         // A ramp that goes on to the end of the curve, or is over before its second point, is no ramp.
-        let is_ramp = curve.constant < duration && curve.constant > part.times[1] && curve.rise / curve.steady > 0.0;
+        let is_ramp =
+            curve.constant < duration && curve.constant > part.times[1] && curve.rise / curve.steady > 0.0;
         let ramp = if is_ramp { part.rise(ramp, &curve, settings, work)?.ok() } else { None };
         Ok(TransientFit {
             form: better_form(&exponential, ramp.as_ref()),
@@ -519,7 +535,8 @@ impl Part<'_> {
         let runs: Vec<Run> = self.rows.runs.iter().map(|run| self.of_run(run)).collect();
         let runs: Vec<Run> = runs.into_iter().filter(|run| !run.times.is_empty()).collect();
         let sample: Box<dyn Resampled> = if let [run] = runs.as_slice() {
-            let row = |of: &dyn Fn(f64) -> f64| run.times.iter().map(|time| of(time - self.start_time)).collect();
+            let row =
+                |of: &dyn Fn(f64) -> f64| run.times.iter().map(|time| of(time - self.start_time)).collect();
             let fitted: Vec<f64> = row(&|time| at(time, fit.constant));
             let step = 1.0e-6;
             let mut derivatives: Vec<Vec<f64>> = vec![
@@ -547,7 +564,12 @@ impl Part<'_> {
     }
 
     /// The values of a fit with the intervals of its resamples.
-    fn estimate(&self, is_ramp: bool, fit: &Saturation, resamples: &Resamples) -> Result<RiseEstimate, Error> {
+    fn estimate(
+        &self,
+        is_ramp: bool,
+        fit: &Saturation,
+        resamples: &Resamples,
+    ) -> Result<RiseEstimate, Error> {
         let (scale, centre) = (self.rows.scale, resamples.centre());
         // The mean of rows that do not have the same times is not at its fit: all rows together are.
         let Rise { steady, rise, log_constant } = if self.rows.have_same_times {
@@ -558,7 +580,8 @@ impl Part<'_> {
         let constant = if self.rows.have_same_times { fit.constant } else { exp(log_constant) };
         // A ramp that starts at some speed has another time to rise from rest.
         let is_part = is_ramp && self.start == Start::AnySpeed;
-        let from_rest = |own: &Rise| if is_part { (own.steady / own.rise).max(f64::MIN_POSITIVE) } else { 1.0 };
+        let from_rest =
+            |own: &Rise| if is_part { (own.steady / own.rise).max(f64::MIN_POSITIVE) } else { 1.0 };
         let own = Rise { steady, rise, log_constant };
         let (low, high) = resamples.about(steady, &|own| own.steady);
         let steady_speed = IntervalEstimate::about(steady / scale, low / scale, high / scale)?;

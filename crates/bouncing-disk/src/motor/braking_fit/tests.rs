@@ -54,8 +54,7 @@ fn intervals_of_synthetic_curves_cover_the_friction() {
         for seed in 1..=100 {
             let noise = Noise::new(31 * seed).correlated(times.len(), memory);
             let own = times.iter().zip(noise);
-            let speeds: Vec<f64> =
-                own.map(|(&time, noise)| braking(time) + scatter(time) * noise).collect();
+            let speeds: Vec<f64> = own.map(|(&time, noise)| braking(time) + scatter(time) * noise).collect();
             // A trial that is refused covers nothing.
             let fit = BrakingFit::new(&times, &speeds, &ROTOR);
             covered += u32::from(fit.is_ok_and(|fit| fit.friction.contains(FRICTION)));

@@ -24,7 +24,10 @@ fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
     let runs: Vec<MeasuredRun> = (1..=6).map(|member| run(member, &mut noise)).collect();
     let settings = FitSettings::default();
     let one = MeasuredSpeeds::new(runs[..1].to_vec()).expect("legal");
-    assert_eq!(one.fit(&settings), TransientFit::of_measured(&[(&runs[0].times, &runs[0].speeds)], &settings));
+    assert_eq!(
+        one.fit(&settings),
+        TransientFit::of_measured(&[(&runs[0].times, &runs[0].speeds)], &settings)
+    );
     let several = MeasuredSpeeds::new(runs.clone()).expect("legal");
     let fit = several.fit(&settings);
     assert_eq!(fit.expect("fitted").members, 6);
@@ -41,7 +44,8 @@ fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
         let mut noise = Noise::new(seed);
         let runs = (0..6).map(|member| {
             let (step, rows) = (0.03 + 0.004 * f64::from(member), 90 - 4 * member);
-            let jitter = |i: u32| 0.3 * crate::testing::golden_spread(1_000 * seed + 100 * u64::from(member + i));
+            let jitter =
+                |i: u32| 0.3 * crate::testing::golden_spread(1_000 * seed + 100 * u64::from(member + i));
             let times: Vec<f64> = (0..rows).map(|i| step * (f64::from(i) + jitter(i))).collect();
             let steady = 20.0 + 0.3 * noise.normal();
             let speed = |time: &f64| steady * (1.0 - bouncing_disk_core::elementary::exp(-time / 0.6));

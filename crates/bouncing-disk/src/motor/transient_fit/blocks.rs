@@ -1,13 +1,14 @@
 //! Resampling the residuals of one measured curve, in blocks that are longer than their memory.
 //!
-//! Every block stays where it is and is multiplied by +1 or -1 (a wild bootstrap): noise may vary along the curve.
+//! Every block stays where it is, is made as large as its neighbours, and is multiplied by +1 or -1 (a wild bootstrap):
+//! noise may vary along the curve.
 
 use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
+use super::Run;
 use super::resamples::Resampled;
 use super::shape_grid::{MOMENTS, ShapeGrid};
-use super::Run;
 use crate::error::Error;
 use crate::motor::correlation::correlation_time;
 use crate::motor::fit_refusal::FitRefusal;
@@ -15,6 +16,9 @@ use crate::motor::interval_estimate::small_sample_widening;
 
 /// The fewest blocks: fewer would say too little about each other.
 const LEAST_BLOCKS: usize = 8;
+
+/// About a third of the blocks speak of a parameter, those of the rise of the time constant, but so many count at least.
+const LEAST_SAMPLE: usize = 5;
 
 /// The most blocks: more would say hardly more about the error.
 const MOST_BLOCKS: usize = 64;
@@ -24,6 +28,9 @@ const BLOCK_TIMES: f64 = 2.5;
 
 /// Residuals below this share of the steady speed are those of the search, which ends about so near the best constant.
 const EXACT: f64 = 1.0e-6;
+
+/// Neighbouring blocks to either side whose noise is taken to be as large.
+const NEIGHBOURS: usize = 3;
 
 /// The largest leverage of a block that its residuals are made good for: beyond it the block alone decides a parameter.
 const LARGEST_LEVERAGE: f64 = 0.9;
@@ -67,15 +74,27 @@ impl Blocks {
         let shapes = grid.at(&run.times, start, work)?;
         let mut moments = vec![0.0; MOMENTS];
         shapes.add_curve(fitted, 1.0, &mut moments);
+        let ends = |k: usize| (k * block, if k + 1 == blocks { points } else { (k + 1) * block });
+        // The fit has taken the leverage of a block of what its residuals have in common with the parameters.
+        let sizes: Vec<[f64; 2]> = (0..blocks)
+            .map(|k| {
+                let (from, end) = ends(k);
+                let left = 1.0 - leverages[from..end].iter().sum::<f64>().min(LARGEST_LEVERAGE);
+                let square = residuals[from..end].iter().map(|residual| residual * residual).sum::<f64>();
+                let own = square / (end - from) as f64;
+                [own, own / (left * left)]
+            })
+            .collect();
         let mut changes = vec![0.0; MOMENTS * blocks];
         for (k, changes) in changes.chunks_exact_mut(MOMENTS).enumerate() {
-            let (from, end) = (k * block, if k + 1 == blocks { points } else { (k + 1) * block });
-            // The fit has taken this share of what the residuals of the block have in common with its parameters.
-            let leverage = leverages[from..end].iter().sum::<f64>().min(LARGEST_LEVERAGE);
-            shapes.add_speeds(from, &residuals[from..end], 1.0 / (1.0 - leverage), changes);
+            let (from, end) = ends(k);
+            let near = &sizes[k.saturating_sub(NEIGHBOURS)..(k + NEIGHBOURS + 1).min(blocks)];
+            let noise = near.iter().map(|[_, noise]| noise).sum::<f64>() / near.len() as f64;
+            let scale = if sizes[k][0] > 0.0 { (noise / sizes[k][0]).sqrt() } else { 0.0 };
+            shapes.add_speeds(from, &residuals[from..end], scale, changes);
             work.spend((end - from) as u64)?;
         }
-        let widening = small_sample_widening(blocks) / (1.0 - shared).sqrt();
+        let widening = small_sample_widening((blocks / 3).max(LEAST_SAMPLE)) / (1.0 - shared).sqrt();
         Ok(Ok(Self { fitted: moments, changes, widening }))
     }
 }

@@ -38,7 +38,8 @@ impl Members {
         for own in moments.chunks_exact(MOMENTS) {
             add(own, &mut all);
         }
-        let widening = misfit * small_sample_widening(runs.len());
+        // Percentiles of few members lie nearer to each other than those of a normal distribution.
+        let widening = misfit * small_sample_widening(runs.len() - 1);
         Ok(Self { moments, all, widening })
     }
 }

@@ -19,7 +19,11 @@ const EXACT: f64 = 1.0e-13;
 
 /// The number of rows before the rise: of all ways to cut the record, that by which one speed before the cut and
 /// a saturating exponential behind it leave the smallest squares, if it describes the record better than no cut.
-pub(super) fn rows_before_rise(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<usize, Error> {
+pub(super) fn rows_before_rise(
+    times: &[f64],
+    speeds: &[f64],
+    work: &mut WorkCount<'_>,
+) -> Result<usize, Error> {
     let n = times.len();
     let most = n.saturating_sub(LEAST_POINTS);
     let mean = speeds.iter().sum::<f64>() / n as f64;

@@ -22,7 +22,6 @@ pub(super) trait Resampled {
     fn work(&self) -> u64;
 }
 
-
 /// The fits of resampled curves.
 pub(super) struct Resamples {
     centre: Rise,

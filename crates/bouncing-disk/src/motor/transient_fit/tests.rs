@@ -50,17 +50,29 @@ fn coverage_of(truth: [f64; 2], mut fit: impl FnMut(u64) -> Result<TransientFit,
     covered
 }
 
+/// Settings of fits of which there are many.
+const FEW: FitSettings = FitSettings { resamples: 300, from_rest: false, ..FROM_REST };
+
+/// Notes a case of which fewer than 90 intervals hold the truth.
+fn note(case: String, covered: [u32; 3], missed: &mut Vec<(String, [u32; 3])>) {
+    println!("{case}: {covered:?}");
+    if covered.iter().any(|&count| count < 90) {
+        missed.push((case, covered));
+    }
+}
+
 #[test]
 fn intervals_of_synthetic_ensembles_cover_the_truth() {
     let times = times(120, 4.0);
+    let mut missed = Vec::new();
     for (members, from_rest) in [(LEAST_MEMBERS, true), (LEAST_MEMBERS, false), (16, true), (16, false)] {
         let covered = coverage(|seed| {
             let runs = ensemble(&times, members, 1_000 * members as u64 + seed);
-            fit_runs(&times, &runs, &FitSettings { seed, from_rest, ..FitSettings::default() })
+            fit_runs(&times, &runs, &FitSettings { seed, from_rest, ..FEW })
         });
-        println!("{members} members, from rest {from_rest}: {covered:?}");
-        assert!(covered.iter().all(|&count| count >= 90), "{members}: {covered:?}");
+        note(format!("{members} members, from rest {from_rest}"), covered, &mut missed);
     }
+    assert!(missed.is_empty(), "{missed:#?}");
 }
 
 /// Noise that is white, correlated, or grows along the curve; few rows, a short curve; whatever is known of the start.
@@ -79,6 +91,7 @@ fn intervals_of_synthetic_measurements_cover_the_truth() {
         (0.0, 100, 4.0, &grows),
         (0.0, 100, 4.0, &falls),
     ];
+    let mut missed = Vec::new();
     for (memory, points, duration, scatter) in cases {
         for from_rest in [true, false] {
             let times = times(points, duration);
@@ -88,13 +101,14 @@ fn intervals_of_synthetic_measurements_cover_the_truth() {
                 let own = speeds.iter().zip(noise).zip(&times);
                 let speeds: Vec<f64> =
                     own.map(|((speed, noise), time)| speed + scatter(*time) * noise).collect();
-                let settings = FitSettings { seed, from_rest, least_duration: 2.0, ..FitSettings::default() };
+                let settings = FitSettings { seed, from_rest, least_duration: 2.0, ..FEW };
                 fit_one(&times, &speeds, &settings)
             });
-            println!("memory {memory}, {points} points, {duration} s, from rest {from_rest}: {covered:?}");
-            assert!(covered.iter().all(|&count| count >= 90), "{memory} {points}: {covered:?}");
+            let case = format!("memory {memory}, {points} points, {duration} s, from rest {from_rest}");
+            note(case, covered, &mut missed);
         }
     }
+    assert!(missed.is_empty(), "{missed:#?}");
 }
 
 /// A clock that is early or late, a dead time, rows before the switch-on, a start in the middle of the rise: of one run
@@ -104,6 +118,7 @@ fn the_start_of_a_record_does_not_mislead_its_fit() {
     const OWN: [f64; 2] = [21.5, 0.85];
     let clock: Vec<f64> = (0..=100).map(|i| 0.05 * f64::from(i)).collect();
     // What the clock shows at the start of the rise, the first row, and the speed at the start.
+    let mut missed = Vec::new();
     for (zero, first, speed) in [
         (0.0, 0.0, 0.0),
         (-0.05, 0.0, 0.0),
@@ -127,7 +142,7 @@ fn the_start_of_a_record_does_not_mislead_its_fit() {
                 };
                 let mut run = || times.iter().map(|time| rise(time) + noise * random.normal()).collect();
                 let runs: Vec<Vec<f64>> = (0..members).map(|_| run()).collect();
-                let fit = fit_runs(&times, &runs, &FitSettings { seed, ..FitSettings::default() });
+                let fit = fit_runs(&times, &runs, &FitSettings { seed, ..FEW });
                 if let Ok(fit) = fit {
                     found[0] += 0.01 * fit.time_constant().value;
                     found[1] += 0.01 * (fit.time_constant().high - fit.time_constant().low);
@@ -135,19 +150,18 @@ fn the_start_of_a_record_does_not_mislead_its_fit() {
                 }
                 fit
             });
-            println!("{zero} {first} {speed}, {members} runs, noise {noise}: {covered:?} {found:?}");
-            assert!(covered.iter().all(|&count| count >= 90), "{zero} {first} {speed}: {covered:?}");
+            note(
+                format!("{zero} {first} {speed}, {members} runs, noise {noise}: {found:?}"),
+                covered,
+                &mut missed,
+            );
         }
     }
+    assert!(missed.is_empty(), "{missed:#?}");
 }
 
-const FROM_REST: FitSettings = FitSettings {
-    resamples: 1_000,
-    seed: 1,
-    least_duration: 3.0,
-    largest_residual: 0.1,
-    from_rest: true,
-};
+const FROM_REST: FitSettings =
+    FitSettings { resamples: 1_000, seed: 1, least_duration: 3.0, largest_residual: 0.1, from_rest: true };
 
 fn ensemble(times: &[f64], members: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut noise = Noise::new(seed);
@@ -248,11 +262,13 @@ fn a_ramp_is_told_from_an_exponential() {
     let runs: Vec<Vec<f64>> = (0..8)
         .map(|_| times.iter().map(|time| STEADY * (time / 1.1).min(1.0) + 0.2 * noise.normal()).collect())
         .collect();
-    let fit = fit_runs(&times, &runs, &FROM_REST).expect("fitted");
-    assert_eq!(fit.form, RiseForm::Ramp);
-    let ramp = fit.ramp.expect("fitted");
-    assert!(ramp.constant.contains(1.1) && ramp.steady_speed.contains(STEADY), "{ramp:?}");
-    assert!(ramp.stall_acceleration.contains(STEADY / 1.1), "{ramp:?}");
+    for settings in [FROM_REST, FitSettings::default()] {
+        let fit = fit_runs(&times, &runs, &settings).expect("fitted");
+        assert_eq!(fit.form, RiseForm::Ramp);
+        let ramp = fit.ramp.expect("fitted");
+        assert!(ramp.constant.contains(1.1) && ramp.steady_speed.contains(STEADY), "{ramp:?}");
+        assert!(ramp.stall_acceleration.contains(STEADY / 1.1), "{ramp:?}");
+    }
 }
 
 #[test]
@@ -271,14 +287,14 @@ fn curves_that_mean_nothing_are_refused_with_the_reason() {
         matches!(of(&|time| 3.0 * time), FitRefusal::AtSearchLimit { time_constant, .. } if time_constant > 380.0)
     );
     assert!(matches!(of(&|time| -3.0 * time), FitRefusal::AtSearchLimit { .. }));
-    assert!(matches!(of(&|_| 7.0), FitRefusal::AtSearchLimit { time_constant, .. } if time_constant < 0.01));
+    assert_eq!(of(&|_| 7.0), FitRefusal::NoRise);
     assert!(matches!(
         of(&|time| STEADY * exponential(time / 2.0)),
         FitRefusal::TooShort { time_constant, least: 3.0, .. } if (time_constant - 2.0).abs() < 0.01
     ));
     assert!(matches!(
         of(&|time| STEADY * exponential(time / 0.08)),
-        FitRefusal::TooCoarse { points: 2, least: 4, .. }
+        FitRefusal::TooCoarse { points: 2 | 3, least: 4, .. }
     ));
     assert!(matches!(
         of(&|time| 10.0 + 5.0 * sin(20.0 * time) - 10.0 * exponential(-0.0) - 10.0 * (1.0 - exponential(time))),
@@ -298,15 +314,12 @@ fn a_curve_is_long_enough_from_the_least_duration_on() {
     let runs = ensemble(&times, 8, 3);
     let fit = fit_runs(&times, &runs, &FROM_REST).expect("fitted");
     let ratio = fit.duration / fit.time_constant().value;
-    let with = |least_duration: f64| {
-        fit_runs(&times, &runs, &FitSettings { least_duration, ..FROM_REST })
-    };
+    let with = |least_duration: f64| fit_runs(&times, &runs, &FitSettings { least_duration, ..FROM_REST });
     assert_eq!(with(ratio * (1.0 - 1e-12)), Ok(fit));
     assert!(matches!(refusal(with(ratio * (1.0 + 1e-12))), FitRefusal::TooShort { .. }));
     let residual = fit.exponential.residual / fit.steady_speed().value;
-    let with = |largest_residual: f64| {
-        fit_runs(&times, &runs, &FitSettings { largest_residual, ..FROM_REST })
-    };
+    let with =
+        |largest_residual: f64| fit_runs(&times, &runs, &FitSettings { largest_residual, ..FROM_REST });
     assert_eq!(with(residual * (1.0 + 1e-12)), Ok(fit));
     assert!(matches!(refusal(with(residual * (1.0 - 1e-12))), FitRefusal::Residual { .. }));
 }
@@ -470,7 +483,8 @@ fn a_fit_can_be_stopped_and_its_observer_changes_nothing() {
             if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
         for runs in [&runs[..], &runs[..1]] {
-            let stopped = TransientFit::of_measured_observed(runs, &settings, &observer).expect_err("stopped");
+            let stopped =
+                TransientFit::of_measured_observed(runs, &settings, &observer).expect_err("stopped");
             assert!(matches!(stopped, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{stopped}");
         }
     }
@@ -510,7 +524,7 @@ fn illegal_curves_and_settings_are_named() {
     }
     assert_eq!(field(fit_runs(&times[..99], &runs, &d)), "number of speeds");
     assert_eq!(field(fit_one(&[], &[], &d)), "number of points of the speed curve");
-    for members in 0..LEAST_MEMBERS {
+    for members in [0, 2, LEAST_MEMBERS - 1] {
         let reason = refusal(fit_runs(&times, &runs[..members], &d));
         assert_eq!(reason, FitRefusal::TooFewMembers { members, least: 5 });
     }
