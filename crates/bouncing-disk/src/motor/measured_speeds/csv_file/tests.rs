@@ -98,9 +98,9 @@ fn a_wrong_header_is_named() {
     assert_eq!(fault("\u{feff}"), fault(""));
     assert_eq!(fault("\n# nothing\r\n\r\n"), fault(""));
     assert_eq!(
-        fault("time_s,speed\n0,0\n"),
+        fault("time_s,speeed\n0,0\n"),
         format!(
-            "\"demo.csv\", line 1, field 2: there is no column \"speed\"; legal are {legal}. Remove the column, put \
+            "\"demo.csv\", line 1, field 2: there is no column \"speeed\"; legal are {legal}. Remove the column, put \
              a # before a line of remarks, or name the columns that count (--time-column, --speed-column)"
         )
     );
@@ -114,7 +114,7 @@ fn a_wrong_header_is_named() {
     assert!(fault("0,1\n1,2\n").contains("line 1, field 1: there is no column \"0\""));
     // The text of a file is shown without doing anything.
     assert!(fault("time_s,\u{1b}[2J\n").contains("\"\\u{1b}[2J\""));
-    assert!(fault(format!("time_s,{}\n", "x".repeat(5_000))).len() < 300);
+    assert!(fault(format!("time_s,{}\n", "x".repeat(5_000))).len() < 500);
 }
 
 #[test]
