@@ -72,6 +72,7 @@ fn rise<'py>(py: Python<'py>, rise: &RiseEstimate) -> PyResult<Bound<'py, PyAny>
         interval(py, &rise.steady_speed)?,
         interval(py, &rise.constant)?,
         interval(py, &rise.stall_acceleration)?,
+        rise.start_speed.as_ref().map(|start| interval(py, start)).transpose()?,
         rise.residual,
     );
     results::make(py, "RiseEstimate", fields)
@@ -82,7 +83,7 @@ fn rise<'py>(py: Python<'py>, rise: &RiseEstimate) -> PyResult<Bound<'py, PyAny>
 /// Parameters
 /// ----------
 /// times : (n,) array_like
-///     Times (s), rising, not negative.
+///     Times (s), rising; below zero, too, unless the motor starts from rest.
 /// speeds : (n,) or (n, m) array_like
 ///     Speeds (rad/s) of one measured run, or of m runs (5 at least), time by member.
 /// resamples : int, default 1000
@@ -93,6 +94,9 @@ fn rise<'py>(py: Python<'py>, rise: &RiseEstimate) -> PyResult<Bound<'py, PyAny>
 ///     Time constants that a curve must last.
 /// largest_residual : float, default 0.1
 ///     The largest residual, relative to the steady speed.
+/// from_rest : bool, default False
+///     Whether the motor rises from rest at time zero. Without it time zero, a dead time and the speed at the start
+///     are found from the record, and the intervals are wider.
 /// progress : callable, optional
 ///     Called as ``progress(done, total)``.
 ///
@@ -113,9 +117,9 @@ fn rise<'py>(py: Python<'py>, rise: &RiseEstimate) -> PyResult<Bound<'py, PyAny>
 #[pyfunction]
 #[pyo3(signature = (
     *, times, speeds, resamples=Count::Fits(1000), seed=Count::Fits(1), least_duration=Real(3.0),
-    largest_residual=Real(0.1), progress=ProgressCallable(None)
+    largest_residual=Real(0.1), from_rest=false, progress=ProgressCallable(None)
 ), text_signature = "(*, times, speeds, resamples=1000, seed=1, least_duration=3.0, largest_residual=0.1, \
-                     progress=None)")]
+                     from_rest=False, progress=None)")]
 #[expect(clippy::too_many_arguments, reason = "they are keywords")]
 pub(crate) fn fit_transients<'py>(
     py: Python<'py>,
@@ -125,12 +129,12 @@ pub(crate) fn fit_transients<'py>(
     seed: Count,
     least_duration: Real,
     largest_residual: Real,
+    from_rest: bool,
     progress: ProgressCallable,
 ) -> PyResult<Bound<'py, PyAny>> {
     let times = row(times, "times")?;
-    let measured = row(speeds, "speeds");
-    let runs = match &measured {
-        Ok(_) => Vec::new(),
+    let runs = match row(speeds, "speeds") {
+        Ok(speeds) => vec![speeds],
         Err(_) => columns(speeds, "speeds")?,
     };
     let (resamples, seed) = (resamples.usize(py, "resamples")?, seed.u64(py, "seed")?);
@@ -139,21 +143,20 @@ pub(crate) fn fit_transients<'py>(
         seed,
         least_duration: least_duration.0,
         largest_residual: largest_residual.0,
+        from_rest,
     };
     let fit = long_call::run_named(py, progress.0, &NAMES, |observer| -> Result<TransientFit, Error> {
-        match &measured {
-            Ok(speeds) => TransientFit::of_measured_observed(&times, speeds, &settings, observer),
-            Err(_) => {
-                let runs: Vec<_> = runs.iter().map(Vec::as_slice).collect();
-                TransientFit::of_runs_observed(&times, &runs, &settings, observer)
-            }
-        }
+        let runs: Vec<(&[f64], &[f64])> =
+            runs.iter().map(|speeds| (times.as_slice(), speeds.as_slice())).collect();
+        TransientFit::of_measured_observed(&runs, &settings, observer)
     })?;
     let form = match fit.form {
         RiseForm::Exponential => "exponential",
         RiseForm::Ramp => "ramp",
     };
     let ramp = fit.ramp.as_ref().map(|ramp| rise(py, ramp)).transpose()?;
-    let fields = (rise(py, &fit.exponential)?, ramp, form, fit.duration, fit.points, fit.members);
+    let exponential = rise(py, &fit.exponential)?;
+    let fields =
+        (exponential, ramp, form, fit.start_time, fit.zero_time(), fit.duration, fit.points, fit.members);
     results::make(py, "TransientFit", fields)
 }

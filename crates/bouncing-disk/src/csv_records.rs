@@ -1,11 +1,7 @@
-//! The records of a file of comma-separated values and the lines they are on, whatever the columns mean.
+//! The records of a file of separated values and the lines they are on, whatever the columns mean.
 //!
 //! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that
-//! begin with `#`, blanks and one pair of double quotes around a field.
-
-use std::io::{self, Chain, Read};
-
-use csv::{Reader, ReaderBuilder, StringRecord, Terminator};
+//! begin with `#`, `%` or `//`, blanks and one pair of double quotes around a field.
 
 /// A fault of the form alone. Lines, bytes and fields are counted from 1.
 #[derive(Debug, thiserror::Error)]
@@ -26,9 +22,6 @@ pub enum RecordFault {
         /// The field.
         field: usize,
     },
-    /// What the reader of records reports otherwise.
-    #[error(transparent)]
-    Unreadable(#[from] io::Error),
 }
 
 /// The text of a file, without its byte-order mark.
@@ -48,63 +41,45 @@ pub fn text(bytes: &[u8]) -> Result<&str, RecordFault> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// The lines of a file that are neither blank nor a remark.
-#[derive(Debug)]
-pub struct Records<'a> {
-    text: &'a str,
-    reader: Reader<Chain<&'a [u8], &'static [u8]>>,
-    record: StringRecord,
+/// The lines of a file that are neither blank nor a remark, with their numbers.
+pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let is_remark =
+        |line: &str| ["#", "%", "//", "\"#"].iter().any(|mark| line.trim_start().starts_with(mark));
+    let is_blank = |line: &str| plain(line).is_empty();
+    (1..).zip(text.lines()).filter(move |(_, line)| !is_blank(line) && !is_remark(line))
 }
 
-impl<'a> Records<'a> {
-    /// Those of a [`text`].
-    #[must_use]
-    pub fn new(text: &'a str) -> Self {
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .terminator(Terminator::Any(b'\n'))
-            // The last line may lack its end; of two ends in a row the second makes a blank line.
-            .from_reader(text.as_bytes().chain(b"\n".as_slice()));
-        Self { text, reader, record: StringRecord::new() }
-    }
-
-    /// Goes to the next record and says on which line it is; `None` at the end.
-    ///
-    /// # Errors
-    ///
-    /// [`RecordFault::OpenQuote`]; what the reader reports.
-    pub fn advance(&mut self) -> Result<Option<usize>, RecordFault> {
-        let Self { text, reader, record } = self;
-        while reader.read_record(record).map_err(io::Error::from)? {
-            if let Some(place) = record.iter().position(|field| field.contains('\n')) {
-                return Err(RecordFault::OpenQuote { line: first_line(record, text), field: place + 1 });
+/// The [`plain`] fields of a line; a quotation mark at the beginning of a field protects separators up to the next one.
+///
+/// # Errors
+///
+/// [`RecordFault::OpenQuote`].
+pub fn fields(line: (usize, &str), separator: char) -> Result<Vec<&str>, RecordFault> {
+    let (line, mut rest) = line;
+    let mut fields = Vec::new();
+    loop {
+        let start = rest.len() - rest.trim_start_matches([' ', '\u{a0}']).len();
+        let protected = match rest[start..].strip_prefix('"') {
+            None => 0,
+            Some(quoted) => {
+                let end = quoted.find('"').ok_or(RecordFault::OpenQuote { line, field: fields.len() + 1 })?;
+                start + 1 + end + 1
             }
-            let first = record.get(0).unwrap_or_default().trim();
-            if !first.starts_with('#') && (record.len() > 1 || !first.is_empty()) {
-                // The record, which is one line, has just been read with its end.
-                return Ok(Some((reader.position().line() as usize).saturating_sub(1)));
+        };
+        match rest[protected..].find(separator) {
+            Some(place) => {
+                fields.push(plain(&rest[..protected + place]));
+                rest = &rest[protected + place + separator.len_utf8()..];
+            }
+            None => {
+                fields.push(plain(rest));
+                return Ok(fields);
             }
         }
-        Ok(None)
-    }
-
-    /// The record that [`Self::advance`] went to.
-    #[must_use]
-    pub const fn record(&self) -> &StringRecord {
-        &self.record
     }
 }
 
-/// The line on which a record begins. Its own position is that of the empty lines and remarks before it.
-fn first_line(record: &StringRecord, text: &str) -> usize {
-    let line = record.position().map_or(1, |position| position.line() as usize);
-    let before = text.split('\n').skip(line.saturating_sub(1));
-    line + before.take_while(|line| line.is_empty() || line.starts_with('#')).count()
-}
-
-/// A field without the blanks around it. The reader sees a quotation mark only where a field begins with it.
+/// A field without the blanks and the quotation marks around it.
 #[must_use]
 pub fn plain(field: &str) -> &str {
     let field = field.trim();
@@ -166,11 +141,13 @@ mod tests {
         let fault = text(b"\xef\xbb\xbfa,b\n1,\xb5").expect_err("not UTF-8").to_string();
         assert_eq!(fault, "line 2, byte 3: not text in UTF-8");
         assert_eq!(text("\u{feff}a".as_bytes()).expect("text"), "a");
-        let mut records = Records::new("# of May\n\na,b\r\n  # mine\n1,\"2\n");
-        assert_eq!(records.advance().expect("well formed"), Some(3));
-        assert_eq!(records.record().iter().map(plain).collect::<Vec<_>>(), ["a", "b"]);
-        let fault = records.advance().expect_err("not closed").to_string();
-        assert_eq!(fault, "line 5, field 2: a quotation mark is not closed on its line");
-        assert_eq!(Records::new("\n#\n").advance().expect("nothing"), None);
+        let text = "# of May\n\n% mine\na,b\r\n  // mine\n1,\"2\n";
+        let mut lines = lines(text);
+        let header = lines.next().expect("a header");
+        assert_eq!((header.0, fields(header, ',').expect("well formed")), (4, vec!["a", "b"]));
+        let fault = fields(lines.next().expect("a row"), ',').expect_err("not closed").to_string();
+        assert_eq!(fault, "line 6, field 2: a quotation mark is not closed on its line");
+        assert_eq!(lines.next(), None);
+        assert_eq!(fields((1, "\"1,5\" ;; 2,5;"), ';').expect("well formed"), ["1,5", "", "2,5", ""]);
     }
 }

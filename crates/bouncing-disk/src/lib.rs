@@ -29,7 +29,7 @@
 //! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
-//! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`] (from files with the feature `csv`) |
+//! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`], [`TimeUnit`], [`SpeedUnit`] (from files with the feature `csv`: `CsvColumns`) |
 //! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
@@ -109,7 +109,10 @@ pub use motor::fit_refusal::FitRefusal;
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
 pub use motor::interval_estimate::IntervalEstimate;
 #[cfg(feature = "csv")]
+pub use motor::measured_speeds::csv_file::CsvColumns;
+#[cfg(feature = "csv")]
 pub use motor::measured_speeds::error::MeasuredSpeedsError;
+pub use motor::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
 pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
 pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;

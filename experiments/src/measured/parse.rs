@@ -1,13 +1,11 @@
 //! Reads plain numeric comma-separated values, and says exactly where they are malformed.
 //!
-//! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that begin with `#`,
-//! blanks and one pair of double quotes around a field.
+//! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that begin with `#`, `%`
+//! or `//`, blanks and one pair of double quotes around a field.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use bouncing_disk::csv_records::{self, NumberFault, RecordFault, Records, plain};
-use csv::StringRecord;
+use bouncing_disk::csv_records::{self, NumberFault, RecordFault, fields, lines};
 
 use super::error::MeasuredError;
 use super::layout::{Column, Layout, MOST_ROWS, Role, whole};
@@ -33,19 +31,20 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
     let origin = provenance::from_csv(text);
     provenance::refuse_newer(provenance::FIGURE, origin.as_ref(), layout.file)
         .map_err(|error| MeasuredError::Newer(Box::new(error)))?;
-    let mut records = Records::new(text);
+    let mut lines = lines(text);
     let empty = || MeasuredError::Empty { file: layout.file, legal: layout.header() };
-    let mut line = records.advance().map_err(told)?.ok_or_else(empty)?;
-    let header = Header::read(layout, line, records.record())?;
+    let first = lines.next().ok_or_else(empty)?;
+    let mut line = first.0;
+    let header = Header::read(layout, line, &fields(first, ',').map_err(told)?)?;
     let mut order = Order::new(layout);
     let mut rows = Rows {
         values: Vec::new(),
         lines: Vec::new(),
         columns: header.places.iter().map(|place| place + 1).collect(),
     };
-    while let Some(number) = records.advance().map_err(told)? {
-        line = number;
-        let row = header.row(line, records.record())?;
+    for own in lines {
+        line = own.0;
+        let row = header.row(line, &fields(own, ',').map_err(told)?)?;
         order.check(&header, line, &row)?;
         if rows.values.len() == MOST_ROWS {
             return Err(MeasuredError::TooLong { file: layout.file, line, most: MOST_ROWS });
@@ -65,9 +64,6 @@ fn in_file(file: &'static str, fault: RecordFault) -> MeasuredError {
     match fault {
         RecordFault::NotText { line, byte } => MeasuredError::NotText { file, line, byte },
         RecordFault::OpenQuote { line, field } => MeasuredError::OpenQuote { file, line, column: field },
-        RecordFault::Unreadable(source) => {
-            MeasuredError::Unreadable { file: file.to_owned(), source: Arc::new(source) }
-        }
     }
 }
 
@@ -79,7 +75,7 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    fn read(layout: &'a Layout, line: usize, names: &StringRecord) -> Result<Self, MeasuredError> {
+    fn read(layout: &'a Layout, line: usize, names: &[&str]) -> Result<Self, MeasuredError> {
         let file = layout.file;
         if layout.columns.len() > 1 && names.len() == 1 {
             let separators = [(';', "semicolons"), ('\t', "tabs")];
@@ -88,7 +84,7 @@ impl<'a> Header<'a> {
             }
         }
         let mut places: Vec<Option<usize>> = vec![None; layout.columns.len()];
-        for (place, name) in names.iter().map(plain).enumerate() {
+        for (place, &name) in names.iter().enumerate() {
             let column = place + 1;
             let Some(index) = layout.columns.iter().position(|column| column.name == name) else {
                 let (value, legal) = (Excerpt::of(name), layout.header());
@@ -114,14 +110,13 @@ impl<'a> Header<'a> {
         Ok(Self { layout, places: found.collect::<Result<_, _>>()? })
     }
 
-    fn row(&self, line: usize, record: &StringRecord) -> Result<Vec<f64>, MeasuredError> {
+    fn row(&self, line: usize, values: &[&str]) -> Result<Vec<f64>, MeasuredError> {
         let file = self.layout.file;
-        let (count, columns) = (record.len(), self.places.len());
+        let (count, columns) = (values.len(), self.places.len());
         if count != columns {
             let column = count.min(columns) + 1;
             return Err(MeasuredError::Fields { file, line, column, fields: count, columns });
         }
-        let values: Vec<&str> = record.iter().map(plain).collect();
         let number = |(place, column): (&usize, &Column)| {
             let (text, name, legal) = (values[*place], column.name, column.range);
             let (column, value) = (place + 1, || Excerpt::of(text));

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use bouncing_disk::{
-    Error, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor, ParameterFit,
-    ParameterFitSettings, RunPreload, TransientFit,
+    CsvColumns, Error, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor,
+    ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
 use clap::Args;
 use serde::Serialize;
@@ -22,15 +22,17 @@ use crate::range::Interval;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
-The file has the columns time_s, speed_rad_s and, for repeated runs, member: run-ups from rest, times counted from the \
-instant at which the motor is switched on. Without --parameter alpha_ss (1 - exp(-t/t_c)) is fitted to their mean, with \
-95 % intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
-amplitude (m), twist_amplitude (rad), each within its range; all else is that of the motor, which --motor or --preset \
+The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds in units that it names, \
+such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter alpha_ss - b exp(-t/t_c) is \
+fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
+--from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
+amplitude (m), twist_amplitude (rad), each within its range, to run-ups from rest whose times count from the switch-on; all else is that of the motor, which --motor or --preset \
 names. See \
 docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
+  bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit rpm
   bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4";
 
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
@@ -39,6 +41,21 @@ Examples:
 pub(crate) struct FitArgs {
     /// Measured speeds: time_s, speed_rad_s and, of several runs, member
     file: PathBuf,
+    /// The motor rises from rest at time zero, without a dead time
+    #[arg(help_heading = OWN, long, conflicts_with = "parameter")]
+    from_rest: bool,
+    /// The column of the times; columns of other names are passed over
+    #[arg(help_heading = OWN, long, value_name = "NAME")]
+    time_column: Option<String>,
+    /// The column of the speeds; columns of other names are passed over
+    #[arg(help_heading = OWN, long, value_name = "NAME")]
+    speed_column: Option<String>,
+    /// The unit of the times, if the file does not say it: s, ms, us, min
+    #[arg(help_heading = OWN, long, value_name = "UNIT")]
+    time_unit: Option<TimeUnit>,
+    /// The unit of the speeds, if the file does not say it: rad/s, rpm, rev/s, deg/s
+    #[arg(help_heading = OWN, long, value_name = "UNIT")]
+    speed_unit: Option<SpeedUnit>,
     /// A parameter of the motor that is fitted, and its range; may be repeated
     #[arg(help_heading = OWN, long, value_name = "FIELD=LOW:HIGH")]
     parameter: Vec<Fitted>,
@@ -116,7 +133,17 @@ pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     args.output.check(args.parameter.is_empty(), &inputs, None)?;
-    let speeds = MeasuredSpeeds::from_csv(&args.file)?;
+    let columns = CsvColumns {
+        time: args.time_column.clone(),
+        speed: args.speed_column.clone(),
+        time_unit: args.time_unit,
+        speed_unit: args.speed_unit,
+    };
+    let speeds = MeasuredSpeeds::from_csv_with(&args.file, &columns)?;
+    let units = speeds.file_units();
+    if units != Default::default() && !context.quiet {
+        eprintln!("{}: times in {}, speeds in {}", args.file.display(), units.0, units.1);
+    }
     let report = if args.parameter.is_empty() {
         rise(args, speeds, context)?
     } else {
@@ -126,7 +153,12 @@ pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
 }
 
 fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
-    let settings = FitSettings { resamples: args.resamples, seed: args.seed, ..FitSettings::default() };
+    let settings = FitSettings {
+        resamples: args.resamples,
+        seed: args.seed,
+        from_rest: args.from_rest,
+        ..FitSettings::default()
+    };
     let watcher = context.watch("fit");
     let fit = speeds.fit_observed(&settings, &watcher)?;
     drop(watcher);
@@ -134,6 +166,11 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     list.push("runs", speeds.runs().len(), "1");
     list.push("points", fit.points, "1");
     list.push("duration", fit.duration, "s");
+    if let Some(start_speed) = fit.exponential.start_speed {
+        list.push("start_time", fit.start_time, "s");
+        list.push_interval(["start_speed", "start_speed_low", "start_speed_high"], start_speed, "rad/s");
+        list.push("zero_time", fit.zero_time(), "s");
+    }
     estimates(&fit, &mut list);
     Ok(Report {
         provenance: provenance("bouncing-disk fit", &Job { speeds: &speeds, settings })?.with_seed(args.seed),

@@ -674,6 +674,7 @@ def fit_transients(
     seed: _Int = 1,
     least_duration: _Float = 3.0,
     largest_residual: _Float = 0.1,
+    from_rest: bool = False,
     progress: _Progress = None,
 ) -> TransientFit: ...
 def iterate_orbits(

@@ -5,11 +5,11 @@
 use bouncing_disk_core::numerics::statistics::summing_scale;
 use bouncing_disk_core::read_checked;
 
-use crate::error::{Error, check, not_negative, positive, within_limit};
+use crate::error::{Error, within_limit};
 use crate::motor::brake::{Braking, friction_from_braking};
 use crate::motor::correlation::correlation_time;
 use crate::motor::ensemble::MAX_SPEEDS;
-use crate::motor::fit::check_curve;
+use crate::motor::fit::check_rows;
 use crate::motor::fit_refusal::FitRefusal;
 use crate::motor::interval_estimate::{IntervalEstimate, student_quantile};
 
@@ -90,8 +90,7 @@ impl BrakingRotor {
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedFit"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BrakingFit {
     /// Angular deceleration -alpha_brake (rad/s^2), positive whichever way the disk turns.
     pub deceleration: IntervalEstimate,
@@ -108,32 +107,13 @@ pub struct BrakingFit {
     pub residual: f64,
 }
 
-read_checked!(BrakingFit as UncheckedFit {
-    deceleration: IntervalEstimate,
-    friction: IntervalEstimate,
-    sliding_until: f64,
-    points: usize,
-    correlation_time: f64,
-    residual: f64,
-});
-
 impl BrakingFit {
-    fn check(&self) -> Result<(), Error> {
-        positive("deceleration", self.deceleration.low)?;
-        not_negative("friction", self.friction.low)?;
-        positive("sliding_until", self.sliding_until)?;
-        check(self.points >= LEAST_POINTS, "points", self.points as f64, "[8, inf)")?;
-        positive("correlation_time", self.correlation_time)?;
-        not_negative("residual", self.residual)?;
-        Ok(())
-    }
-
-    /// Fits times (s, not negative, rising) and speeds (rad/s) of a disk that slides on a platform at rest from the first
+    /// Fits times (s, rising) and speeds (rad/s) of a disk that slides on a platform at rest from the first
     /// point on, and may stand still in the end. A disk that turns backwards has negative speeds.
     ///
     /// The standstill is left out: of all ways to cut the curve, the one is taken by which a straight line before and
     /// zero speed after the cut leave the smallest squares, and of what is before it the part in which the line has more than 5 % of
-    /// its first speed left. The error allows for residuals that are correlated. Curves of more than 4096 points are averaged in
+    /// its first speed left. The error allows for residuals that are correlated and whose size varies along the curve. Curves of more than 4096 points are averaged in
     /// groups of points first.
     ///
     /// # Errors
@@ -143,7 +123,7 @@ impl BrakingFit {
     pub fn new(times: &[f64], speeds: &[f64], rotor: &BrakingRotor) -> Result<Self, Error> {
         rotor.check()?;
         within_limit("speeds of a curve", times.len(), MAX_SPEEDS)?;
-        check_curve(times, speeds)?;
+        check_rows(times, speeds)?;
         let refused = |reason| Err(Error::FitRefused { reason });
         if speeds.iter().all(|speed| speed.abs() <= 0.0) {
             return refused(FitRefusal::NotBraking { deceleration: 0.0, low: 0.0 });
@@ -172,7 +152,7 @@ impl BrakingFit {
             let correlated_points = points as f64 / LEAST_INDEPENDENT;
             return refused(FitRefusal::Correlated { correlated_points, points });
         };
-        let reach = student_quantile(scatter.degrees) * scatter.error_of(&line);
+        let reach = student_quantile(scatter.degrees) * scatter.error_of(&line, times, &residuals);
         let (deceleration, low) = (-line.slope, -line.slope - reach);
         if low.is_nan() || low <= 0.0 {
             let (deceleration, low) = (deceleration * slope_unit, low * slope_unit);
@@ -186,16 +166,14 @@ impl BrakingFit {
             rotor.friction(deceleration.high)?,
         )?;
         let lasts = times[points - 1] - times[0];
-        let fit = Self {
+        Ok(Self {
             deceleration,
             friction,
             sliding_until: times[points - 1] / time_scale,
             points: (points * group).min(all),
             correlation_time: scatter.correlated_points * (lasts / (points - 1) as f64) / time_scale,
             residual: scatter.residual / speed_scale,
-        };
-        fit.check()?;
-        Ok(fit)
+        })
     }
 }
 
@@ -243,6 +221,8 @@ struct Scatter {
     correlated_points: f64,
     /// Independent parts less fitted parameters.
     degrees: f64,
+    /// What a fit takes of residuals that are correlated, beyond what it takes of those that are not.
+    taken: f64,
 }
 
 impl Scatter {
@@ -255,17 +235,27 @@ impl Scatter {
         let independent = points / correlated_points;
         let degrees = independent - parameters as f64;
         let noise = square * independent / degrees;
+        let taken = (independent / degrees) * (1.0 - parameters as f64 / points);
         (degrees >= LEAST_INDEPENDENT - 2.0).then_some(Self {
             residual: square.sqrt(),
             noise,
             correlated_points,
             degrees,
+            taken,
         })
     }
 
-    /// The standard error of a line's slope.
-    fn error_of(&self, line: &Line) -> f64 {
-        (self.noise * self.correlated_points / line.spread).sqrt()
+    /// The standard error of a line's slope: the larger one of that of noise of one size, and of that which is as large at
+    /// each point as its residual, made good for what the line has taken of it.
+    fn error_of(&self, line: &Line, times: &[f64], residuals: &[f64]) -> f64 {
+        let squares = times.iter().zip(residuals).map(|(own, residual)| {
+            let from_middle = own - line.time;
+            let leverage = 1.0 / times.len() as f64 + from_middle * from_middle / line.spread;
+            let weighted = from_middle * residual / (1.0 - leverage);
+            weighted * weighted
+        });
+        let own = squares.sum::<f64>() / line.spread * self.taken;
+        (self.noise.max(own) * self.correlated_points / line.spread).sqrt()
     }
 }
 
@@ -283,7 +273,9 @@ fn bent(times: &[f64], speeds: &[f64], line: &Line, largest: f64) -> Option<(f64
     let mut residuals = first.residuals(first_times, first_speeds);
     residuals.extend(last.residuals(last_times, last_speeds));
     let by_chance = Scatter::of(&residuals, 4, largest).is_some_and(|scatter| {
-        let (first, last) = (scatter.error_of(&first), scatter.error_of(&last));
+        let (of_first, of_last) = residuals.split_at(half);
+        let first = scatter.error_of(&first, first_times, of_first);
+        let last = scatter.error_of(&last, last_times, of_last);
         change <= student_quantile(scatter.degrees) * (first * first + last * last).sqrt()
     });
     (!by_chance).then_some((first.slope, last.slope))

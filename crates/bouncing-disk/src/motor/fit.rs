@@ -71,8 +71,10 @@ impl ExponentialFit {
 
     /// [`Self::new`] as a part of a longer call.
     pub(crate) fn counted(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<Self, Error> {
-        let (time_constant, steady_speed, residual) = saturating_fit(times, speeds, exponential, work)?;
-        Ok(Self { steady_speed, time_constant, residual })
+        check_curve(times, speeds)?;
+        let Saturation { steady, constant, residual, .. } =
+            Saturation::of(times, speeds, exponential, Start::FromRest, work)?;
+        Ok(Self { steady_speed: steady, time_constant: constant, residual })
     }
 
     /// The shortest and the longest time constant (s) that the search reaches for these times.
@@ -148,8 +150,10 @@ impl RampFit {
 
     /// [`Self::new`] as a part of a longer call.
     pub(crate) fn counted(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<Self, Error> {
-        let (rise_time, steady_speed, residual) = saturating_fit(times, speeds, |x| x.min(1.0), work)?;
-        Ok(Self { steady_speed, rise_time, residual })
+        check_curve(times, speeds)?;
+        let Saturation { steady, constant, residual, .. } =
+            Saturation::of(times, speeds, |x| x.min(1.0), Start::FromRest, work)?;
+        Ok(Self { steady_speed: steady, rise_time: constant, residual })
     }
 
     /// The fitted speed (rad/s) at `time` (s).
@@ -176,16 +180,26 @@ fn exponential(x: f64) -> f64 {
     -exp_m1(-x)
 }
 
-/// Checks that times and speeds are those of a curve that can be fitted.
+/// Checks that times and speeds are those of a curve that can be fitted, and begins at time zero or later.
 pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
+    let first = times.first().copied().unwrap_or(0.0);
+    check(
+        first >= 0.0 || first.is_nan(),
+        "times of the speed curve",
+        first,
+        "finite, not negative, rising (s)",
+    )?;
+    check_rows(times, speeds)
+}
+
+/// [`check_curve`] of a record that may begin before time zero.
+pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     let n = times.len();
     check(n >= 3, "number of points of the speed curve", n as f64, "[3, inf)")?;
     check(speeds.len() == n, "number of speeds", speeds.len() as f64, "the number of times")?;
-    let below_zero = -f64::from_bits(1);
-    let before = std::iter::once(&below_zero).chain(times);
-    for (before, &time) in before.zip(times) {
-        let rises = time > *before && time.is_finite();
-        check(rises, "times of the speed curve", time, "finite, not negative, rising (s)")?;
+    for (k, &time) in times.iter().enumerate() {
+        let rises = time.is_finite() && (k == 0 || time > times[k - 1]);
+        check(rises, "times of the speed curve", time, "finite, rising (s)")?;
     }
     for &speed in speeds {
         check(speed.is_finite(), "speed", speed, "finite (rad/s)")?;
@@ -193,67 +207,98 @@ pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The least-squares fit of steady * shape(time/constant): (constant, steady, root mean square residual).
-fn saturating_fit(
-    times: &[f64],
-    speeds: &[f64],
-    shape: impl Fn(f64) -> f64,
-    work: &mut WorkCount<'_>,
-) -> Result<(f64, f64, f64), Error> {
-    check_curve(times, speeds)?;
-    let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
-    let scaled = |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
-    let (constant, steady, residual) =
-        scaled_fit(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape, work)?;
-    Ok((
-        positive("fitted time (s)", constant / time_scale)?,
-        finite("fitted steady speed (rad/s)", steady / speed_scale)?,
-        not_negative("residual of the fit (rad/s)", residual / speed_scale)?,
-    ))
+/// What is known of a rise where it begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Start {
+    /// Speed zero at time zero.
+    FromRest,
+    /// Nothing: the speed at time zero is fitted, too.
+    AnySpeed,
 }
 
-/// [`saturating_fit`] of numbers whose squares neither overflow nor vanish.
-fn scaled_fit(
-    times: &[f64],
-    speeds: &[f64],
-    shape: impl Fn(f64) -> f64,
-    work: &mut WorkCount<'_>,
-) -> Result<(f64, f64, f64), Error> {
-    let n = times.len();
-    // The best steady speed for a given constant, and the residual that it leaves.
-    let at = |constant: f64| {
-        let (mut shapes, mut products) = (0.0, 0.0);
-        for (&time, &speed) in times.iter().zip(speeds) {
-            let y = shape(time / constant);
-            shapes += y * y;
-            products += y * speed;
-        }
-        let steady = if shapes > 0.0 { products / shapes } else { 0.0 };
-        let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
-            let difference = speed - steady * shape(time / constant);
-            sum + difference * difference
-        });
-        (constant, steady, (sum / n as f64).sqrt())
-    };
-    let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
-    // Next to the longest time a tenth of a denormal one is as good as the smallest normal one.
-    let (low, high) = (ln((0.1 * first).max(f64::MIN_POSITIVE)), ln(100.0 * times[n - 1]));
-    let mut cost = |log: f64| {
-        work.spend(1 + (n / POINTS_OF_FLIGHT) as u64)?;
-        Ok::<_, Error>(at(exp(log)).2)
-    };
-    let trials = TRIALS.max(((high - low) / WIDEST_STEP) as u32);
-    let step = (high - low) / f64::from(trials);
-    let mut best = (f64::INFINITY, 0);
-    for trial in 0..=trials {
-        let value = cost(low + step * f64::from(trial))?;
-        if value < best.0 {
-            best = (value, trial);
-        }
+/// The least-squares fit of steady - rise (1 - shape(time/constant)); `rise` is `steady` for a start from rest.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Saturation {
+    pub(crate) steady: f64,
+    pub(crate) rise: f64,
+    pub(crate) constant: f64,
+    /// Root mean square of the residuals.
+    pub(crate) residual: f64,
+}
+
+impl Saturation {
+    /// Of a legal curve, with its units.
+    pub(crate) fn of(
+        times: &[f64],
+        speeds: &[f64],
+        shape: impl Fn(f64) -> f64,
+        start: Start,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
+        let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
+        let scaled =
+            |values: &[f64], scale: f64| values.iter().map(|value| value * scale).collect::<Vec<_>>();
+        let fit =
+            Self::of_scaled(&scaled(times, time_scale), &scaled(speeds, speed_scale), shape, start, work)?;
+        Ok(Self {
+            constant: positive("fitted time (s)", fit.constant / time_scale)?,
+            steady: finite("fitted steady speed (rad/s)", fit.steady / speed_scale)?,
+            rise: finite("fitted rise (rad/s)", fit.rise / speed_scale)?,
+            residual: not_negative("residual of the fit (rad/s)", fit.residual / speed_scale)?,
+        })
     }
-    let centre = low + step * f64::from(best.1);
-    let log = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost)?;
-    Ok(at(exp(log)))
+
+    /// [`Self::of`] numbers whose squares neither overflow nor vanish.
+    fn of_scaled(
+        times: &[f64],
+        speeds: &[f64],
+        shape: impl Fn(f64) -> f64,
+        start: Start,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
+        let n = times.len();
+        let mean_of = |values: &mut dyn Iterator<Item = f64>| match start {
+            Start::FromRest => 0.0,
+            Start::AnySpeed => values.sum::<f64>() / n as f64,
+        };
+        let mean_speed = mean_of(&mut speeds.iter().copied());
+        // The best speeds for a given constant, and the residual that they leave.
+        let at = |constant: f64| {
+            let mean_shape = mean_of(&mut times.iter().map(|&time| shape(time / constant)));
+            let (mut shapes, mut products) = (0.0, 0.0);
+            for (&time, &speed) in times.iter().zip(speeds) {
+                let y = shape(time / constant) - mean_shape;
+                shapes += y * y;
+                products += y * (speed - mean_speed);
+            }
+            let rise = if shapes > 0.0 { products / shapes } else { 0.0 };
+            let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
+                let difference = speed - mean_speed - rise * (shape(time / constant) - mean_shape);
+                sum + difference * difference
+            });
+            let start_speed = mean_speed - rise * mean_shape;
+            Self { constant, steady: start_speed + rise, rise, residual: (sum / n as f64).sqrt() }
+        };
+        let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
+        // Next to the longest time a tenth of a denormal one is as good as the smallest normal one.
+        let (low, high) = (ln((0.1 * first).max(f64::MIN_POSITIVE)), ln(100.0 * times[n - 1]));
+        let mut cost = |log: f64| {
+            work.spend(1 + (n / POINTS_OF_FLIGHT) as u64)?;
+            Ok::<_, Error>(at(exp(log)).residual)
+        };
+        let trials = TRIALS.max(((high - low) / WIDEST_STEP) as u32);
+        let step = (high - low) / f64::from(trials);
+        let mut best = (f64::INFINITY, 0);
+        for trial in 0..=trials {
+            let value = cost(low + step * f64::from(trial))?;
+            if value < best.0 {
+                best = (value, trial);
+            }
+        }
+        let centre = low + step * f64::from(best.1);
+        let log = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost)?;
+        Ok(at(exp(log)))
+    }
 }
 
 #[cfg(test)]

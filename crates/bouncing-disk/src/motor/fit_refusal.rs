@@ -1,5 +1,6 @@
 //! Why a fit was refused.
 
+use crate::motor::interval_estimate::IntervalEstimate;
 #[cfg(feature = "fit")]
 use crate::motor::parameter_fit::parameter::FitParameter;
 
@@ -25,11 +26,25 @@ pub enum FitRefusal {
         /// The fewest that are resampled.
         least: usize,
     },
-    /// The curve does not rise: its fitted steady speed is zero, and a time constant has no meaning.
+    /// The speed does not change, and a time constant has no meaning.
     #[error(
-        "the speed stays zero, so that there is no time constant: take a smaller load or a stronger stator"
+        "the speed does not change, so that there is no time constant: take a smaller load or a stronger stator"
     )]
     NoRise,
+    /// The motor does not rise from rest at time zero, as the settings say.
+    #[error(
+        "the motor does not rise from rest at time zero: at {start_time:?} s its speed is {:?} rad/s ({:?} to {:?}), as if \
+         it rose from rest at {zero_time:?} s. Fit it without a start from rest, or subtract the time of the switch-on \
+         and the dead time from the times", start_speed.value, start_speed.low, start_speed.high
+    )]
+    NotFromRest {
+        /// Time of the first row behind a dead time (s).
+        start_time: f64,
+        /// Speed at this time (rad/s).
+        start_speed: IntervalEstimate,
+        /// The time at which the fitted exponential is at rest (s).
+        zero_time: f64,
+    },
     /// The fitted time constant lies where the search for it ends: the curve does not determine it.
     #[error(
         "the time constant {time_constant:?} s lies at the limit of its search, {shortest:?} to {longest:?} s: the \
@@ -98,7 +113,8 @@ pub enum FitRefusal {
     /// The residuals remember each other for so long that the curve holds too few independent ones.
     #[error(
         "its residuals are correlated over {correlated_points:?} of its {points} points, too many to tell the error: \
-         take a longer curve or repeat it"
+         another form, such as that of a motor whose drive or load changes, or slow noise; leave out the rows in which the \
+         form is another, or repeat a curve whose noise is slow"
     )]
     Correlated {
         /// Integrated correlation time of the residuals, in points.

@@ -4,41 +4,27 @@
 pub(crate) mod csv_file;
 #[cfg(feature = "csv")]
 pub(crate) mod error;
+pub(crate) mod units;
 
-use bouncing_disk_core::{Observer, Unobserved, read_checked};
+use bouncing_disk_core::{Observer, Unobserved};
 
+use self::units::{SpeedUnit, TimeUnit};
 use crate::error::{Error, check, within_limit};
 use crate::motor::braking_fit::{BrakingFit, BrakingRotor};
 use crate::motor::ensemble::MAX_SPEEDS;
-use crate::motor::fit::check_curve;
+use crate::motor::fit::check_rows;
 use crate::motor::transient_fit::{FitSettings, TransientFit};
 
 /// One run: angular speed against time.
-///
-/// One that is read is a curve: at least three points, as many speeds as times, times that are not negative
-/// and rise.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRun"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredRun {
     /// Number by which the run is known; 0 where there is only one.
     pub member: u32,
-    /// Times (s), not negative, rising: since the motor was switched on, or since it brakes.
+    /// Times (s), rising, also below zero: those of the switch-on and of a dead time need not be known.
     pub times: Vec<f64>,
     /// Angular speeds (rad/s).
     pub speeds: Vec<f64>,
-}
-
-read_checked!(MeasuredRun as UncheckedRun {
-    member: u32,
-    times: Vec<f64>,
-    speeds: Vec<f64>,
-});
-
-impl MeasuredRun {
-    fn check(&self) -> Result<(), Error> {
-        check_curve(&self.times, &self.speeds)
-    }
 }
 
 /// Measured speeds of one motor, in one run or several.
@@ -56,29 +42,14 @@ impl MeasuredRun {
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSpeeds"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredSpeeds {
     runs: Vec<MeasuredRun>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    units: (TimeUnit, SpeedUnit),
 }
 
-read_checked!(MeasuredSpeeds as UncheckedSpeeds {
-    runs: Vec<MeasuredRun>,
-});
-
 impl MeasuredSpeeds {
-    fn check(&self) -> Result<(), Error> {
-        check(!self.runs.is_empty(), "runs", 0.0, "[1, inf)")?;
-        for (k, run) in self.runs.iter().enumerate() {
-            run.check()?;
-            let again = self.runs[..k].last().is_some_and(|before| before.member >= run.member);
-            check(!again, "member", f64::from(run.member), "rising from run to run")?;
-        }
-        let speeds = self.runs.iter().map(|run| run.speeds.len()).sum();
-        within_limit("speeds of all runs", speeds, MAX_SPEEDS)?;
-        Ok(())
-    }
-
     /// Of at least one run, their numbers rising.
     ///
     /// # Errors
@@ -86,9 +57,15 @@ impl MeasuredSpeeds {
     /// different lengths, times that do not rise and numbers that are not finite; an error of the core for
     /// more than [`MAX_SPEEDS`] speeds.
     pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {
-        let measured = Self { runs };
-        measured.check()?;
-        Ok(measured)
+        check(!runs.is_empty(), "runs", 0.0, "[1, inf)")?;
+        for (k, run) in runs.iter().enumerate() {
+            check_rows(&run.times, &run.speeds)?;
+            let again = k > 0 && runs[k - 1].member >= run.member;
+            check(!again, "member", f64::from(run.member), "rising from run to run")?;
+        }
+        let speeds = runs.iter().map(|run| run.speeds.len()).sum();
+        within_limit("speeds of all runs", speeds, MAX_SPEEDS)?;
+        Ok(Self { runs, units: Default::default() })
     }
 
     /// The runs, at least one.
@@ -97,12 +74,16 @@ impl MeasuredSpeeds {
         &self.runs
     }
 
-    /// Steady speed and time constant with intervals: of the mean over all runs, which must have been
-    /// measured at the same times, or of the only one ([`TransientFit::of_runs`],
-    /// [`TransientFit::of_measured`]).
+    /// The units that the file had, from which times and speeds were converted.
+    #[must_use]
+    pub const fn file_units(&self) -> (TimeUnit, SpeedUnit) {
+        self.units
+    }
+
+    /// Steady speed and time constant with intervals, of all runs together ([`TransientFit::of_measured`]).
     ///
     /// # Errors
-    /// Those of [`TransientFit::new`]; [`Error::OutOfRange`] names a time that is not that of the first run.
+    /// Those of [`TransientFit::of_measured`].
     pub fn fit(&self, settings: &FitSettings) -> Result<TransientFit, Error> {
         self.fit_observed(settings, &Unobserved)
     }
@@ -117,19 +98,9 @@ impl MeasuredSpeeds {
         settings: &FitSettings,
         observer: &dyn Observer,
     ) -> Result<TransientFit, Error> {
-        if let [run] = self.runs.as_slice() {
-            return TransientFit::of_measured_observed(&run.times, &run.speeds, settings, observer);
-        }
-        let times = &self.runs[0].times;
-        for run in &self.runs {
-            let (own, first) = (run.times.len(), times.len());
-            check(own == first, "number of times of a run", own as f64, "that of the first run")?;
-            for (&own, first) in run.times.iter().zip(times) {
-                check(own.total_cmp(first).is_eq(), "time of a run (s)", own, "that of the first run")?;
-            }
-        }
-        let runs: Vec<&[f64]> = self.runs.iter().map(|run| run.speeds.as_slice()).collect();
-        TransientFit::of_runs_observed(times, &runs, settings, observer)
+        let runs: Vec<_> =
+            self.runs.iter().map(|run| (run.times.as_slice(), run.speeds.as_slice())).collect();
+        TransientFit::of_measured_observed(&runs, settings, observer)
     }
 
     /// The friction with its interval from each run, all of which are braking curves of this rotor.

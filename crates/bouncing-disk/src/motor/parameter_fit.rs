@@ -18,7 +18,7 @@ mod weights;
 mod windows;
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
-use bouncing_disk_core::{Observer, Unobserved, Watch, read_checked};
+use bouncing_disk_core::{Observer, Unobserved, Watch};
 use nalgebra::DVector;
 
 use self::bootstrap::{percentile, resampled_places};
@@ -31,7 +31,7 @@ use self::search::{Evaluations, least_squares};
 use self::settings::ParameterFitSettings;
 use self::weights::Weights;
 use self::windows::Windows;
-use crate::error::{Error, check, not_negative, within_limit};
+use crate::error::{Error, check, within_limit};
 use crate::motor::data_sheet::Motor;
 use crate::motor::fit_refusal::FitRefusal;
 use crate::motor::interval_estimate::{IntervalEstimate, small_sample_widening};
@@ -79,8 +79,7 @@ const AT_END: f64 = 1.0e-6;
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedFit"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ParameterFit {
     /// The fitted parameters, in the order of their ranges: at least one, and none twice.
     pub parameters: Vec<ParameterEstimate>,
@@ -97,15 +96,6 @@ pub struct ParameterFit {
     /// How often all motors have been computed, at least once.
     pub evaluations: usize,
 }
-
-read_checked!(ParameterFit as UncheckedFit {
-    parameters: Vec<ParameterEstimate>,
-    undetermined: Vec<UndeterminedDirection>,
-    motor: Motor,
-    misfit: f64,
-    degrees_of_freedom: usize,
-    evaluations: usize,
-});
 
 /// A place in the ranges and all that is known there.
 struct Linearised {
@@ -183,27 +173,6 @@ impl ParameterFit {
         let fit = Self::of(&model, &state, evaluations.spent, &watch)?;
         watch.end();
         Ok(fit)
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        let count = self.parameters.len();
-        check(count > 0, "parameters", 0.0, "at least one")?;
-        for (k, fitted) in self.parameters.iter().enumerate() {
-            let again =
-                self.parameters[..k].iter().filter(|before| before.parameter == fitted.parameter).count();
-            check(again == 0, fitted.parameter.name(), (again + 1) as f64, "fitted once")?;
-        }
-        let open = self.undetermined.len();
-        check(open <= count, "undetermined", open as f64, "as many directions as parameters at most")?;
-        for direction in &self.undetermined {
-            let names = direction.direction.iter().map(|(parameter, _)| *parameter);
-            let is_of_all = names.eq(self.parameters.iter().map(|fitted| fitted.parameter));
-            let named = direction.direction.len() as f64;
-            check(is_of_all, "direction", named, "one change for each fitted parameter, in their order")?;
-        }
-        not_negative("misfit", self.misfit)?;
-        check(self.evaluations > 0, "evaluations", 0.0, "at least one")?;
-        Ok(())
     }
 
     fn of(

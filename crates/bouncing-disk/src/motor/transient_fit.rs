@@ -6,19 +6,22 @@
 
 mod blocks;
 mod members;
+mod onset;
 mod resamples;
 mod shape_grid;
 
+use bouncing_disk_core::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::summing_scale;
 use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount, read_checked};
 
 use self::blocks::Blocks;
 use self::members::Members;
-use self::resamples::{Intervals, Resampled, Resamples};
-use self::shape_grid::{ShapeGrid, exponential, ramp};
-use crate::error::{Error, check, not_negative, positive, within_limit};
+use self::onset::rows_before_rise;
+use self::resamples::{Resampled, Resamples};
+use self::shape_grid::{Rise, ShapeGrid, exponential, ramp};
+use crate::error::{Error, check, within_limit};
 use crate::motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS};
-use crate::motor::fit::{ExponentialFit, RampFit, check_curve};
+use crate::motor::fit::{ExponentialFit, Saturation, Start, check_curve, check_rows};
 use crate::motor::fit_refusal::FitRefusal;
 use crate::motor::interval_estimate::IntervalEstimate;
 use crate::motor::statistics::RiseForm;
@@ -43,6 +46,15 @@ const MOST_POINTS: usize = 4_096;
 /// Ensembles of more members are resampled in groups of neighbours.
 const MOST_GROUPS: usize = 512;
 
+/// A rise below this share of the steady speed is rounding.
+const NO_RISE: f64 = 1.0e-9;
+
+/// A start that lies beyond its interval by this share of the distance of its end is not from rest: three standard errors.
+const DENIED: f64 = 1.5;
+
+/// The mean over runs may miss its fit by twice its standard error before the intervals grow with it.
+const LARGEST_MISFIT: f64 = 2.0;
+
 /// How near an end of the search a time constant is taken to lie at it.
 const AT_LIMIT: f64 = 0.01;
 
@@ -61,11 +73,15 @@ pub struct FitSettings {
     /// The largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1]. Default 0.1. Noise of
     /// a measurement counts, too: raise it where the noise is known to be larger.
     pub largest_residual: f64,
+    /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest. Default false:
+    /// time zero, a dead time and the speed at the start are found from the record, and the intervals are wider. A record
+    /// that denies it is refused.
+    pub from_rest: bool,
 }
 
 impl Default for FitSettings {
     fn default() -> Self {
-        Self { resamples: 1_000, seed: 1, least_duration: 3.0, largest_residual: 0.1 }
+        Self { resamples: 1_000, seed: 1, least_duration: 3.0, largest_residual: 0.1, from_rest: false }
     }
 }
 
@@ -86,53 +102,36 @@ read_checked!(FitSettings as UncheckedSettings {
     seed: u64,
     least_duration: f64,
     largest_residual: f64,
+    from_rest: bool,
 });
 
 /// The rise of one form, with intervals.
 ///
 /// The intervals hold the error of the scatter, not that of a form which is not the motor's.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRise"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RiseEstimate {
     /// Steady speed alpha_ss (rad/s). It depends on the duration where the speed creeps on after the rise: it is
     /// the plateau up to the end of the curve.
     pub steady_speed: IntervalEstimate,
-    /// Time constant t_c of the exponential, or the time t_r at which the ramp ends (s). It depends on the duration
-    /// where the rise has another form: it is the constant that is best on the whole for a curve of this length.
+    /// Time constant t_c of the exponential, or the time t_r in which the ramp rises from rest (s). It depends on the
+    /// duration where the rise has another form: it is the constant that is best on the whole for a curve of this length.
     pub constant: IntervalEstimate,
     /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not the load that
     /// stops the motor. It depends on the duration as both of its parts do.
     pub stall_acceleration: IntervalEstimate,
+    /// Speed (rad/s) at the start time of the fit; `None` where the motor starts from rest at time zero.
+    pub start_speed: Option<IntervalEstimate>,
     /// Root mean square of the residuals (rad/s).
     pub residual: f64,
 }
 
-impl RiseEstimate {
-    fn check(&self) -> Result<(), Error> {
-        positive("constant", self.constant.low)?;
-        not_negative("residual", self.residual)?;
-        Ok(())
-    }
-
-    fn new(intervals: Intervals, residual: f64) -> Result<Self, Error> {
-        let Intervals { steady_speed, constant, stall_acceleration } = intervals;
-        let rise = Self { steady_speed, constant, stall_acceleration, residual };
-        rise.check()?;
-        Ok(rise)
-    }
-}
-
-read_checked!(RiseEstimate as UncheckedRise {
-    steady_speed: IntervalEstimate,
-    constant: IntervalEstimate,
-    stall_acceleration: IntervalEstimate,
-    residual: f64,
-});
-
 /// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured curve.
 ///
-/// Times count from the instant at which the motor is switched on, and it starts from rest.
+/// A computed motor starts from rest at time zero. Of a measured one neither is known
+/// ([`FitSettings::from_rest`]): alpha_ss - b exp(-t/t_c) is fitted from its own start on. A later start and a higher
+/// speed there are one number of an exponential, b, so that the fit says at which time the curve would have been at
+/// rest ([`Self::zero_time`]), not which of the two it was.
 ///
 /// ```
 /// use bouncing_disk::{Error, FitRefusal, FitSettings, System, TransientFit, TransientSettings, ensemble};
@@ -149,48 +148,26 @@ read_checked!(RiseEstimate as UncheckedRise {
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedFit"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientFit {
-    /// The fit of alpha_ss (1 - exp(-t/t_c)).
+    /// The fit of alpha_ss (1 - exp(-t/t_c)), or of alpha_ss - b exp(-t/t_c).
     pub exponential: RiseEstimate,
-    /// The fit of alpha_ss min(t/t_r, 1); `None` where the curve does not determine t_r.
+    /// The fit of alpha_ss min(t/t_r, 1), or of alpha_ss - b max(1 - t/t_r, 0); `None` where the curve does not determine t_r.
     pub ramp: Option<RiseEstimate>,
     /// The form that leaves the smaller residual.
     pub form: RiseForm,
+    /// Time (s) of the first row that was fitted; 0 for a start from rest. The rows before it have one speed: they lie before
+    /// the switch-on or in a dead time.
+    pub start_time: f64,
     /// Last time of the curve (s): what was fitted ends here.
     pub duration: f64,
-    /// Points of the curve.
+    /// Points of the curve; of several runs with times of their own those of all of them.
     pub points: usize,
     /// Members whose mean was fitted; 1 for a single measured curve.
     pub members: usize,
 }
 
-read_checked!(TransientFit as UncheckedFit {
-    exponential: RiseEstimate,
-    ramp: Option<RiseEstimate>,
-    form: RiseForm,
-    duration: f64,
-    points: usize,
-    members: usize,
-});
-
 impl TransientFit {
-    fn check(&self) -> Result<(), Error> {
-        positive("duration", self.duration)?;
-        check(self.points >= LEAST_POINTS, "points", self.points as f64, "[8, inf)")?;
-        let members = self.members as f64;
-        check(self.members == 1 || self.members >= LEAST_MEMBERS, "members", members, "1 or [5, inf)")?;
-        let form = better_form(&self.exponential, self.ramp.as_ref());
-        check(
-            self.form == form,
-            "form (0: exponential, 1: ramp)",
-            f64::from(self.form == RiseForm::Ramp),
-            "the form with the smaller residual",
-        )?;
-        Ok(())
-    }
-
     /// Steady speed alpha_ss (rad/s) of the exponential.
     #[must_use]
     pub const fn steady_speed(&self) -> IntervalEstimate {
@@ -210,8 +187,26 @@ impl TransientFit {
         self.exponential.stall_acceleration
     }
 
-    /// Fits the mean curve of the members of an ensemble, with intervals by resampling the members: at least
-    /// [`LEAST_MEMBERS`] curves with the same times.
+    /// The fitted exponential (rad/s) at `time` (s), not before [`Self::start_time`].
+    #[must_use]
+    pub fn speed(&self, time: f64) -> f64 {
+        let steady = self.exponential.steady_speed.value;
+        let start = self.exponential.start_speed.map_or(0.0, |start| start.value);
+        start + (steady - start) * exponential((time - self.start_time) / self.exponential.constant.value)
+    }
+
+    /// The time (s) at which the fitted exponential is at rest: the switch-on and its dead time, if the motor rises from
+    /// rest. Infinite where it starts above its steady speed by as much again.
+    #[must_use]
+    pub fn zero_time(&self) -> f64 {
+        let start = self.exponential.start_speed.map_or(0.0, |start| start.value);
+        let left = 1.0 - start / self.exponential.steady_speed.value;
+        let behind = if left > 0.0 { ln(left) } else { f64::NEG_INFINITY };
+        self.start_time + self.exponential.constant.value * behind
+    }
+
+    /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero, with intervals by
+    /// resampling the members: at least [`LEAST_MEMBERS`] curves with the same times.
     ///
     /// Curves of more than 4096 points are averaged in groups of points first; more than 512 members are resampled in groups
     /// of neighbours.
@@ -221,154 +216,87 @@ impl TransientFit {
     /// cannot be fitted, or times that differ between members; an error of the core for more than
     /// [`MAX_MEMBERS`] members or more than [`MAX_SPEEDS`] speeds of all together.
     pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, Error> {
-        Self::new_observed(members, settings, &Unobserved)
-    }
-
-    /// [`Self::new`] with an observer; the items are the resampled curves, once for each form.
-    ///
-    /// # Errors
-    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-    /// breaks.
-    pub fn new_observed(
-        members: &[SpeedCurve],
-        settings: &FitSettings,
-        observer: &dyn Observer,
-    ) -> Result<Self, Error> {
+        settings.check()?;
         let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);
         for curve in members {
-            check_times(times, &curve.times)?;
-        }
-        let runs: Vec<&[f64]> = members.iter().map(|curve| curve.speeds.as_slice()).collect();
-        let flights: f64 = members.iter().map(|curve| curve.impacts as f64 + curve.separations as f64).sum();
-        Self::of_members(times, &runs, flights / members.len() as f64, settings, observer)
-    }
-
-    /// [`Self::new`] of runs that were measured at the same times (s), each with its speeds (rad/s).
-    ///
-    /// # Errors
-    /// Those of [`Self::new`].
-    pub fn of_runs(times: &[f64], runs: &[&[f64]], settings: &FitSettings) -> Result<Self, Error> {
-        Self::of_runs_observed(times, runs, settings, &Unobserved)
-    }
-
-    /// [`Self::of_runs`] with an observer, as [`Self::new_observed`].
-    ///
-    /// # Errors
-    /// Those of [`Self::new_observed`].
-    pub fn of_runs_observed(
-        times: &[f64],
-        runs: &[&[f64]],
-        settings: &FitSettings,
-        observer: &dyn Observer,
-    ) -> Result<Self, Error> {
-        Self::of_members(times, runs, 0.0, settings, observer)
-    }
-
-    /// The mean of runs whose members flew so often on the way; 0 where that is not known, or where none left the stator.
-    fn of_members(
-        times: &[f64],
-        runs: &[&[f64]],
-        flights: f64,
-        settings: &FitSettings,
-        observer: &dyn Observer,
-    ) -> Result<Self, Error> {
-        settings.check()?;
-        let members = runs.len();
-        if members < LEAST_MEMBERS {
-            return refused(FitRefusal::TooFewMembers { members, least: LEAST_MEMBERS });
-        }
-        within_limit("members of an ensemble", members, MAX_MEMBERS)?;
-        within_limit("speeds of an ensemble", members.saturating_mul(times.len()), MAX_SPEEDS)?;
-        for speeds in runs {
-            check_curve(times, speeds)?;
-        }
-        let largest = |speeds: &&[f64]| speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
-        let scale = summing_scale(&runs.iter().map(largest).collect::<Vec<_>>());
-        let watch = Watch::begin(observer, 0, 2 * settings.resamples as u64)?;
-        let mut work = watch.work();
-        let times = Condensed::new(times);
-        let groups = members.min(MOST_GROUPS);
-        let mut sums = vec![(vec![0.0; times.points()], 0_usize); groups];
-        for (member, speeds) in runs.iter().enumerate() {
-            let (sum, size) = &mut sums[member * groups / members];
-            times.add(speeds, scale, sum);
-            *size += 1;
-            work.spend(1 + speeds.len() as u64 / 64)?;
-        }
-        let mut mean = vec![0.0; times.points()];
-        for (sum, _) in &sums {
-            for (mean, sum) in mean.iter_mut().zip(sum) {
-                *mean += sum;
+            let (own, first) = (&curve.times, times);
+            check(own.len() == first.len(), "number of times", own.len() as f64, "that of the first member")?;
+            for (&own, first) in own.iter().zip(first) {
+                check(own.total_cmp(first).is_eq(), "time of a member (s)", own, "that of the first member")?;
             }
+            check_curve(own, &curve.speeds)?;
         }
-        for mean in &mut mean {
-            *mean /= members as f64;
-        }
-        let of_form = |grid: &ShapeGrid, _: &[f64], work: &mut WorkCount<'_>| {
-            Ok(Ok(Box::new(Members::new(grid, &sums, work)?) as Box<dyn Resampled>))
-        };
-        let fit = Curve { times: &times, speeds: &mean, scale, members, flights }
-            .fit(settings, &of_form, &mut work)?;
-        watch.end();
-        Ok(fit)
+        let runs: Vec<_> = members.iter().map(|curve| (times, curve.speeds.as_slice())).collect();
+        let flights: f64 = members.iter().map(|curve| curve.impacts as f64 + curve.separations as f64).sum();
+        let watch = Watch::begin(&Unobserved, 0, 2 * settings.resamples as u64)?;
+        let rows = Rows::of(&runs, Some(flights / members.len() as f64), &mut watch.work())?;
+        rows.fit(Start::FromRest, settings, &mut watch.work())
     }
 
-    /// Fits one measured curve: times (s, not negative, rising) and speeds (rad/s), with intervals by resampling its residuals
-    /// in blocks that are longer than their correlation.
-    ///
-    /// The residuals must scatter alike along the whole curve. Where runs can be repeated, [`Self::of_runs`]
-    /// asks less.
+    /// The fit of measured runs, each with its times (s, rising, also below zero) and speeds (rad/s): of one run with
+    /// intervals by its residuals, whose noise may be correlated and vary along the curve, of at least [`LEAST_MEMBERS`]
+    /// with intervals by their scatter.
     ///
     /// # Errors
-    /// Those of [`Self::new`].
-    pub fn of_measured(times: &[f64], speeds: &[f64], settings: &FitSettings) -> Result<Self, Error> {
-        Self::of_measured_observed(times, speeds, settings, &Unobserved)
+    /// Those of [`Self::new`]; [`FitRefusal::NotFromRest`] where the settings say that the motor starts from rest and the
+    /// runs deny it.
+    pub fn of_measured(runs: &[(&[f64], &[f64])], settings: &FitSettings) -> Result<Self, Error> {
+        Self::of_measured_observed(runs, settings, &Unobserved)
     }
 
-    /// [`Self::of_measured`] with an observer, as [`Self::new_observed`].
+    /// [`Self::of_measured`] with an observer; the items are the resampled curves, once for each form.
     ///
     /// # Errors
-    /// Those of [`Self::new_observed`].
+    /// Those of [`Self::of_measured`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
+    /// breaks.
     pub fn of_measured_observed(
-        times: &[f64],
-        speeds: &[f64],
+        runs: &[(&[f64], &[f64])],
         settings: &FitSettings,
         observer: &dyn Observer,
     ) -> Result<Self, Error> {
         settings.check()?;
-        within_limit("speeds of a curve", times.len(), MAX_SPEEDS)?;
-        check_curve(times, speeds)?;
-        let scale = summing_scale(speeds);
-        let watch = Watch::begin(observer, 0, 2 * settings.resamples as u64)?;
+        for (times, speeds) in runs {
+            if settings.from_rest { check_curve(times, speeds) } else { check_rows(times, speeds) }?;
+        }
+        let fits = if settings.from_rest { 4 } else { 2 };
+        let watch = Watch::begin(observer, 0, fits * settings.resamples as u64)?;
         let mut work = watch.work();
-        let times = Condensed::new(times);
-        let mut curve = vec![0.0; times.points()];
-        times.add(speeds, scale, &mut curve);
-        let of_form = |grid: &ShapeGrid, fitted: &[f64], work: &mut WorkCount<'_>| {
-            let residuals: Vec<f64> = curve.iter().zip(fitted).map(|(speed, fit)| speed - fit).collect();
-            Ok(match Blocks::new(&residuals, fitted[fitted.len() - 1]) {
-                Ok(blocks) => Ok(Box::new(blocks.at_places(grid, fitted, work)?) as Box<dyn Resampled>),
-                Err(refusal) => Err(refusal),
-            })
+        let rows = Rows::of(runs, None, &mut work)?;
+        let fit = if settings.from_rest {
+            let free = rows.fit(Start::AnySpeed, settings, &mut work);
+            let fit = rows.fit(Start::FromRest, settings, &mut work)?;
+            match free {
+                Ok(free) => fit.refuse_other_start(&free)?,
+                Err(Error::FitRefused { .. }) => {}
+                Err(other) => return Err(other),
+            }
+            fit
+        } else {
+            rows.fit(Start::AnySpeed, settings, &mut work)?
         };
-        let fit = Curve { times: &times, speeds: &curve, scale, members: 1, flights: 0.0 }
-            .fit(settings, &of_form, &mut work)?;
         watch.end();
         Ok(fit)
+    }
+
+    /// Refuses a start from rest that a fit without it denies.
+    fn refuse_other_start(&self, free: &Self) -> Result<(), Error> {
+        let (own, other, shape): (_, _, fn(f64) -> f64) = match free.form {
+            RiseForm::Exponential => (Some(self.exponential), Some(free.exponential), exponential),
+            RiseForm::Ramp => (self.ramp, free.ramp, ramp),
+        };
+        let (Some(own), Some(start)) = (own, other.and_then(|rise| rise.start_speed)) else { return Ok(()) };
+        let by = own.steady_speed.value * shape(free.start_time / own.constant.value) - start.value;
+        let reach = if by > 0.0 { start.high - start.value } else { start.value - start.low };
+        if by.abs() > DENIED * reach {
+            let (zero_time, start_time) = (free.zero_time(), free.start_time);
+            return refused(FitRefusal::NotFromRest { start_time, start_speed: start, zero_time });
+        }
+        Ok(())
     }
 }
 
 fn refused<T>(reason: FitRefusal) -> Result<T, Error> {
     Err(Error::FitRefused { reason })
-}
-
-/// Checks that a member has the times of the first one.
-fn check_times(first: &[f64], own: &[f64]) -> Result<(), Error> {
-    check(own.len() == first.len(), "number of times", own.len() as f64, "that of the first member")?;
-    for (&own, first) in own.iter().zip(first) {
-        check(own.total_cmp(first).is_eq(), "time of a member (s)", own, "that of the first member")?;
-    }
-    Ok(())
 }
 
 /// The form with the smaller residual.
@@ -379,104 +307,183 @@ fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseF
     }
 }
 
-/// The times of a curve, averaged in groups where they are many.
-struct Condensed {
+/// A run, or the mean of a group of runs with the same times.
+struct Run {
     times: Vec<f64>,
-    group: usize,
-    all: usize,
+    speeds: Vec<f64>,
+    /// How many runs it stands for.
+    weight: f64,
 }
 
-impl Condensed {
-    fn new(times: &[f64]) -> Self {
-        let group = times.len().div_ceil(MOST_POINTS).max(1);
-        let mut condensed = Self { times: Vec::new(), group, all: times.len() };
-        condensed.times = vec![0.0; times.len().div_ceil(group)];
-        let mut means = std::mem::take(&mut condensed.times);
-        add_means(times, group, summing_scale(times), &mut means);
-        let scale = summing_scale(times);
-        means.iter_mut().for_each(|mean| *mean /= scale);
-        condensed.times = means;
-        condensed
-    }
-
-    fn points(&self) -> usize {
-        self.times.len()
-    }
-
-    fn add(&self, speeds: &[f64], scale: f64, sum: &mut [f64]) {
-        add_means(speeds, self.group, scale, sum);
-    }
-}
-
-/// Adds the mean of each group of values, scaled.
-fn add_means(values: &[f64], group: usize, scale: f64, sums: &mut [f64]) {
-    for (values, sum) in values.chunks(group).zip(sums) {
-        *sum += values.iter().map(|value| value * scale).sum::<f64>() / values.len() as f64;
-    }
-}
-
-/// How what is resampled is made for a form, from its grid and the fitted curve.
-type OfForm<'f> = dyn Fn(&ShapeGrid, &[f64], &mut WorkCount<'_>) -> Result<Result<Box<dyn Resampled>, FitRefusal>, Error>
-    + 'f;
-
-/// The curve that is fitted, its speeds multiplied by `scale`.
-struct Curve<'c> {
-    times: &'c Condensed,
-    speeds: &'c [f64],
+/// The runs that are fitted, and their mean; speeds are multiplied by `scale`.
+struct Rows {
+    runs: Vec<Run>,
+    /// The mean over the runs: of as many neighbouring rows as there are runs, which have the same time if the runs do.
+    times: Vec<f64>,
+    speeds: Vec<f64>,
+    have_same_times: bool,
     scale: f64,
     members: usize,
-    /// Flights of a member, or 0.
+    points: usize,
+    /// Flights of a computed member, or 0.
     flights: f64,
 }
 
-impl Curve<'_> {
+impl Rows {
+    /// Of legal curves, which are computed if their flights are known.
+    fn of(
+        curves: &[(&[f64], &[f64])],
+        flights: Option<f64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
+        let members = curves.len();
+        if members < LEAST_MEMBERS && (members != 1 || flights.is_some()) {
+            return refused(FitRefusal::TooFewMembers { members, least: LEAST_MEMBERS });
+        }
+        within_limit("members of an ensemble", members, MAX_MEMBERS)?;
+        let all: usize = curves.iter().map(|(times, _)| times.len()).sum();
+        within_limit("speeds of an ensemble", all, MAX_SPEEDS)?;
+        let largest =
+            |(_, speeds): &(&[f64], &[f64])| speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
+        let scale = summing_scale(&curves.iter().map(largest).collect::<Vec<_>>());
+        let have_same_times = curves.iter().all(|(times, _)| *times == curves[0].0);
+        let groups = if have_same_times { members.min(MOST_GROUPS) } else { members };
+        let mut runs: Vec<Run> = Vec::with_capacity(groups);
+        for (member, (times, speeds)) in curves.iter().enumerate() {
+            let group = times.len().div_ceil(MOST_POINTS);
+            let own = means(speeds, group, scale);
+            if member * groups / members < runs.len() {
+                let run = &mut runs[member * groups / members];
+                run.weight += 1.0;
+                run.speeds.iter_mut().zip(&own).for_each(|(mean, own)| *mean += (own - *mean) / run.weight);
+            } else {
+                let unit = summing_scale(times);
+                let times = means(times, group, unit).iter().map(|time| time / unit).collect();
+                runs.push(Run { times, speeds: own, weight: 1.0 });
+            }
+            work.spend(1 + speeds.len() as u64 / 64)?;
+        }
+        let points = if have_same_times { curves[0].0.len() } else { all };
+        let mut rows = Self {
+            runs,
+            times: Vec::new(),
+            speeds: Vec::new(),
+            have_same_times,
+            scale,
+            members,
+            points,
+            flights: flights.unwrap_or(0.0),
+        };
+        rows.average();
+        Ok(rows)
+    }
+
+    /// The weight, time and speed of every row of all runs, by their times.
+    fn sorted(&self) -> Vec<[f64; 3]> {
+        let of = |run: &Run| {
+            let rows = run.times.iter().zip(&run.speeds).map(|(&time, &speed)| [run.weight, time, speed]);
+            rows.collect::<Vec<_>>()
+        };
+        let mut rows: Vec<[f64; 3]> = self.runs.iter().flat_map(of).collect();
+        if self.runs.len() > 1 {
+            rows.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        }
+        rows
+    }
+
+    fn average(&mut self) {
+        let unit = summing_scale(&self.runs[0].times);
+        for rows in self.sorted().chunks(self.runs.len()) {
+            let weight: f64 = rows.iter().map(|row| row[0]).sum();
+            let mean =
+                |of: &dyn Fn(&[f64; 3]) -> f64| rows.iter().map(|row| row[0] * of(row)).sum::<f64>() / weight;
+            let is_one = rows.iter().all(|row| row[1].total_cmp(&rows[0][1]).is_eq());
+            self.times.push(if is_one { rows[0][1] } else { mean(&|row| row[1] * unit) / unit });
+            self.speeds.push(mean(&|row| row[2]));
+        }
+    }
+
+    /// How much larger than its standard error the residual of the mean curve is, if it is much larger: another form.
+    fn misfit(&self, of: impl Fn(f64) -> f64, from: f64, parameters: usize) -> f64 {
+        let (mut residual, mut expected, mut points) = (0.0, 0.0, 0.0);
+        let runs = self.runs.len();
+        for rows in self.sorted().chunks_exact(runs).filter(|rows| rows[0][1] >= from) {
+            let differences: Vec<f64> = rows.iter().map(|row| row[2] - of(row[1])).collect();
+            let mean = differences.iter().sum::<f64>() / runs as f64;
+            let squares: f64 = differences.iter().map(|own| (own - mean) * (own - mean)).sum();
+            expected += squares / (runs * (runs - 1)) as f64;
+            residual += mean * mean;
+            points += 1.0;
+        }
+        let misfit = (residual * points / ((points - parameters as f64) * expected)).sqrt();
+        if misfit > LARGEST_MISFIT && misfit.is_finite() { misfit } else { 1.0 }
+    }
+
     fn fit(
         &self,
+        start: Start,
         settings: &FitSettings,
-        of_form: &OfForm<'_>,
         work: &mut WorkCount<'_>,
     ) -> Result<TransientFit, Error> {
-        let times = &self.times.times;
-        let exponential_fit = ExponentialFit::counted(times, self.speeds, work)?;
-        if let Err(reason) = self.judge(&exponential_fit, settings) {
+        let before = if start == Start::AnySpeed && self.times.len() > LEAST_POINTS {
+            rows_before_rise(&self.times, &self.speeds, work)?
+        } else {
+            0
+        };
+        let start_time = if start == Start::AnySpeed { self.times[before] } else { 0.0 };
+        let times: Vec<f64> = self.times[before..].iter().map(|time| time - start_time).collect();
+        let part = Part { rows: self, start, start_time, times, speeds: &self.speeds[before..] };
+        let curve = Saturation::of(&part.times, part.speeds, exponential, start, work)?;
+        if let Err(reason) = part.judge(&curve, settings) {
             return refused(reason);
         }
-        let ExponentialFit { steady_speed, time_constant, residual } = exponential_fit;
-        let exponential =
-            self.rise(exponential, (steady_speed, time_constant, residual), settings, of_form, work)?;
-        let exponential = exponential.or_else(refused)?;
-        let duration = times[times.len() - 1];
+        let exponential = part.rise(exponential, &curve, settings, work)?.or_else(refused)?;
+        let duration = part.times[part.times.len() - 1];
         if exponential.constant.high >= duration {
             let time_constant = exponential.constant.high;
             return refused(FitRefusal::TooShort { duration, time_constant, least: 1.0 });
         }
-        let RampFit { steady_speed, rise_time, residual } = RampFit::counted(times, self.speeds, work)?;
+        let curve = Saturation::of(&part.times, part.speeds, ramp, start, work)?;
         // A ramp that goes on to the end of the curve, or is over before its second point, is no ramp.
-        let ramp = if rise_time < duration && rise_time > times[1] {
-            self.rise(ramp, (steady_speed, rise_time, residual), settings, of_form, work)?.ok()
-        } else {
-            None
-        };
-        let fit = TransientFit {
+        let is_ramp =
+            curve.constant < duration && curve.constant > part.times[1] && curve.rise / curve.steady > 0.0;
+        let ramp = if is_ramp { part.rise(ramp, &curve, settings, work)?.ok() } else { None };
+        Ok(TransientFit {
             form: better_form(&exponential, ramp.as_ref()),
             exponential,
             ramp,
-            duration,
-            points: self.times.all,
+            start_time,
+            duration: self.times[self.times.len() - 1],
+            points: self.points,
             members: self.members,
-        };
-        fit.check()?;
-        Ok(fit)
+        })
     }
+}
 
-    /// Whether the curve lets its fit mean anything.
-    fn judge(&self, fit: &ExponentialFit, settings: &FitSettings) -> Result<(), FitRefusal> {
-        let times = &self.times.times;
-        let (points, last, time_constant) = (times.len(), times[times.len() - 1], fit.time_constant);
+/// The means of groups of numbers, scaled.
+fn means(values: &[f64], group: usize, scale: f64) -> Vec<f64> {
+    let mean = |values: &[f64]| values.iter().map(|value| value * scale).sum::<f64>() / values.len() as f64;
+    values.chunks(group).map(mean).collect()
+}
+
+/// The part of the rows that is fitted: from the start of the rise on, from which its times count.
+struct Part<'r> {
+    rows: &'r Rows,
+    start: Start,
+    start_time: f64,
+    times: Vec<f64>,
+    speeds: &'r [f64],
+}
+
+impl Part<'_> {
+    /// Whether the mean curve lets its fit mean anything.
+    fn judge(&self, fit: &Saturation, settings: &FitSettings) -> Result<(), FitRefusal> {
+        let times = &self.times;
+        let (points, last, time_constant) = (times.len(), times[times.len() - 1], fit.constant);
         if points < LEAST_POINTS {
             return Err(FitRefusal::TooFewPoints { points, least: LEAST_POINTS });
         }
-        if fit.steady_speed.abs() <= 0.0 {
+        if fit.rise.abs() <= NO_RISE * fit.steady.abs() {
             return Err(FitRefusal::NoRise);
         }
         let (shortest, longest) = ExponentialFit::searched(times);
@@ -492,44 +499,111 @@ impl Curve<'_> {
             let least = LEAST_POINTS_OF_RISE;
             return Err(FitRefusal::TooCoarse { points: rising, time_constant, least });
         }
-        let flights = self.flights * (time_constant / last);
-        if self.flights > 0.0 && flights < LEAST_FLIGHTS {
+        let flights = self.rows.flights * (time_constant / last);
+        if self.rows.flights > 0.0 && flights < LEAST_FLIGHTS {
             return Err(FitRefusal::TooFewFlights { flights, time_constant, least: LEAST_FLIGHTS });
         }
         let largest = settings.largest_residual;
-        if fit.residual > largest * fit.steady_speed.abs() {
+        if fit.residual > largest * fit.steady.abs() {
             return Err(FitRefusal::Residual {
-                residual: fit.residual / self.scale,
-                steady_speed: fit.steady_speed / self.scale,
+                residual: fit.residual / self.rows.scale,
+                steady_speed: fit.steady / self.rows.scale,
                 largest,
             });
         }
         Ok(())
     }
 
-    /// The fit of a form (steady speed, constant, residual) with its intervals.
+    /// The rows of a run from the start on.
+    fn of_run(&self, run: &Run) -> Run {
+        let before = run.times.iter().take_while(|&&time| time < self.start_time).count();
+        let (times, speeds) = (run.times[before..].to_vec(), run.speeds[before..].to_vec());
+        Run { times, speeds, weight: run.weight }
+    }
+
+    /// The fit of a form with its intervals.
     fn rise(
         &self,
         shape: fn(f64) -> f64,
-        (steady, constant, residual): (f64, f64, f64),
+        fit: &Saturation,
         settings: &FitSettings,
-        of_form: &OfForm<'_>,
         work: &mut WorkCount<'_>,
     ) -> Result<Result<RiseEstimate, FitRefusal>, Error> {
-        let times = &self.times.times;
-        let grid = ShapeGrid::new(times, constant, shape, work)?;
-        let fitted: Vec<f64> = times.iter().map(|time| steady * shape(time / constant)).collect();
-        let sample = match of_form(&grid, &fitted, work)? {
-            Ok(sample) => sample,
-            Err(refusal) => return Ok(Err(refusal)),
-        };
-        let resamples =
-            match Resamples::draw(&grid, sample.as_ref(), settings.resamples, settings.seed, work)? {
-                Ok(resamples) => resamples,
+        let grid = ShapeGrid::new(fit.constant, shape, self.start);
+        let at = |time: f64, constant: f64| fit.steady - fit.rise * (1.0 - shape(time / constant));
+        let parameters = if self.start == Start::AnySpeed { 3 } else { 2 };
+        let runs: Vec<Run> = self.rows.runs.iter().map(|run| self.of_run(run)).collect();
+        let runs: Vec<Run> = runs.into_iter().filter(|run| !run.times.is_empty()).collect();
+        let sample: Box<dyn Resampled> = if let [run] = runs.as_slice() {
+            let row =
+                |of: &dyn Fn(f64) -> f64| run.times.iter().map(|time| of(time - self.start_time)).collect();
+            let fitted: Vec<f64> = row(&|time| at(time, fit.constant));
+            let step = 1.0e-6;
+            let mut derivatives: Vec<Vec<f64>> = vec![
+                row(&|time| shape(time / fit.constant)),
+                row(&|time| (at(time, fit.constant * (1.0 + step)) - at(time, fit.constant)) / step),
+            ];
+            if self.start == Start::AnySpeed {
+                derivatives.push(vec![1.0; run.times.len()]);
+            }
+            match Blocks::new(run, self.start_time, &fitted, &derivatives, &grid, work)? {
+                Ok(blocks) => Box::new(blocks),
                 Err(refusal) => return Ok(Err(refusal)),
-            };
-        let intervals = resamples.intervals(steady / self.scale, constant, self.scale)?;
-        Ok(Ok(RiseEstimate::new(intervals, residual / self.scale)?))
+            }
+        } else {
+            // A computed motor has a form of its own, which its fit does not claim to be.
+            let is_measured = self.rows.flights <= 0.0;
+            let curve = |time: f64| at(time - self.start_time, fit.constant);
+            let misfit = if is_measured { self.rows.misfit(curve, self.start_time, parameters) } else { 1.0 };
+            Box::new(Members::new(&runs, self.start_time, misfit, &grid, work)?)
+        };
+        Ok(match Resamples::draw(&grid, sample.as_ref(), settings.resamples, settings.seed, work)? {
+            Ok(resamples) => Ok(self.estimate(shape(2.0) >= 1.0, fit, &resamples)?),
+            Err(refusal) => Err(refusal),
+        })
+    }
+
+    /// The values of a fit with the intervals of its resamples.
+    fn estimate(
+        &self,
+        is_ramp: bool,
+        fit: &Saturation,
+        resamples: &Resamples,
+    ) -> Result<RiseEstimate, Error> {
+        let (scale, centre) = (self.rows.scale, resamples.centre());
+        // The mean of rows that do not have the same times is not at its fit: all rows together are.
+        let Rise { steady, rise, log_constant } = if self.rows.have_same_times {
+            Rise { steady: fit.steady, rise: fit.rise, log_constant: ln(fit.constant) }
+        } else {
+            centre
+        };
+        let constant = if self.rows.have_same_times { fit.constant } else { exp(log_constant) };
+        // A ramp that starts at some speed has another time to rise from rest.
+        let is_part = is_ramp && self.start == Start::AnySpeed;
+        let from_rest =
+            |own: &Rise| if is_part { (own.steady / own.rise).max(f64::MIN_POSITIVE) } else { 1.0 };
+        let own = Rise { steady, rise, log_constant };
+        let (low, high) = resamples.about(steady, &|own| own.steady);
+        let steady_speed = IntervalEstimate::about(steady / scale, low / scale, high / scale)?;
+        let constant = constant * from_rest(&own);
+        let log = ln(constant);
+        let (low, high) = resamples.about(log, &|own| own.log_constant + ln(from_rest(own)));
+        let time_constant = IntervalEstimate::about(constant, exp(low), exp(high))?;
+        // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in it.
+        let quotient = |own: &Rise| own.steady * exp(log - own.log_constant) / from_rest(own);
+        let (low, high) = resamples.about(steady, &quotient);
+        let [value, low, high] = [steady, low, high].map(|speed| speed / scale / constant);
+        let stall_acceleration = IntervalEstimate::about(value, low, high)?;
+        let start = steady - rise;
+        let (low, high) = resamples.about(start, &|own| own.steady - own.rise);
+        let start_speed = IntervalEstimate::about(start / scale, low / scale, high / scale)?;
+        Ok(RiseEstimate {
+            steady_speed,
+            constant: time_constant,
+            stall_acceleration,
+            start_speed: (self.start == Start::AnySpeed).then_some(start_speed),
+            residual: fit.residual / scale,
+        })
     }
 }
 

@@ -25,7 +25,7 @@ const POINTS: u32 = 20;
 const DURATIONS: [f64; 11] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0];
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraFitData, ExperimentError> {
-    let settings = FitSettings::default();
+    let settings = FitSettings { from_rest: true, ..FitSettings::default() };
     let trials = quality.choose(24_u64, 400);
     progress.start(DURATIONS.len() as u64, "durations");
     let last = DURATIONS[DURATIONS.len() - 1];
@@ -94,8 +94,8 @@ fn ensemble(times: &[f64], seed: u64) -> Vec<Vec<f64>> {
 }
 
 fn fitted(times: &[f64], members: &[Vec<f64>], settings: &FitSettings) -> Result<TransientFit, Error> {
-    let runs: Vec<&[f64]> = members.iter().map(|member| &member[..times.len()]).collect();
-    TransientFit::of_runs(times, &runs, settings)
+    let runs: Vec<(&[f64], &[f64])> = members.iter().map(|member| (times, &member[..times.len()])).collect();
+    TransientFit::of_measured(&runs, settings)
 }
 
 /// The fit, or why it is refused.

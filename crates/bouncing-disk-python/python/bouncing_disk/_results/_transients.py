@@ -161,13 +161,16 @@ class RiseEstimate:
         Time constant of an exponential, rise time of a ramp (s).
     stall_acceleration : IntervalEstimate
         The first by the second (rad/s^2).
+    start_speed : IntervalEstimate or None
+        Speed at the start time of the fit (rad/s); None for a start from rest.
     residual : float
-        What is left, relative to the steady speed.
+        Root mean square of what is left (rad/s).
     """
 
     steady_speed: IntervalEstimate
     constant: IntervalEstimate
     stall_acceleration: IntervalEstimate
+    start_speed: IntervalEstimate | None
     residual: float
 
 
@@ -183,6 +186,10 @@ class TransientFit:
         The ramp, where one fits.
     form : str
         ``"exponential"`` or ``"ramp"``: which fits better.
+    start_time : float
+        First time that was fitted (s); rows before it have one speed. 0 for a start from rest.
+    zero_time : float
+        Time at which the fitted exponential is at rest (s): the switch-on and its dead time, if the motor rises from rest.
     duration : float
         Last time (s).
     points, members : int
@@ -192,6 +199,8 @@ class TransientFit:
     exponential: RiseEstimate
     ramp: RiseEstimate | None
     form: str
+    start_time: float
+    zero_time: float
     duration: float
     points: int
     members: int

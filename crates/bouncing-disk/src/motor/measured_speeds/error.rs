@@ -37,23 +37,44 @@ pub enum MeasuredSpeedsError {
         most: usize,
     },
     /// There is no header.
-    #[error("{file:?} is empty; its first line must name the columns: {legal}", legal = super::csv_file::HEADER)]
+    #[error("{file:?} is empty; a line must name the columns: {legal}", legal = super::csv_file::HEADER)]
     Empty {
         /// The file.
         file: String,
     },
-    /// The columns are not separated by commas.
+    /// A column has no unit that is known, or another one than the caller or the row below the header says.
     #[error(
-        "{file:?}, line {line}: the columns are separated by {separator:?}; separate them by commas, and write numbers \
-         with a decimal point"
+        "{file:?}, line {line}, field {field}: the unit of the {name} is {unit:?} here; legal are {legal}, in the name, in \
+         the row below it, or by the caller (--{name}-unit), and nowhere two that differ"
     )]
-    Separator {
+    Unit {
         /// The file.
         file: String,
         /// The line.
         line: usize,
-        /// What separates them.
-        separator: char,
+        /// The field.
+        field: usize,
+        /// `time` or `speed`.
+        name: &'static str,
+        /// The unit found, shortened; empty where there is none.
+        unit: String,
+        /// The units that are known.
+        legal: &'static str,
+    },
+    /// The decimal mark of the file is not clear.
+    #[error(
+        "{file:?}, line {line}, field {field}: the decimal mark of the file is not clear: {why}; write one decimal mark and \
+         no separators of thousands"
+    )]
+    DecimalMarks {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The field.
+        field: usize,
+        /// What is not clear.
+        why: &'static str,
     },
     /// A quotation mark begins a field and nothing ends it on the line.
     #[error(
@@ -69,8 +90,8 @@ pub enum MeasuredSpeedsError {
     },
     /// The header has a name that is not known.
     #[error(
-        "{file:?}, line {line}, field {field}: there is no column {name:?}; legal are {legal}. Remove the column, or \
-         put a # before a line of remarks",
+        "{file:?}, line {line}, field {field}: there is no column {name:?}; legal are {legal}. Remove the column, put \
+         a # before a line of remarks, or name the columns that count (--time-column, --speed-column)",
         legal = super::csv_file::HEADER
     )]
     UnknownColumn {
@@ -98,21 +119,19 @@ pub enum MeasuredSpeedsError {
         name: &'static str,
     },
     /// The header lacks a name.
-    #[error(
-        "{file:?}, line {line}: the column {name:?} is missing; the header must have time_s and speed_rad_s"
-    )]
+    #[error("{file:?}, line {line}: the column {name:?} is missing; the header must have times and speeds")]
     MissingColumn {
         /// The file.
         file: String,
         /// The line.
         line: usize,
         /// The name.
-        name: &'static str,
+        name: String,
     },
     /// A line has more or fewer fields than the header.
     #[error(
         "{file:?}, line {line}: it has {fields} fields where the header has {columns}; write numbers with a decimal \
-         point, not a comma"
+         point, or separate the columns by semicolons"
     )]
     Fields {
         /// The file.

@@ -1,7 +1,5 @@
 //! What was measured: run-ups of one motor at a known preload.
 
-use bouncing_disk_core::read_checked;
-
 use crate::error::{Error, check, not_negative};
 use crate::motor::data_sheet::Motor;
 use crate::motor::fit_refusal::FitRefusal;
@@ -12,7 +10,7 @@ pub(super) const LEAST_POINTS: usize = 8;
 
 /// The preload of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RunPreload {
     /// All of the force F that presses the rotor onto the stator (N), positive.
     Force(f64),
@@ -25,8 +23,7 @@ pub enum RunPreload {
 /// Times count from the instant at which the motor is switched on. Only what all runs cover is used, up to the last time of the
 /// shortest.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedTransient"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredTransient {
     /// The preload.
     pub preload: RunPreload,
@@ -38,23 +35,12 @@ pub struct MeasuredTransient {
     pub speed_error: Option<f64>,
 }
 
-read_checked!(MeasuredTransient as UncheckedTransient {
-    preload: RunPreload,
-    runs: MeasuredSpeeds,
-    speed_error: Option<f64>,
-});
-
 impl MeasuredTransient {
-    /// Whether the numbers are legal, whatever they are good for.
-    fn check(&self) -> Result<(), Error> {
-        let (RunPreload::Force(preload) | RunPreload::Acceleration(preload)) = self.preload;
-        check(preload.is_finite() && preload > 0.0, "preload", preload, "(0, inf)")?;
-        self.speed_error.map_or(Ok(()), |error| not_negative("speed_error", error).map(drop))
-    }
-
     /// Whether a fit can begin with it.
     pub(super) fn check_for_fit(&self) -> Result<(), Error> {
-        self.check()?;
+        let (RunPreload::Force(preload) | RunPreload::Acceleration(preload)) = self.preload;
+        check(preload.is_finite() && preload > 0.0, "preload", preload, "(0, inf)")?;
+        self.speed_error.map_or(Ok(0.0), |error| not_negative("speed_error", error))?;
         for run in self.runs.runs() {
             let points = run.times.iter().filter(|&&time| time > 0.0 && time <= self.duration()).count();
             if points < LEAST_POINTS {

@@ -3,73 +3,73 @@
 use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
+use super::Run;
 use super::resamples::{Resampled, index};
-use super::shape_grid::{CONSTANTS, ShapeGrid};
+use super::shape_grid::{MOMENTS, ShapeGrid};
 use crate::error::Error;
 use crate::motor::interval_estimate::small_sample_widening;
 
-/// The mean curve of an ensemble as the mean over its groups of members, each with its size.
+/// The moments of each run, or group of runs, and of all of them.
 pub(super) struct Members {
-    sizes: Vec<f64>,
-    /// For each group the products of the sum of its members.
-    group_products: Vec<f64>,
-    products: Vec<f64>,
+    moments: Vec<f64>,
+    all: Vec<f64>,
+    widening: f64,
 }
 
 impl Members {
-    /// Of the sums of the curves in each group, and the sizes of the groups.
+    /// Of runs whose time counts from `start`; `misfit` is what the intervals are multiplied by because of the form.
     pub(super) fn new(
+        runs: &[Run],
+        start: f64,
+        misfit: f64,
         grid: &ShapeGrid,
-        sums: &[(Vec<f64>, usize)],
         work: &mut WorkCount<'_>,
     ) -> Result<Self, Error> {
-        let mut members = Self {
-            sizes: sums.iter().map(|(_, size)| *size as f64).collect(),
-            group_products: vec![0.0; CONSTANTS * sums.len()],
-            products: vec![0.0; CONSTANTS],
-        };
-        for ((sum, _), products) in sums.iter().zip(members.group_products.chunks_exact_mut(CONSTANTS)) {
-            grid.add_products(0, sum, products);
-            work.spend(sum.len() as u64)?;
-        }
-        let mut all = vec![0.0; CONSTANTS];
-        members.mean_of(0..sums.len(), &mut all);
-        members.products = all;
-        Ok(members)
-    }
-
-    /// The products of the mean over these groups.
-    fn mean_of(&self, groups: impl Iterator<Item = usize>, products: &mut [f64]) {
-        products.fill(0.0);
-        let mut size = 0.0;
-        for group in groups {
-            size += self.sizes[group];
-            let of_group = &self.group_products[CONSTANTS * group..];
-            for (product, value) in products.iter_mut().zip(of_group) {
-                *product += value;
+        let mut moments = vec![0.0; MOMENTS * runs.len()];
+        let mut shapes = grid.at(&runs[0].times, start, work)?;
+        for (k, (run, moments)) in runs.iter().zip(moments.chunks_exact_mut(MOMENTS)).enumerate() {
+            if k > 0 && run.times != runs[k - 1].times {
+                shapes = grid.at(&run.times, start, work)?;
             }
+            shapes.add_curve(&run.speeds, run.weight, moments);
+            work.spend(run.speeds.len() as u64)?;
         }
-        for product in products {
-            *product /= size;
+        let mut all = vec![0.0; MOMENTS];
+        for own in moments.chunks_exact(MOMENTS) {
+            add(own, &mut all);
         }
+        // Percentiles of few members lie nearer to each other than those of a normal distribution.
+        let widening = misfit * small_sample_widening(runs.len() - 1);
+        Ok(Self { moments, all, widening })
+    }
+}
+
+/// Adds moments.
+fn add(own: &[f64], sum: &mut [f64]) {
+    for (sum, own) in sum.iter_mut().zip(own) {
+        *sum += own;
     }
 }
 
 impl Resampled for Members {
-    fn products(&self) -> &[f64] {
-        &self.products
+    fn moments(&self) -> &[f64] {
+        &self.all
     }
 
-    fn draw(&self, random: &mut SplitMix64, products: &mut [f64]) {
-        let groups = self.sizes.len();
-        self.mean_of((0..groups).map(|_| index(random, groups)), products);
+    fn draw(&self, random: &mut SplitMix64, moments: &mut [f64]) {
+        moments.fill(0.0);
+        let runs = self.moments.len() / MOMENTS;
+        for _ in 0..runs {
+            let own = MOMENTS * index(random, runs);
+            add(&self.moments[own..own + MOMENTS], moments);
+        }
     }
 
     fn widening(&self) -> f64 {
-        small_sample_widening(self.sizes.len())
+        self.widening
     }
 
     fn work(&self) -> u64 {
-        1 + self.sizes.len() as u64
+        1 + (self.moments.len() / MOMENTS) as u64
     }
 }

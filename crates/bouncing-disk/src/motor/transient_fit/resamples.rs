@@ -1,34 +1,25 @@
 //! What the fits of resampled curves say of the error of a fit.
 
 use bouncing_disk_core::WorkCount;
-use bouncing_disk_core::elementary::{exp, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 
-use super::shape_grid::{CONSTANTS, Rise, ShapeGrid};
+use super::shape_grid::{MOMENTS, Rise, ShapeGrid};
 use crate::error::Error;
 use crate::motor::fit_refusal::FitRefusal;
-use crate::motor::interval_estimate::IntervalEstimate;
 
 /// The share of the resampled curves that may have no fit on the grid: less than the share beyond an end of the interval.
 const MOST_ASTRAY: f64 = 0.01;
 
-/// What is drawn again and again: curves of members, or blocks of residuals at the places where they may lie.
+/// What is drawn again and again: curves of members, or blocks of residuals.
 pub(super) trait Resampled {
-    /// The products with the shapes of what the curve itself has.
-    fn products(&self) -> &[f64];
-    /// Draws a curve and sets its products with the shapes.
-    fn draw(&self, random: &mut SplitMix64, products: &mut [f64]);
+    /// The moments of the curve itself.
+    fn moments(&self) -> &[f64];
+    /// Draws a curve and sets its moments.
+    fn draw(&self, random: &mut SplitMix64, moments: &mut [f64]);
     /// How much wider than the resampled ones the intervals are.
     fn widening(&self) -> f64;
     /// The work of a draw, in flights.
     fn work(&self) -> u64;
-}
-
-/// A fit with intervals: steady speed, constant and their quotient.
-pub(super) struct Intervals {
-    pub(super) steady_speed: IntervalEstimate,
-    pub(super) constant: IntervalEstimate,
-    pub(super) stall_acceleration: IntervalEstimate,
 }
 
 /// The fits of resampled curves.
@@ -46,15 +37,15 @@ impl Resamples {
         seed: u64,
         work: &mut WorkCount<'_>,
     ) -> Result<Result<Self, FitRefusal>, Error> {
-        let Some(centre) = grid.best(sample.products()) else {
+        let Some(centre) = grid.best(sample.moments()) else {
             return Ok(Err(FitRefusal::Undetermined { astray: resamples, resamples }));
         };
         let mut random = SplitMix64::new(seed);
-        let mut products = [0.0; CONSTANTS];
+        let mut moments = [0.0; MOMENTS];
         let mut fits = Vec::with_capacity(resamples);
         for _ in 0..resamples {
-            sample.draw(&mut random, &mut products);
-            fits.extend(grid.best(&products));
+            sample.draw(&mut random, &mut moments);
+            fits.extend(grid.best(&moments));
             work.finish(1)?;
             work.spend(sample.work())?;
         }
@@ -65,22 +56,15 @@ impl Resamples {
         Ok(Ok(Self { centre, fits, widening: sample.widening() }))
     }
 
-    /// The intervals about the values of the fit, in its units: speeds have been multiplied by `scale`.
-    pub(super) fn intervals(&self, steady: f64, constant: f64, scale: f64) -> Result<Intervals, Error> {
-        let about = |value: f64, of: &dyn Fn(&Rise) -> f64| {
-            let (centre, (low, high)) = (of(&self.centre), self.percentiles(of));
-            (value + self.widening * (low - centre), value + self.widening * (high - centre))
-        };
-        let (low, high) = about(steady * scale, &|rise| rise.steady);
-        let steady_speed = IntervalEstimate::about(steady, low / scale, high / scale)?;
-        let (low, high) = about(ln(constant), &|rise| rise.log_constant);
-        let time_constant = IntervalEstimate::about(constant, exp(low), exp(high))?;
-        // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in it.
-        let log = ln(constant);
-        let (low, high) = about(steady * scale, &|rise| rise.steady * exp(log - rise.log_constant));
-        let (low, high) = (low / scale / constant, high / scale / constant);
-        let stall_acceleration = IntervalEstimate::about(steady / constant, low, high)?;
-        Ok(Intervals { steady_speed, constant: time_constant, stall_acceleration })
+    /// The fit of the moments of the curve itself.
+    pub(super) const fn centre(&self) -> Rise {
+        self.centre
+    }
+
+    /// The ends of the interval about a value of the fit, a number of each resampled one.
+    pub(super) fn about(&self, value: f64, of: &dyn Fn(&Rise) -> f64) -> (f64, f64) {
+        let (centre, (low, high)) = (of(&self.centre), self.percentiles(of));
+        (value + self.widening * (low - centre), value + self.widening * (high - centre))
     }
 
     /// The numbers that a fortieth of the fits lie below and above.
