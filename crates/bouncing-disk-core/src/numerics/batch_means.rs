@@ -192,8 +192,9 @@ mod tests {
     /// three errors.
     #[test]
     fn the_error_holds_a_transient_a_drift_and_rounding() {
+        type Sequence = fn(f64) -> f64;
         for count in [100_u32, 5_000, 100_000] {
-            let sequences: [(fn(f64) -> f64, f64); 4] = [
+            let sequences: [(Sequence, f64); 4] = [
                 (|k| crate::numerics::elementary::exp(-0.02 * k), 0.0),
                 (|k| 2.0 / (k + 1.0), 0.0),
                 (|k| -1.5 / (k + 1.0), 0.0),

@@ -109,7 +109,7 @@ read_checked!(FitSettings as UncheckedSettings {
 ///
 /// The intervals hold the error of the scatter, not that of a form which is not the motor's.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RiseEstimate {
     /// Steady speed alpha_ss (rad/s). It depends on the duration where the speed creeps on after the rise: it is
     /// the plateau up to the end of the curve.
@@ -148,7 +148,7 @@ pub struct RiseEstimate {
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TransientFit {
     /// The fit of alpha_ss (1 - exp(-t/t_c)), or of alpha_ss - b exp(-t/t_c).
     pub exponential: RiseEstimate,

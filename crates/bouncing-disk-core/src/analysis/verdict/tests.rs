@@ -207,7 +207,7 @@ fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
     let count = 3 * TOGETHER + 100;
     let start = |index: usize| {
         let forcing = 0.05 + 0.2 * (index % 97) as f64 / 97.0;
-        Ok::<_, Error>((index % 5 > 0).then(|| (map(forcing, 0.3), state(1.2, 1.3))))
+        Ok::<_, Error>((!index.is_multiple_of(5)).then(|| (map(forcing, 0.3), state(1.2, 1.3))))
     };
     let (mut seen, mut rests) = (0, 0);
     let each = |verdict: Option<Verdict>| {
