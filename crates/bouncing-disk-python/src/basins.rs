@@ -1,8 +1,7 @@
 //! Basins of attraction on a grid.
 
 use bouncing_disk::core::{
-    Axis, BasinSettings, Basins, Grid, ImpactMap as Map, KnownOrbit, Label,
-    PeriodicOrbit as Orbit,
+    Axis, BasinSettings, Basins, Grid, ImpactMap as Map, KnownOrbit, Label, PeriodicOrbit as Orbit,
 };
 use bouncing_disk::{Error, Observer, Progress};
 use pyo3::exceptions::PyTypeError;

@@ -251,7 +251,9 @@ fn legend(attractors: &Attractors) -> Vec<(Label, String)> {
         let words = match &attractor.kind {
             AttractorKind::Rest(AfterRest::StaysForEver) => "at rest for ever".to_owned(),
             AttractorKind::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => cycle.to_string(),
-            AttractorKind::Rest(AfterRest::RestsAgain(_)) => "rest, in a cycle that rounding chooses".to_owned(),
+            AttractorKind::Rest(AfterRest::RestsAgain(_)) => {
+                "rest, in a cycle that rounding chooses".to_owned()
+            }
             AttractorKind::Rest(AfterRest::LeadsTo(number)) => {
                 let to = attractors.label(*number).unwrap_or(ATTACHED);
                 format!("at rest, then to {to}")

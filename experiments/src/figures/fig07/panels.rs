@@ -64,7 +64,8 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
         map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
     let Some(state) = survivor else { return Ok(Route::Gone) };
     let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
-    let periodic = settled.and_then(|orbit| orbit.trapping_radius(map, 64).ok().map(|radius| (orbit, radius)));
+    let periodic =
+        settled.and_then(|orbit| orbit.trapping_radius(map, 64).ok().map(|radius| (orbit, radius)));
     let Some((orbit, radius)) = periodic else { return Ok(Route::Chaotic(state)) };
     KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model)
 }
