@@ -161,11 +161,14 @@ mod tests {
         let printed =
             inputs.amplitude(low).and_then(|inputs| inputs.preload_acceleration(high)).expect("reads");
         let motors = printed.restitution(0.3).drawn(20, 1);
-        assert!(
-            motors.iter().all(|motor| motor.preload_acceleration_m_per_s2 == 1.0 && motor.restitution == 0.3)
-        );
+        for motor in &motors {
+            assert_eq!(
+                [motor.preload_acceleration_m_per_s2, motor.restitution].map(f64::to_bits),
+                [1.0, 0.3].map(f64::to_bits)
+            );
+        }
         assert!(motors.iter().all(|motor| (motor.amplitude_m / 1e-8 - 1.0).abs() <= 1.001 * LAST_PLACES));
-        assert!(motors.windows(2).all(|pair| pair[0].amplitude_m != pair[1].amplitude_m));
+        assert!(motors.windows(2).all(|pair| pair[0].amplitude_m.to_bits() != pair[1].amplitude_m.to_bits()));
     }
 
     #[test]

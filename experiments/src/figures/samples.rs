@@ -13,7 +13,10 @@ pub(crate) fn median_exponent(points: impl IntoIterator<Item = (f64, f64)>) -> O
     let positive = points.into_iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
     let points: Vec<(f64, f64)> = positive.map(|(x, y)| (ln(x), ln(y))).collect();
     let pairs = points.iter().enumerate().flat_map(|(index, one)| {
-        points[index + 1..].iter().filter(move |other| other.0 != one.0).map(move |other| (one, other))
+        points[index + 1..]
+            .iter()
+            .filter(move |other| other.0.total_cmp(&one.0).is_ne())
+            .map(move |other| (one, other))
     });
     median(pairs.map(|(one, other)| (other.1 - one.1) / (other.0 - one.0)))
 }

@@ -73,7 +73,7 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
         )),
         Claim::printed_statement(
             "section4.meaning_of_angular_forcing",
-            claim::all(&data.torque_ratios, |of| of.ratio == of.angular_forcing),
+            claim::all(&data.torque_ratios, |of| of.ratio.total_cmp(&of.angular_forcing).is_eq()),
             format!(
                 "the torque for the platform's largest angular acceleration over the frictional torque of the preload is π times Γ_T: {}",
                 ratios.join("; ")

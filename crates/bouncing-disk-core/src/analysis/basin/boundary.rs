@@ -22,7 +22,7 @@ const SPREAD_OF_SLOPE: f64 = 0.2;
 
 /// The share of cells that are uncertain at some distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UncertainShare {
     /// The distance, in cells.
     pub distance: usize,
@@ -32,7 +32,7 @@ pub struct UncertainShare {
 
 /// Whether the share of uncertain cells is a power of their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum BoundaryFit {
     /// It is, over the distances of the fit.
@@ -61,7 +61,7 @@ pub enum BoundaryFit {
 
 /// How the share of uncertain cells depends on their distance.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BoundaryScaling {
     /// The shares by rising distance: all of the same cells.
     pub shares: Vec<UncertainShare>,

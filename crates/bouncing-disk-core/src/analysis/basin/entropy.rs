@@ -7,7 +7,7 @@ use crate::numerics::elementary::ln;
 
 /// The entropy of basins, in natural units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BasinEntropy {
     /// Cells along each side of a box.
     pub box_side: usize,

@@ -28,7 +28,7 @@ pub(super) enum Halves {
     /// They stay apart.
     Apart,
     /// They become one in this birth, shortly after this point.
-    Meet(Located, Bifurcation),
+    Meet(Box<(Located, Bifurcation)>),
     /// The points are too far from each other to tell.
     Unclear,
 }
@@ -65,7 +65,7 @@ impl Walker<'_> {
             let continuous = self.distance(&last.at, &beyond.at) <= NEIGHBOURS;
             return Ok(if continuous { Halves::Apart } else { Halves::Unclear });
         }
-        Ok(self.birth(&last)?.map_or(Halves::Unclear, |birth| Halves::Meet(last, birth)))
+        Ok(self.birth(&last)?.map_or(Halves::Unclear, |birth| Halves::Meet(Box::new((last, birth)))))
     }
 
     /// The doubling that the orbit is born in, next to `last`, on the branch of half its impacts.

@@ -248,7 +248,7 @@ impl<'s> Walker<'s> {
         // Where the parameter turns back: only there it may leave its range and return to it within a step.
         let turn = match self.halves(base, next)? {
             Halves::Unclear => return Ok(None),
-            Halves::Meet(last, birth) => Some((last, birth)),
+            Halves::Meet(birth) => Some(*birth),
             // At the very start of a doubled branch the parameter does not change: that is no fold.
             Halves::Apart if base.direction.parameter * next.direction.parameter < 0.0 => {
                 let as_before =

@@ -294,18 +294,20 @@ impl CrisisSearch {
     ) -> Result<Result<PeriodicOrbit, f64>, Error> {
         let Some(mut reached) = self.forcing_of(orbit)? else { return Ok(Err(f64::NAN)) };
         let (mut orbit, mut step) = (orbit.clone(), forcing - reached);
-        while reached != forcing {
+        loop {
             let last = (forcing - reached).abs() <= step.abs();
             let next = if last { forcing } else { reached + step };
             match self.map(next)?.refine(&orbit.states) {
                 Ok(found) if moved(&orbit, &found) <= LONGEST_MOVE => {
+                    if last {
+                        return Ok(Ok(found));
+                    }
                     (orbit, reached, step) = (found, next, 2.0 * step);
                 }
                 _ if step.abs() > SHORTEST_STEP * reached => step *= 0.5,
                 _ => return Ok(Err(reached)),
             }
         }
-        Ok(Ok(orbit))
     }
 
     /// The forcing of which a periodic orbit is one: by the height at the end of its first flight.

@@ -223,7 +223,8 @@ fn errors_on_the_margin(map: &ImpactMap, states: &[ImpactState], rounding: f64) 
     let distance = distance_from_fold(trace);
     let least = (distance - rounding).max(0.0);
     let mut by = 2.0 * push / least;
-    if !(change(by) < 0.5 * least) {
+    let is_isolated = change(by) < 0.5 * least;
+    if !is_isolated {
         by = f64::EPSILON;
         while by * (change(by) / 3.0 - distance - rounding) < push && by < 1.0 {
             by *= 2.0;

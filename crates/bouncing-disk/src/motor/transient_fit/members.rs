@@ -11,7 +11,7 @@ use crate::motor::interval_estimate::small_sample_widening;
 
 /// The moments of each run, or group of runs, and of all of them.
 pub(super) struct Members {
-    moments: Vec<f64>,
+    of_runs: Vec<f64>,
     all: Vec<f64>,
     widening: f64,
 }
@@ -40,7 +40,7 @@ impl Members {
         }
         // Percentiles of few members lie nearer to each other than those of a normal distribution.
         let widening = misfit * small_sample_widening(runs.len() - 1);
-        Ok(Self { moments, all, widening })
+        Ok(Self { of_runs: moments, all, widening })
     }
 }
 
@@ -58,10 +58,10 @@ impl Resampled for Members {
 
     fn draw(&self, random: &mut SplitMix64, moments: &mut [f64]) {
         moments.fill(0.0);
-        let runs = self.moments.len() / MOMENTS;
+        let runs = self.of_runs.len() / MOMENTS;
         for _ in 0..runs {
             let own = MOMENTS * index(random, runs);
-            add(&self.moments[own..own + MOMENTS], moments);
+            add(&self.of_runs[own..own + MOMENTS], moments);
         }
     }
 
@@ -70,6 +70,6 @@ impl Resampled for Members {
     }
 
     fn work(&self) -> u64 {
-        1 + (self.moments.len() / MOMENTS) as u64
+        1 + (self.of_runs.len() / MOMENTS) as u64
     }
 }
