@@ -17,7 +17,7 @@ use crate::motor::interval_estimate::small_sample_widening;
 /// The fewest blocks: fewer would say too little about each other.
 const LEAST_BLOCKS: usize = 8;
 
-/// About a third of the blocks speak of a parameter, those of the rise of the time constant, but so many count at least.
+/// About a quarter of the blocks speak of a parameter, those of the rise of the time constant, but so many count at least.
 const LEAST_SAMPLE: usize = 5;
 
 /// The most blocks: more would say hardly more about the error.
@@ -94,7 +94,7 @@ impl Blocks {
             shapes.add_speeds(from, &residuals[from..end], scale, changes);
             work.spend((end - from) as u64)?;
         }
-        let widening = small_sample_widening((blocks / 3).max(LEAST_SAMPLE)) / (1.0 - shared).sqrt();
+        let widening = small_sample_widening((blocks / 4).max(LEAST_SAMPLE)) / (1.0 - shared).sqrt();
         Ok(Ok(Self { fitted: moments, changes, widening }))
     }
 }

@@ -11,8 +11,8 @@ use crate::motor::correlation::correlation_time;
 const STEP: f64 = 0.05;
 
 /// A beginning is left out if that lowers the logarithm of the sum of squares, over all independent rows, by more than
-/// this: Akaike's price of the two numbers that it adds.
-const PRICE: f64 = 4.0;
+/// this, half of Akaike's price of the two numbers that it adds: a cut too many costs rows, one too few the truth.
+const PRICE: f64 = 2.0;
 
 /// Sums of squares below this share of those of the speeds are rounding.
 const EXACT: f64 = 1.0e-13;
@@ -33,7 +33,7 @@ pub(super) fn rows_before_rise(
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let shortest = shortest.max(duration / (10 * n) as f64);
     let (low, high) = (ln(shortest), ln(100.0 * duration));
-    // For each cut the least squares behind it, with their constant, and those of the last two constants.
+    // For each cut the least squares behind it, with the logarithm of their constant, and those of the last two constants.
     let mut behind = vec![(f64::INFINITY, 0.0); most + 1];
     let mut last = vec![[f64::INFINITY; 2]; most + 1];
     for trial in 0..=((high - low) / STEP) as u32 {
@@ -56,15 +56,17 @@ pub(super) fn rows_before_rise(
             let taken = if spread > 1e-12 * ee { product * product / spread } else { 0.0 };
             let squares = (yy - y * y / count - taken).max(0.0);
             let [before, at] = last[k];
-            // The bottom of the parabola through the last three.
+            // The bottom of the parabola through the last three, about the one in the middle.
             let bend = before - 2.0 * at + squares;
-            let bottom = if at <= before && at <= squares && bend > 0.0 && bend.is_finite() {
-                (at - 0.125 * (squares - before) * (squares - before) / bend).max(0.0)
+            let has_bottom = at <= before && at <= squares && bend > 0.0 && bend.is_finite();
+            let (bottom, place) = if has_bottom {
+                let place = 0.5 * (before - squares) / bend;
+                ((at - 0.5 * bend * place * place).max(0.0), log + STEP * (place - 1.0))
             } else {
-                squares
+                (squares, log)
             };
             if bottom < behind[k].0 {
-                behind[k] = (bottom, constant);
+                behind[k] = (bottom, place);
             }
             last[k] = [at, squares];
         }
@@ -83,7 +85,7 @@ pub(super) fn rows_before_rise(
     if cut == 0 {
         return Ok(0);
     }
-    let residuals = residuals(&times[cut..], &speeds[cut..], behind[cut].1);
+    let residuals = residuals(&times[cut..], &speeds[cut..], exp(behind[cut].1));
     let correlated = correlation_time(&residuals, 3).unwrap_or(0.125 * n as f64);
     let gain = n as f64 / correlated * ln((behind[0].0 + least) / squares);
     Ok(if gain > PRICE { cut } else { 0 })
