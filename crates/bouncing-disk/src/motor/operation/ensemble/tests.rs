@@ -436,9 +436,9 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
     assert!(squares.len() >= 6 && mean(&squares) < 2.5, "{squares:?}");
 }
 
-/// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest torque: its speed is
-/// 5.486(6) rad/s, from 60 ensembles of 64 members. Slow as its rise is under the load, a quarter of what friction takes without
-/// one left speeds down to 4.9 that were stated to 0.09.
+/// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest torque:
+/// 5.482(12) rad/s by `experiments/judge`, which shares nothing with this crate. As the load slows the rise, a
+/// quarter of the time that it takes without one left speeds down to 4.9 that were stated to 0.09.
 #[test]
 fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
     let peak = System::motor().peak_acceleration() * System::motor().disk().preload_acceleration();
@@ -451,7 +451,7 @@ fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
         let settings =
             OperatingSettings { relative_error: 0.1, members: 4, seed, ..OperatingSettings::default() };
         let speed = operated(&[loaded(&system, 0.5)], &settings)[0].steady().expect("steady").speed;
-        within += u64::from((speed.value - 5.486).abs() <= 1.96 * speed.standard_error);
+        within += u64::from((speed.value - 5.482).abs() <= 1.96 * speed.standard_error);
     }
     assert!(within + 1 >= tries, "{within} of {tries}");
 }
