@@ -214,13 +214,11 @@ impl<'a> Header<'a> {
             lines.next();
             let mut own = None;
             for separator in SEPARATORS.into_iter().filter(|separator| line.1.contains(*separator)) {
-                match fields(line, separator) {
-                    Ok(names) => match Self::read(file, line.0, separator, &names, columns) {
-                        Ok(header) => return Ok(header),
-                        // Among several separators the one that makes out a column has the better message.
-                        Err(other) => own = own.or(Some(other)),
-                    },
-                    Err(_) => {}
+                let Ok(names) = fields(line, separator) else { continue };
+                match Self::read(file, line.0, separator, &names, columns) {
+                    Ok(header) => return Ok(header),
+                    // The first separator that is tried has the message.
+                    Err(other) => own = own.or(Some(other)),
                 }
             }
             // A line without any separator is text, unless it is all that there is.
