@@ -167,6 +167,8 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     list.push("runs", speeds.runs().len(), "1");
     list.push("points", fit.points, "1");
     list.push("duration", fit.duration, "s");
+    let (time_unit, speed_unit) = speeds.file_units();
+    list.push("file_units", format!("{time_unit}, {speed_unit}"), "1");
     if let Some(start_speed) = fit.exponential.start_speed {
         list.push("start_time", fit.start_time, "s");
         list.push_interval(["start_speed", "start_speed_low", "start_speed_high"], start_speed, "rad/s");

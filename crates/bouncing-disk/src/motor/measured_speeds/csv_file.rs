@@ -217,7 +217,7 @@ impl<'a> Header<'a> {
                 let Ok(names) = fields(line, separator) else { continue };
                 match Self::read(file, line.0, separator, &names, columns) {
                     Ok(header) => return Ok(header),
-                    // Among several separators the one that makes out a column has the better message.
+                    // The first separator that is tried has the message.
                     Err(other) => own = own.or(Some(other)),
                 }
             }

@@ -12,7 +12,7 @@ use crate::motor::interval_estimate::small_sample_widening;
 /// The moments of each run, or group of runs, and of all of them.
 pub(super) struct Members {
     of_runs: Vec<f64>,
-    all: Vec<f64>,
+    moments: Vec<f64>,
     widening: f64,
 }
 
@@ -25,22 +25,22 @@ impl Members {
         grid: &ShapeGrid,
         work: &mut WorkCount<'_>,
     ) -> Result<Self, Error> {
-        let mut moments = vec![0.0; MOMENTS * runs.len()];
+        let mut of_runs = vec![0.0; MOMENTS * runs.len()];
         let mut shapes = grid.at(&runs[0].times, start, work)?;
-        for (k, (run, moments)) in runs.iter().zip(moments.chunks_exact_mut(MOMENTS)).enumerate() {
+        for (k, (run, moments)) in runs.iter().zip(of_runs.chunks_exact_mut(MOMENTS)).enumerate() {
             if k > 0 && run.times != runs[k - 1].times {
                 shapes = grid.at(&run.times, start, work)?;
             }
             shapes.add_curve(&run.speeds, run.weight, moments);
             work.spend(run.speeds.len() as u64)?;
         }
-        let mut all = vec![0.0; MOMENTS];
-        for own in moments.chunks_exact(MOMENTS) {
-            add(own, &mut all);
+        let mut moments = vec![0.0; MOMENTS];
+        for own in of_runs.chunks_exact(MOMENTS) {
+            add(own, &mut moments);
         }
         // Percentiles of few members lie nearer to each other than those of a normal distribution.
         let widening = misfit * small_sample_widening(runs.len() - 1);
-        Ok(Self { of_runs: moments, all, widening })
+        Ok(Self { of_runs, moments, widening })
     }
 }
 
@@ -53,7 +53,7 @@ fn add(own: &[f64], sum: &mut [f64]) {
 
 impl Resampled for Members {
     fn moments(&self) -> &[f64] {
-        &self.all
+        &self.moments
     }
 
     fn draw(&self, random: &mut SplitMix64, moments: &mut [f64]) {
