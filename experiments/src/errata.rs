@@ -213,12 +213,12 @@ mod tests {
         use crate::claim::Cases;
         let claims = [
             Claim::printed("section4.merging", 0.560_750_7),
-            Claim::printed_statement("section5.oscillation_grows", Cases { holding: 1, tried: 4 }, ""),
+            Claim::printed_statement("section5.linear_rise", Cases { holding: 1, tried: 4 }, ""),
             Claim::printed_statement("section4.coexistence", true, ""),
         ];
         let numbers = claim_numbers(&claims);
         let fill = |template| filled(template, |id| (id == CLAIMS).then(|| numbers.clone()));
-        let text = fill("{claims:/section4.merging:.4}, {claims:/section5.oscillation_grows:%.0} %");
+        let text = fill("{claims:/section4.merging:.4}, {claims:/section5.linear_rise:%.0} %");
         assert_eq!(text.as_deref(), Ok("0.5608, 25 %"));
         assert!(fill("{claims:/section4.coexistence:.0}").is_err());
     }

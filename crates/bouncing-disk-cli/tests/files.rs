@@ -151,7 +151,7 @@ fn a_template_is_read_to_the_same_result() {
 fn a_computed_run_up_is_read_by_fit() {
     let folder = Folder::new();
     folder.done("motor transient --members 6 --duration 5 --intervals 50 --out run.csv --out run.json");
-    let fit = folder.done("fit run.csv");
+    let fit = folder.done("fit run.csv --from-rest");
     let run = folder.done("motor transient --members 6 --duration 5 --intervals 50");
     let line = |text: &str| text.lines().find(|line| line.starts_with("time constant ")).unwrap().to_owned();
     let value = |text: &str| line(text).split_whitespace().nth(2).unwrap().parse::<f64>().unwrap();

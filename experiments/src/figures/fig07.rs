@@ -94,7 +94,8 @@ mod tests {
         data.beyond.clear();
         data.panels[3].boundary_exponents.clear();
         // What is judged by the panels themselves.
-        let panels = ["section4.chattering_is_easier", "section4.rest_chatters", "section4.two_attractors"];
+        let panels =
+            ["section4.chattering_is_easier", "section4.rest_chatters", "section4.basin_fills_plane"];
         for claim in Fig07::claims(&data) {
             let holds = matches!(claim.computed(), Computed::Boolean(true));
             let own = panels

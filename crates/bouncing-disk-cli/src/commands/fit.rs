@@ -13,7 +13,6 @@ use serde::Serialize;
 use crate::arguments::{OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output::lines::complain;
 use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::motor::{MotorArgs, MotorPreset};
@@ -141,10 +140,6 @@ pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
         speed_unit: args.speed_unit,
     };
     let speeds = MeasuredSpeeds::from_csv_with(&args.file, &columns)?;
-    let units = speeds.file_units();
-    if units != Default::default() && !context.quiet {
-        complain!("{}: times in {}, speeds in {}", args.file.display(), units.0, units.1);
-    }
     let report = if args.parameter.is_empty() {
         rise(args, speeds, context)?
     } else {

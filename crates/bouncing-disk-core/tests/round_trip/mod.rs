@@ -52,7 +52,8 @@ pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
 }
 
 /// What may be absent: a number that there may not be, or that has a value without being there.
-const OPTIONAL: [&str; 12] = [
+const OPTIONAL: [&str; 13] = [
+    "eventless",
     "estimate",
     "speed_error",
     "separation",

@@ -295,9 +295,9 @@ mod tests {
     fn members_are_the_transients_of_their_phases_and_seeds() {
         let system = motor(1e-8, 0.0);
         let settings =
-            TransientSettings { duration: 0.2, intervals: 20, seed: 40, ..TransientSettings::default() };
+            TransientSettings { duration: 0.2, intervals: 20, seed: 1, ..TransientSettings::default() };
         let all = ensemble(&system, &settings, 4).expect("no failure");
-        let seeds = [40, 41, 42, 43].map(|counted| SplitMix64::new(counted).next_number());
+        let seeds = [1, 2, 3, 4].map(|counted| SplitMix64::new(counted).next_number());
         for (k, curve) in all.curves.iter().enumerate() {
             let phase = Phase::new(TAU / 8.0 * [1.0, 3.0, 5.0, 7.0][k]).expect("finite");
             let own = |seed: u64| {

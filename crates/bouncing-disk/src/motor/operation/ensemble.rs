@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{Observer, Watch};
 
-use super::member::{AxialWindow, Member, RotorWindow, Window};
+use super::member::{AxialWindow, Member, RotorWindow, Window, far_above};
 use super::point::{Estimate, OperatingPoint, Operation, Shortfall};
 use super::settings::OperatingSettings;
 use super::settling::{left_out, shortfall};
@@ -447,8 +447,8 @@ impl Sum {
         self.rotor.add(&window.rotors[rotor]);
     }
 
-    /// The energy that came in; where less came in than disks of all members that move with the platform have, that: there are
-    /// only roundings then.
+    /// The energy that came in; where less came in than the disks of all members have at their start, that: there are only
+    /// roundings then.
     fn energy_scale(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let system = motor.system.dimensionless();
         let axial = self.axial.normal_work + self.axial.perturbation_work;
@@ -456,7 +456,7 @@ impl Sum {
         let rotor = &self.rotor;
         let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
         let put_in = axial.abs() * units.axial + rotary * units.rotary;
-        let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
+        let (peak, twist) = (system.peak_acceleration(), far_above(system).max(system.twist_speed()));
         let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
         put_in.max(members as f64 * moving)
     }

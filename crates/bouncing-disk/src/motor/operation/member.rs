@@ -95,7 +95,7 @@ impl Window {
 
 /// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and what friction
 /// brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
-fn far_above(system: &DimensionlessSystem) -> f64 {
+pub(super) fn far_above(system: &DimensionlessSystem) -> f64 {
     let friction = system.friction();
     if friction > 0.0 { system.twist_speed() + TAU * friction } else { 0.0 }
 }

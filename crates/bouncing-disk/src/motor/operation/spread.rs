@@ -8,7 +8,7 @@ use std::f64::consts::LN_10;
 
 use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
 use super::ensemble::{LoadedMotor, operate};
@@ -17,6 +17,7 @@ use super::settings::OperatingSettings;
 use super::stall_load::stall_load;
 use crate::error::{Error, check, finite, within_limit};
 use crate::motor::data_sheet::Motor;
+use crate::motor::interval_estimate::student_quantile;
 
 /// A draw is computed with so many times the error that is asked for, so that it costs an eighth of a point.
 const LOOSENESS: f64 = 2.828_427_124_746_190_3;
@@ -125,11 +126,13 @@ impl InputSpread {
         let values: Vec<f64> = known.iter().map(|draw| draw.value).collect();
         let centre = Estimate::of(&values)?;
         let count = known.len() as f64;
+        // An error as it is stated is an interval of Student's over 1.96: its square is more than the variance.
+        let widening = student_quantile(MEMBERS_OF_DRAW as f64 - 1.0) / NORMAL_975;
         // The mean of these is the variance over the inputs, without bias.
         let excess: Vec<f64> = known
             .iter()
             .map(|draw| {
-                let (off, error) = (draw.value - centre.value, draw.standard_error);
+                let (off, error) = (draw.value - centre.value, draw.standard_error / widening);
                 off * off * (count / (count - 1.0)) - error * error
             })
             .collect();
