@@ -8,16 +8,17 @@ fn quick() -> OperatingSettings {
 #[test]
 fn the_spread_of_known_draws_is_found() {
     let normal = |random: &mut SplitMix64| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
+    let students = student_quantile(MEMBERS_OF_DRAW as f64 - 1.0) / NORMAL_975;
     let (mut held, mut inside, mut trials) = (0, 0, 0);
     for true_spread in [0.0, 0.5, 2.0] {
         for seed in 0..100 {
             let mut random = SplitMix64::new(SplitMix64::seed_of_stream(seed, 1));
             let draws: Vec<Option<Estimate>> = (0..39)
                 .map(|_| {
-                    // Errors of eight members are themselves known to a quarter only.
+                    // Errors of four members, as they are stated: known to two fifths, and Student's.
                     let value = 10.0 + true_spread * normal(&mut random) + normal(&mut random);
-                    let square = (0..7).map(|_| normal(&mut random)).map(|one| one * one).sum::<f64>();
-                    Some(Estimate { value, standard_error: (square / 7.0).sqrt() })
+                    let square = (0..3).map(|_| normal(&mut random)).map(|one| one * one).sum::<f64>();
+                    Some(Estimate { value, standard_error: students * (square / 3.0).sqrt() })
                 })
                 .collect();
             let spread = InputSpread::of(&draws, 0, 0).expect("finite").expect("many");
