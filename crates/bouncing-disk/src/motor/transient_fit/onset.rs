@@ -29,10 +29,10 @@ pub(super) fn rows_before_rise(
     let mean = speeds.iter().sum::<f64>() / n as f64;
     let speeds: Vec<f64> = speeds.iter().map(|speed| speed - mean).collect();
     let least = EXACT * speeds.iter().map(|speed| speed * speed).sum::<f64>();
-    let duration = times[n - 1] - times[0];
+    let duration = (times[n - 1] - times[0]).min(f64::MAX);
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let shortest = shortest.max(duration / (10 * n) as f64);
-    let (low, high) = (ln(shortest), ln(100.0 * duration));
+    let (low, high) = (ln(shortest), ln(100.0) + ln(duration));
     // For each cut the least squares behind it, with the logarithm of their constant, and those of the last two constants.
     let mut behind = vec![(f64::INFINITY, 0.0); most + 1];
     let mut last = vec![[f64::INFINITY; 2]; most + 1];

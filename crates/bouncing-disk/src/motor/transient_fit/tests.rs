@@ -547,3 +547,13 @@ fn a_refusal_says_why_with_its_numbers() {
          0.0155 s: take a longer one"
     );
 }
+
+/// The constants that are tried end where a double does.
+#[test]
+fn a_record_that_ends_at_the_largest_times_ends_the_search() {
+    let mut times = times(60, 5.0);
+    times[59] = 1e308;
+    let speeds = rise(&times, 20.0, 0.85);
+    let fit = TransientFit::of_measured(&[(times.as_slice(), speeds.as_slice())], &FEW);
+    assert!(fit.is_ok() || fit.is_err_and(|error| !error.to_string().is_empty()));
+}
