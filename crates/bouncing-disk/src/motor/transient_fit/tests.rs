@@ -554,6 +554,6 @@ fn a_record_that_ends_at_the_largest_times_ends_the_search() {
     let mut times = times(60, 5.0);
     times[59] = 1e308;
     let speeds = rise(&times, 20.0, 0.85);
-    let fit = TransientFit::of_measured(&[(times.as_slice(), speeds.as_slice())], &FEW);
-    assert!(fit.is_ok() || fit.is_err_and(|error| !error.to_string().is_empty()));
+    // Without an end of the search this call would not return.
+    let _ = TransientFit::of_measured(&[(times.as_slice(), speeds.as_slice())], &FEW);
 }
