@@ -189,14 +189,22 @@ impl Claim {
         self.close_to_a_bound(cases)
     }
 
-    /// Says that the verdict hangs on a word that the paper does not define: `by_definition` are those under the definitions that were tried. Where
-    /// they differ, the claim cannot be computed.
+    /// Says that the verdict hangs on a word or a range that the paper does not define: `by_definition` are those under the definitions that were
+    /// tried. Where some reproduce the claim and others do not, it cannot be computed; where none does, the kindest counts.
     pub fn by_definition(mut self, by_definition: &[Verdict]) -> Self {
-        if by_definition.iter().any(|verdict| *verdict != self.verdict) {
-            self.verdict = Verdict::NotComputable;
-            return self.note("the paper does not define what decides, and definitions that were tried give different verdicts");
+        if by_definition.iter().all(|verdict| *verdict == self.verdict) {
+            return self;
         }
-        self
+        let is_tried = |verdict| self.verdict == verdict || by_definition.contains(&verdict);
+        let [reproduced, depends] = [Verdict::Reproduced, Verdict::DependsOnUnprintedDigits].map(is_tried);
+        self.verdict = match (reproduced, depends) {
+            (true, _) => Verdict::NotComputable,
+            (false, true) => Verdict::DependsOnUnprintedDigits,
+            (false, false) => Verdict::Differs,
+        };
+        self.note(
+            "the paper does not define what decides, and definitions that were tried give different verdicts",
+        )
     }
 
     /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its maximum, as a share of what it spans.
@@ -555,6 +563,9 @@ mod tests {
         let undecided = claim().by_definition(&[Verdict::Reproduced, Verdict::Differs]);
         assert_eq!(undecided.verdict(), Verdict::NotComputable);
         assert!(!undecided.lacks_data() && undecided.remarks().contains("does not define"));
+        let never =
+            Claim::printed_statement("section5.long_period_case", Cases { holding: 100, tried: 200 }, "");
+        assert_eq!(never.by_definition(&[Verdict::Differs]).verdict(), Verdict::DependsOnUnprintedDigits);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The rules by which a number or a statement of the paper is judged: one for each kind, fixed before the verdicts.
+//! The rules by which a number or a statement of the paper is judged: one for each kind.
 //!
 //! `docs/judging.md` has them for readers; a test compares the two. Every entry of the [catalogue](crate::catalogue) that the
 //! paper asserts names its kind, and the kind alone turns [`Cases`] into a [`Verdict`].
@@ -153,9 +153,9 @@ kinds! {
     /// "Appears", "seems", "can be seen".
     Appears = "appears", "Reproduced where the picture that is referred to shows it at its resolution, whatever lies between its points.";
     /// A speed, a torque, a form of transient or a trend of the motor.
-    Motor = "motor", "Two verdicts. The row counts by the mean of an ensemble of motors whose relaunch is perturbed. Beside it stands that of single orbits that nothing perturbs: reproduced for 95 % of them or more, differing for 5 % or less.";
+    Motor = "motor", "Two verdicts. The row counts by the mean of an ensemble of motors whose relaunch is perturbed; over many values of a parameter by the middle mean, or the middle exponent. Beside it stands that of single orbits that nothing perturbs: reproduced for 95 % of them or more, differing for 5 % or less.";
     /// Which orbit one motor is on, and what follows from that.
-    Orbit = "orbit", "Judged over single orbits, as the second verdict of a motor. Where a word that the paper does not define decides, and definitions that are tried give different verdicts, it cannot be computed.";
+    Orbit = "orbit", "Judged over single orbits, as the second verdict of a motor.";
 }
 
 impl Kind {

@@ -494,15 +494,18 @@ fn a_motor_that_does_not_turn_has_no_stall_load_and_one_that_runs_away_no_speed(
 }
 
 #[test]
-fn a_trap_that_no_preload_meets_is_not_told() {
+fn a_trap_is_told_if_a_preload_can_meet_it() {
     let trap = |changes: Value| {
         let request = json!({ "call": "motor_report", "sheet": with(sheet(), changes) });
         answered(&request).0["trap"].clone()
     };
-    // These traps are narrower than any preload is known.
-    for narrow in [json!({ "amplitude": 1e-9 }), json!({ "preload_acceleration": 9.7973 })] {
-        assert_eq!(trap(narrow), Value::Null);
-    }
+    // All traps of this motor are narrower than any amplitude is known.
+    assert_eq!(trap(json!({ "amplitude": 1e-9 })), Value::Null);
+    let near = trap(json!({ "preload_acceleration": 9.7973 }));
+    let [from, to] = [0, 1].map(|end| near["forcing_from_to"][end].as_f64().expect("a forcing"));
+    assert!(to - from > 5e-4 * to && near["caught"] == false, "{near}");
+    let inside = trap(json!({ "preload_acceleration": near["preload_acceleration"] }));
+    assert_eq!((&inside["caught"], number(&inside, "relative_distance")), (&json!(true), 0.0), "{inside}");
 }
 
 #[test]

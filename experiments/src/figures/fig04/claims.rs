@@ -87,6 +87,14 @@ fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
     (high - there) / (high - low)
 }
 
+/// The angles at which a curve is lower than its maximum by no more than a line's width.
+fn accepted(angles: &[f64], curve: &[f64]) -> String {
+    let (low, high) = samples::extent(curve.iter().copied());
+    let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));
+    let (from, to) = samples::extent(as_high.map(|(angle, _)| *angle));
+    format!("places from {} to {} are as high", pi(from), pi(to))
+}
+
 /// The best toss with the parameters of Table I.
 fn optimum(data: &Fig04Data) -> Vec<Claim> {
     let table_i_speed = data.table_i_toss.airborne_speed_rad_per_s;
@@ -130,11 +138,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         if name == "optimal_amplitude_angle" {
             let printed = PrintedNumber::read(&data.printed.optimal_amplitude_angle_rad);
             let angle = printed.map_or(f64::NAN, |printed| printed.value);
-            claim = claim.at_printed_place(lower_at(
-                &data.amplitude_angle_rad,
-                &curve.airborne_speed_rad_per_s,
-                angle,
-            ));
+            let (angles, speeds) = (&data.amplitude_angle_rad, &curve.airborne_speed_rad_per_s);
+            claim = claim.at_printed_place(lower_at(angles, speeds, angle)).note(accepted(angles, speeds));
         }
         if name == "largest_efficiency" {
             claim = claim.note(format!(
@@ -269,7 +274,8 @@ fn largest_ratio(data: &Fig04Data, linear: &LagCurve) -> Option<Vec<Claim>> {
             Claim::printed("section3.amplitude_angle_of_largest_speed_ratio", at_zero.amplitude_angle_rad),
             at_zero.amplitude_angle_rad,
         )
-        .at_printed_place(lower_at(angles, &known, angle.value)),
+        .at_printed_place(lower_at(angles, &known, angle.value))
+        .note(accepted(angles, &known)),
         Claim::printed("section3.phase_lag_of_largest_speed_ratio", drawn.phase_lag_rad)
             .at_printed_place((size(&drawn.largest_speed_ratio) - size(at_zero)).max(0.0)),
     ])

@@ -187,14 +187,15 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
     let steps = |of: fn(&Slice) -> f64, sign: f64| {
         trend(ones.iter().map(|(slice, _)| (slice.axial_forcing, of(slice))), sign)
     };
-    let ends = |of: fn(&Slice) -> f64| match (ones.first(), ones.last()) {
+    let ends = |of: fn(&Slice) -> f64, sign: f64| match (ones.first(), ones.last()) {
         (Some((first, _)), Some((last, _))) => format!(
-            "{:.4} ωΦ at Γ = {:.4}, {:.4} ωΦ at Γ = {:.4}, monotone over {} values of Γ",
+            "{:.4} ωΦ at Γ = {:.4}, {:.4} ωΦ at Γ = {:.4}; of all pairs of {} values of Γ {}",
             of(first),
             first.axial_forcing,
             of(last),
             last.axial_forcing,
-            ones.len()
+            ones.len(),
+            steps(of, sign).words()
         ),
         _ => "no period-1 orbit".to_owned(),
     };
@@ -206,12 +207,12 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         Claim::printed_statement(
             "section4.linear_falls",
             steps(|slice| slice.linear_mean, -1.0),
-            ends(|slice| slice.linear_mean),
+            ends(|slice| slice.linear_mean, -1.0),
         ),
         Claim::printed_statement(
             "section4.semielliptical_rises",
             steps(|slice| slice.semielliptical_mean, 1.0),
-            ends(|slice| slice.semielliptical_mean),
+            ends(|slice| slice.semielliptical_mean, 1.0),
         ),
         Claim::printed_statement(
             "section4.semielliptical_reaches_maximum",

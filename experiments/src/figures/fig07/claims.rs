@@ -280,7 +280,7 @@ fn shapes(data: &Fig07Data, [a, b, c, d, e]: [&Panel; 5]) -> Vec<Claim> {
             "section4.fractal_boundary",
             claim::all(&d.boundary_exponents, |exponent| *exponent < SMOOTH_FROM),
             format!(
-                "from one size of cells to twice it the share of cells at a boundary grows with the exponents {} of the size, in all {:.2}: a boundary of \
+                "whether the exponents are below {SMOOTH_FROM}, where smooth boundaries have 1: from one size of cells to twice it the share of cells at a boundary grows with the exponents {} of the size, in all {:.2}: a boundary of \
                  dimension {:.2}; in (a), where it is smooth, with {}",
                 exponents(d),
                 d.boundary_exponent.unwrap_or(f64::NAN),

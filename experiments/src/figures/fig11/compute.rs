@@ -9,7 +9,7 @@ use super::data::{
 };
 use crate::claim::Cases;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::alike;
+use crate::figures::alike::{AlikeMotor, alike};
 use crate::figures::motor_case::MotorCase;
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::stall::{Stall, net_share_at_rest};
@@ -54,14 +54,14 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
             let case = MotorCase { frequency_hz, amplitude_m, ..motor };
             let [first, last] = printed.preload_accelerations_m_per_s2;
             let mut motors = |from: f64, count: u32| {
-                let points = preloads([from, last], count, &mut noise)
-                    .into_par_iter()
-                    .map(|preload| {
-                        let case = MotorCase { preload_acceleration_m_per_s2: preload, ..case };
-                        point(&case, rotor_mass_kg, members, relaunch_perturbation)
-                    })
-                    .collect::<Vec<Result<Point, ExperimentError>>>();
-                points.into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
+                let cases: Vec<MotorCase> = preloads([from, last], count, &mut noise)
+                    .map(|preload| MotorCase { preload_acceleration_m_per_s2: preload, ..case })
+                    .collect();
+                let single = alike(&cases, RISES)?;
+                let points = cases.par_iter().zip(single).map(|(case, single)| {
+                    point(case, &single, rotor_mass_kg, members, relaunch_perturbation)
+                });
+                points.collect::<Vec<_>>().into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
             };
             let (points, further) = (motors(first, count)?, motors(high, quality.choose(4, MORE_ABOVE))?);
             curves.push(Curve { frequency_hz, amplitude_m, points, further });
@@ -130,6 +130,7 @@ fn no_data(quantity: &str) -> ExperimentError {
 
 fn point(
     case: &MotorCase,
+    single: &AlikeMotor,
     mass: f64,
     members: usize,
     relaunch_perturbation: f64,
@@ -141,15 +142,15 @@ fn point(
         axial_forcing: case.system()?.axial_forcing(),
         statistics: case.statistics(RISES, members, relaunch_perturbation)?,
         net_share_at_rest: net_share_at_rest(case, BALANCED_IMPACTS, relaunch_perturbation)?,
+        single_speed_rad_per_s: single.steady_speed_rad_per_s,
+        single_stall_rad_per_s2: single.stall_over_limit.map(|share| share * case.largest_acceleration()),
     })
 }
 
 /// Preload accelerations over a range: its equal parts, and in each of them one, drawn evenly. Which values the authors took is not printed, and a motor's
 /// orbit depends on it; a regular grid could meet or miss the preloads at which the motor is on a short cycle.
-fn preloads([first, last]: [f64; 2], count: u32, noise: &mut Noise) -> Vec<f64> {
-    (0..count)
-        .map(|index| first + (last - first) * (f64::from(index) + noise.even()) / f64::from(count))
-        .collect()
+fn preloads([first, last]: [f64; 2], count: u32, noise: &mut Noise) -> impl Iterator<Item = f64> {
+    (0..count).map(move |index| first + (last - first) * (f64::from(index) + noise.even()) / f64::from(count))
 }
 
 fn reduced_twist(

@@ -61,6 +61,10 @@ pub(super) struct Point {
     pub(super) statistics: MotorStatistics,
     /// S(0): the share of the normal impulse that pushes a rotor held at rest forwards, minus the rest.
     pub(super) net_share_at_rest: f64,
+    /// Steady speed (rad/s) of one orbit that nothing perturbs.
+    pub(super) single_speed_rad_per_s: f64,
+    /// Its α̇_ss/t_c (rad/s²), if its speed settles.
+    pub(super) single_stall_rad_per_s2: Option<f64>,
 }
 
 /// The stall load at one preload.
@@ -112,24 +116,24 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
 pub(super) struct Trend {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
-    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration over preload.
+    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration of single orbits over preload.
     pub(super) median_speed_rad_per_s: f64,
-    pub(super) median_stall_per_preload_rad_per_s2_mn: f64,
-    /// How many motors inside have a speed, a torque or both on the trend. A motor without a stall torque is off it.
+    pub(super) single_stall_per_preload_rad_per_s2_mn: f64,
+    /// How many single orbits inside have a speed, a torque or both on the trend. One without a stall torque is off it.
     pub(super) speed: Cases,
     pub(super) torque: Cases,
     pub(super) both: Cases,
-    /// How many motors above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
+    /// How many single orbits above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
     pub(super) no_plateau: Cases,
     /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
     pub(super) speed_exponent: Option<f64>,
     pub(super) torque_exponent: Option<f64>,
     /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
     pub(super) high_torque_exponent: Option<f64>,
-    /// How many motors below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
+    /// How many single orbits below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
     pub(super) no_fall: Cases,
     pub(super) no_rise_above: Cases,
-    /// Middle steady speed below and above the preloads of the trends, over that inside.
+    /// Middle steady speed of the lowest and of the highest quarter of those beside the preloads of the trends, over that inside.
     pub(super) outside_over_inside: [f64; 2],
 }
 

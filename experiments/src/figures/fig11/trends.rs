@@ -12,6 +12,9 @@ pub(super) const SHARP: f64 = 0.2;
 /// sign (with two standard errors) at which the speed counts as independent of it: over the 3.5-fold range of preloads both make 13 %.
 pub(super) const EXPONENT_WITHIN: f64 = 0.1;
 
+/// The ends are one in so many of the motors below, and above, the preloads of the trends.
+const OUTERMOST: usize = 4;
+
 impl Trend {
     pub(super) fn of(curve: &Curve, [from, to]: [f64; 2], plateau_mn: f64) -> Self {
         let inside: Vec<&Point> =
@@ -19,34 +22,42 @@ impl Trend {
         let below: Vec<&Point> = curve.points.iter().filter(|point| point.preload_mn < from).collect();
         let every = || curve.points.iter().chain(&curve.further);
         let above: Vec<&Point> = every().filter(|point| point.preload_mn > to).collect();
-        let per_preload = |point: &Point| stall(point).map(|stall| stall / point.preload_mn);
+        let per_preload = |point: &Point| single_stall(point).map(|stall| stall / point.preload_mn);
         let median_speed = median(inside.iter().map(|point| speed(point)));
-        let median_stall = median(inside.iter().filter_map(|point| per_preload(point)));
+        let single_speed = median(inside.iter().map(|point| point.single_speed_rad_per_s));
+        let single_stall_per_preload = median(inside.iter().filter_map(|point| per_preload(point)));
         let near = |value: f64, middle: f64| (value - middle).abs() <= SHARP * middle.abs();
-        let speed_holds = |point: &Point| near(speed(point), median_speed);
-        let torque_holds = |point: &Point| per_preload(point).is_some_and(|value| near(value, median_stall));
+        let speed_holds = |point: &Point| near(point.single_speed_rad_per_s, single_speed);
+        let torque_holds =
+            |point: &Point| per_preload(point).is_some_and(|value| near(value, single_stall_per_preload));
         let no_fall = |points: &[&Point]| {
-            Cases::of(points.iter().map(|point| speed(point) >= (1.0 - SHARP) * median_speed))
+            Cases::of(points.iter().map(|point| point.single_speed_rad_per_s >= (1.0 - SHARP) * single_speed))
         };
         let no_rise = |points: &[&Point]| {
-            Cases::of(points.iter().map(|point| speed(point) <= (1.0 + SHARP) * median_speed))
+            Cases::of(points.iter().map(|point| point.single_speed_rad_per_s <= (1.0 + SHARP) * single_speed))
         };
-        let over_inside = |points: &[&Point]| median(points.iter().map(|point| speed(point))) / median_speed;
-        let outside_over_inside = [over_inside(&below), over_inside(&above)];
+        // The outermost of them: a fall at the lowest preloads is none of the middle one of all below.
+        let outermost = |points: &[&Point], sign: f64| {
+            let mut points = points.to_vec();
+            points.sort_by(|one, other| (sign * one.preload_mn).total_cmp(&(sign * other.preload_mn)));
+            let count = points.len().div_ceil(OUTERMOST);
+            median(points.iter().take(count).map(|point| speed(point))) / median_speed
+        };
+        let outside_over_inside = [outermost(&below, 1.0), outermost(&above, -1.0)];
         let outside = [below, above.clone()].concat();
         let high: Vec<&Point> = every().filter(|point| point.preload_mn > plateau_mn).collect();
         Self {
             frequency_hz: curve.frequency_hz,
             amplitude_m: curve.amplitude_m,
             median_speed_rad_per_s: median_speed,
-            median_stall_per_preload_rad_per_s2_mn: median_stall,
+            single_stall_per_preload_rad_per_s2_mn: single_stall_per_preload,
             speed: Cases::of(inside.iter().map(|point| speed_holds(point))),
             torque: Cases::of(inside.iter().map(|point| torque_holds(point))),
             both: Cases::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
             no_plateau: Cases::of(high.iter().map(|point| {
                 // Halfway between the line through the origin and what the torque is where the plateau begins.
-                let halfway = 0.5 * median_stall * (point.preload_mn + plateau_mn);
-                stall(point).is_some_and(|stall| stall > halfway)
+                let halfway = 0.5 * single_stall_per_preload * (point.preload_mn + plateau_mn);
+                single_stall(point).is_some_and(|stall| stall > halfway)
             })),
             speed_exponent: median_exponent(&inside, |point| Some(speed(point))),
             torque_exponent: median_exponent(&inside, stall),
@@ -93,6 +104,10 @@ pub(super) fn stall(point: &Point) -> Option<f64> {
     point.statistics.stall_acceleration_rad_per_s2.map(|spread| spread.mean)
 }
 
+fn single_stall(point: &Point) -> Option<f64> {
+    point.single_stall_rad_per_s2
+}
+
 pub(super) fn speed(point: &Point) -> f64 {
     point.statistics.steady_speed_rad_per_s.mean
 }
@@ -135,10 +150,12 @@ mod tests {
                 locked: true,
             },
             net_share_at_rest: 0.5,
+            single_speed_rad_per_s: speed,
+            single_stall_rad_per_s2: stall,
         }
     }
 
-    /// A motor that hardly turns counts against the trend, and against "no sharp fall" where it lies outside.
+    /// A motor in a hole counts against the trend, and against "no sharp fall" where it lies outside.
     #[test]
     fn a_motor_in_a_hole_counts_against_the_statement() {
         let mut points: Vec<Point> = (0..30)
@@ -152,7 +169,8 @@ mod tests {
         assert_eq!(trend.speed, Cases { holding: 20, tried: 21 });
         assert_eq!(trend.torque, Cases { holding: 20, tried: 21 });
         assert_eq!(trend.no_fall, Cases { holding: 8, tried: 9 });
-        assert!((trend.outside_over_inside[0] - 1.0).abs() < 1e-12, "the middle one is not in the hole");
+        // The outermost quarter below 80 mN are those at 20 and at 30 mN.
+        assert!((trend.outside_over_inside[0] - 1.0).abs() < 1e-12, "the hole is not at the end");
         assert_eq!(trend.no_rise_above, Cases { holding: 3, tried: 3 });
         let exponent = trend.torque_exponent.expect("many motors");
         assert!((exponent - 1.0).abs() < 1e-12, "{exponent}");

@@ -1,6 +1,6 @@
 //! What the paper says about Fig. 12.
 
-use super::data::{Fig12Data, LowPeriod};
+use super::data::{Fig12Data, Lines, LowPeriod};
 use crate::claim::{Cases, Claim, Verdict};
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS};
@@ -127,7 +127,8 @@ const SEEN_CYCLES: f64 = 10.0;
 
 fn lines(data: &Fig12Data) -> Claim {
     let found = &data.alike_of_low_period;
-    let seen = found.lines.iter().map(|lines| lines.gap_over_gain >= SEEN_APART * SEEN_CYCLES);
+    let is_seen = |lines: &Lines| lines.gap_over_gain >= SEEN_APART * SEEN_CYCLES;
+    let seen = Cases::of(found.lines.iter().map(is_seen));
     let several = found.lines.iter().filter(|lines| lines.flights > 1).count();
     let mut gaps: Vec<f64> = found.lines.iter().map(|lines| lines.gap_over_peak_angular_speed).collect();
     gaps.sort_by(f64::total_cmp);
@@ -136,12 +137,13 @@ fn lines(data: &Fig12Data) -> Claim {
     let words = impacts.iter().map(|(phase, share, level)| format!("({phase:.4}, {share:.3}, {level:+.3})"));
     Claim::printed_statement(
         "section5.multiple_lines",
-        Cases::of(seen),
+        is_seen(&data.drawn_lines),
         format!(
-            "whether the speeds of the flights form at least two lines that stand apart by a twentieth of what the speed rises in ten cycles, as panel (e) shows \
-             them, for {} orbits of low period; {several} of them have more than one flight in a cycle. On the scale of the whole transient nothing \
-             is seen: neighbouring lines are {:.2} % of ωΦ apart on the median, {:.2} % at most. Impacts of the cycle drawn with at least 1 % of its impulse (τ/2π, \
+            "whether the speeds of the flights of the motor drawn form at least two lines that stand apart by a twentieth of what the speed rises in ten cycles, as \
+             panel (e) shows them. Of other orbits of low period {} do, where {several} of {} have more than one flight in a cycle. On the scale of the whole \
+             transient no lines are seen: neighbouring lines are {:.2} % of ωΦ apart on the median, {:.2} % at most. Impacts of the cycle drawn with at least 1 % of its impulse (τ/2π, \
              share, cos(τ + θ)): {}",
+            seen.words(),
             found.lines.len(),
             100.0 * middle.copied().unwrap_or(f64::NAN),
             100.0 * widest.copied().unwrap_or(f64::NAN),

@@ -63,6 +63,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12
     let long_period = shown(long, long.amplitude_m)?;
     progress.advance(1);
     let low_period = shown(near, low.amplitude_m)?;
+    let drawn_lines = lines(&near, near.cycle(ChatterPolicy::Complete)?)?;
     progress.advance(1);
     let count = quality.choose(DRAWN / 10, DRAWN);
     let inputs = PrintedInputs::table_three()?;
@@ -85,6 +86,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12
         low_period,
         low_period_flights: LOW_PERIOD_FLIGHTS,
         alike: [long_like?, low_like?],
+        drawn_lines,
         alike_of_low_period,
     })
 }

@@ -18,6 +18,8 @@ pub struct Fig12Data {
     pub(super) low_period_flights: usize,
     /// Motors of both cases whose amplitudes agree to twelve digits.
     pub(super) alike: [Alike; 2],
+    /// The lines of the low-period case.
+    pub(super) drawn_lines: Lines,
     /// Motors of low period among those that print like the low-period case.
     pub(super) alike_of_low_period: LowPeriod,
 }

@@ -303,7 +303,11 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
                 .is_some_and(|periods| periods as f64 / motor.frequency_hz <= SHORT_CYCLE * rises[index])
         }),
         within_limit: Cases::of(
-            motors.iter().filter_map(|motor| motor.stall_over_limit).map(|stall| stall <= 1.0),
+            motors
+                .iter()
+                .filter(|motor| !motor.cycle.is_low_period())
+                .filter_map(|motor| motor.stall_over_limit)
+                .map(|stall| stall <= 1.0),
         ),
         median_speed_ratio: median(|motor| Some(speed_ratio(motor))).unwrap_or_default(),
         median_stall_over_limit: median(|motor| motor.stall_over_limit),

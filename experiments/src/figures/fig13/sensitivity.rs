@@ -1,22 +1,31 @@
 //! How steady speed and stall torque depend on the parameters.
 
+use bouncing_disk::core::elementary::ln;
+
 use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::sweeps::{
-    Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep_points, trend_change,
+    Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
 };
 use crate::claim::{Cases, Claim};
 use crate::figures::regression::StraightLine;
 use crate::figures::samples;
 
-/// An exponent below this, with two standard errors, counts as no significant effect: over two decades of A the
-/// quantity then changes by less than a factor 1.6.
-const INSIGNIFICANT: f64 = 0.1;
-
 /// An exponent this near to 1 counts as proportional.
 const PROPORTIONAL_WITHIN: f64 = 0.1;
 
-/// A change over the range by more than this share of the default value is significant.
+/// A change over the range by more than this share is significant.
 const SIGNIFICANT: f64 = 0.3;
+
+/// The least and the largest value of a parameter that is varied.
+fn range(data: &Fig13Data, parameter: Parameter) -> (f64, f64) {
+    extent(sweep(data, parameter).into_iter().flat_map(|sweep| &sweep.points).map(|point| point.value))
+}
+
+/// Whether a power law of this exponent changes by less than a significant share over the range of a parameter.
+fn is_insignificant(data: &Fig13Data, parameter: Parameter, exponent: f64) -> bool {
+    let (low, high) = range(data, parameter);
+    exponent.abs() * ln(high / low) < ln(1.0 + SIGNIFICANT)
+}
 
 /// Least share of the variance that a curve explains to be called that curve.
 const EXPLAINED: f64 = 0.95;
@@ -58,7 +67,7 @@ fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
 
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
     let [of_speed, of_stall] = [speed as Quantity, stall].map(|of| exponent(data, Parameter::Amplitude, of));
-    let small = |exponent: f64| exponent.abs() < INSIGNIFICANT;
+    let small = |exponent: f64| is_insignificant(data, Parameter::Amplitude, exponent);
     let holds = data.alike.draws.iter().map(|draw| {
         [draw.speed_amplitude_exponent, draw.stall_amplitude_exponent]
             .into_iter()
@@ -68,8 +77,9 @@ pub(super) fn amplitude(data: &Fig13Data) -> Claim {
         "section5.amplitude_insensitivity",
         small(of_speed) && small(of_stall),
         format!(
-            "whether the exponents of A are below {INSIGNIFICANT} over two decades: {of_speed:+.3} of the speed and {of_stall:+.3} of α̇_ss/t_c, {}; single orbits at the three printed \
+            "whether the powers of A change by less than {:.0} % over its range: exponents {of_speed:+.3} of the speed and {of_stall:+.3} of α̇_ss/t_c, {}; single orbits at the three printed \
              amplitudes",
+            100.0 * SIGNIFICANT,
             low_period_words(data, Parameter::Amplitude),
         ),
     )
@@ -85,14 +95,14 @@ fn agreement(data: &Fig13Data, parameter: Parameter, holds: impl Fn(&Sensitivity
 
 pub(super) fn twist(data: &Fig13Data) -> Claim {
     let mean = exponent(data, Parameter::PeakAngularSpeed, stall);
-    let single = agreement(data, Parameter::PeakAngularSpeed, |of| {
-        of.stall_exponent.is_some_and(|exponent| exponent.abs() < INSIGNIFICANT)
-    });
+    let small = |exponent: f64| is_insignificant(data, Parameter::PeakAngularSpeed, exponent);
+    let single = agreement(data, Parameter::PeakAngularSpeed, |of| of.stall_exponent.is_some_and(small));
     Claim::printed_statement(
         "section5.torque_independent_of_twist",
-        mean.abs() < INSIGNIFICANT,
+        small(mean),
         format!(
-            "whether the exponent of ωΦ in α̇_ss/t_c is below {INSIGNIFICANT}: {mean:+.3}; that of the steady speed is {:+.3}",
+            "whether the power of ωΦ in α̇_ss/t_c changes by less than {:.0} % over its range: exponent {mean:+.3}; that of the steady speed is {:+.3}",
+            100.0 * SIGNIFICANT,
             exponent(data, Parameter::PeakAngularSpeed, speed)
         ),
     )
@@ -173,6 +183,15 @@ fn change_words(changes: &[(Parameter, f64)]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
+/// The same changes over the one range that the paper prints, that of the measured ε; the others are not printed.
+fn over_printed_range(data: &Fig13Data, changes: &[(Parameter, f64)]) -> Vec<(Parameter, f64)> {
+    let (low, high) = range(data, Parameter::Restitution);
+    let printed = crate::catalogue::number("section5.estimated_restitution", 0);
+    let width = 2.0 * printed.ok().and_then(|printed| printed.uncertainty).unwrap_or(f64::NAN);
+    let share = |parameter| if parameter == Parameter::Restitution { width / (high - low) } else { 1.0 };
+    changes.iter().map(|&(parameter, change)| (parameter, share(parameter) * change)).collect()
+}
+
 /// Whether the parameters `named` are those with the largest changes.
 fn are_largest(mut changes: Vec<(Parameter, f64)>, named: [Parameter; 3]) -> bool {
     changes.sort_by(|one, other| other.1.total_cmp(&one.1));
@@ -190,11 +209,18 @@ pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Pa
             named,
         )
     };
+    let printed = over_printed_range(data, &means);
     Claim::printed_statement(
         key,
         are_largest(means.clone(), named),
-        format!("{CHANGE}: {}; medians of single orbits: {}", change_words(&means), medians(data, of)),
+        format!(
+            "{CHANGE}: {}; over the measured range of ε {}; medians of single orbits: {}",
+            change_words(&means),
+            change_words(&printed),
+            medians(data, of)
+        ),
     )
+    .by_definition(&[Cases::from(are_largest(printed, named)).sampled()])
     .single_orbits(Cases::of(data.alike.draws.iter().map(single)))
 }
 
@@ -213,18 +239,24 @@ pub(super) fn both(data: &Fig13Data) -> Claim {
         })
     };
     let (speeds, stalls) = (mean_speed_changes(data), mean_stall_changes(data));
-    let mean = speeds.iter().zip(&stalls).all(|((parameter, speed), (_, stall))| {
-        (*speed > SIGNIFICANT && *stall > SIGNIFICANT) == named(*parameter)
-    });
+    let holds = |speeds: &[(Parameter, f64)], stalls: &[(Parameter, f64)]| {
+        speeds.iter().zip(stalls).all(|((parameter, speed), (_, stall))| {
+            (*speed > SIGNIFICANT && *stall > SIGNIFICANT) == named(*parameter)
+        })
+    };
+    let printed = [&speeds, &stalls].map(|changes| over_printed_range(data, changes));
     Claim::printed_statement(
         "section5.both_sensitivity",
-        mean,
+        holds(&speeds, &stalls),
         format!(
-            "whether θ and ε, and no other, change both by more than {SIGNIFICANT}; {CHANGE}: steady speed {}; α̇_ss/t_c {}",
+            "whether θ and ε, and no other, change both by more than {SIGNIFICANT}; {CHANGE}: steady speed {}; α̇_ss/t_c {}; over the measured range of ε {}; {}",
             change_words(&speeds),
-            change_words(&stalls)
+            change_words(&stalls),
+            change_words(&printed[0]),
+            change_words(&printed[1])
         ),
     )
+    .by_definition(&[Cases::from(holds(&printed[0], &printed[1])).sampled()])
     .single_orbits(Cases::of(data.alike.draws.iter().map(single)))
 }
 
@@ -246,7 +278,7 @@ pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
 pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
     let mut largest = (0.0, String::new());
     for sweep in &data.sweeps {
-        for point in &sweep.points {
+        for point in sweep.points.iter().filter(|point| !point.statistics.is_low_period()) {
             let Some(spread) = point.statistics.stall_acceleration_rad_per_s2 else { continue };
             let limit = sweep.parameter.set(&data.motor, point.value).largest_acceleration();
             let share = (spread.mean.abs() - 2.0 * spread.standard_error) / limit;
@@ -261,8 +293,9 @@ pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
         "section5.torque_limit",
         share <= 1.0,
         format!(
-            "whether α̇_ss/t_c stays below μ a_e g/a_g², at all motors drawn: the largest is, two standard errors below the mean, {share:.3} of the limit, at {place}. No motor accelerates faster \
-             than the limit, for the normal impulse per time is the weight; but at small ε the speed rises in lines, and the fit makes more of α̇_ss/t_c than any acceleration",
+            "whether α̇_ss/t_c stays below μ a_e g/a_g², at all motors drawn that are of long period, for which the paper defines it: the largest is, two standard errors below the mean, \
+             {share:.3} of the limit, at {place}. No motor accelerates faster than the limit, for the normal impulse per time is the weight; but on low-period cycles the speed rises in \
+             lines, and the fit makes more of α̇_ss/t_c than any acceleration",
         ),
     )
     .cause("an initial slope of a fit that is no acceleration")
