@@ -144,7 +144,7 @@ impl From<bouncing_disk::core::Error> for ExperimentError {
 }
 
 impl ExperimentError {
-    /// Wraps an error of the model: `model.run(..).map_err(ExperimentError::model)?`.
+    /// Wraps an error of the model: `model.run(..)?`.
     pub fn model(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self::Model(Box::new(error))
     }

@@ -37,7 +37,6 @@ pub mod fig12;
 pub mod fig13;
 pub mod fig14;
 mod hand_path;
-mod least_squares;
 mod manifold_lines;
 mod motor_case;
 mod power_of_ten;

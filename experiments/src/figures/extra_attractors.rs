@@ -104,13 +104,15 @@ impl Experiment for ExtraAttractors {
         let (columns, cells) = quality.choose((36, 150), (180, 600));
         progress.start(2 * columns as u64 + cells as u64, "forcings and rows");
         let mut sweeps = Vec::new();
-        for ([from, to], restitution) in FORCINGS.into_iter().zip([paper::section_four()?.restitution, RESTITUTION])
+        for ([from, to], restitution) in
+            FORCINGS.into_iter().zip([paper::section_four()?.restitution, RESTITUTION])
         {
             // Middles of equal parts of the range: its round ends are births of orbits.
             let middle = |k: usize| from + (to - from) * (k as f64 + 0.5) / columns as f64;
             let axial_forcings: Vec<f64> = (0..columns).map(middle).collect();
             let observer = advancing(progress);
-            let over = basin_fractions_over_observed(restitution, &axial_forcings, &search, REACH, &observer)?;
+            let over =
+                basin_fractions_over_observed(restitution, &axial_forcings, &search, REACH, &observer)?;
             let found = over.at.iter().map(|at| at.attractors.all().iter().map(found).collect()).collect();
             sweeps.push(Sweep { restitution, axial_forcings, found });
         }
@@ -153,7 +155,9 @@ fn period(attractor: &Attractor) -> Option<(u64, u64)> {
 fn found(attractor: &Attractor) -> (usize, f64, (f64, f64)) {
     let kind = match (&attractor.kind, period(attractor)) {
         (AttractorKind::Rest(_), _) => 0,
-        (_, Some((impacts, periods))) if periods.is_multiple_of(impacts) => (periods / impacts).min(4) as usize,
+        (_, Some((impacts, periods))) if periods.is_multiple_of(impacts) => {
+            (periods / impacts).min(4) as usize
+        }
         (_, Some(_)) => 5,
         _ => 6,
     };

@@ -88,7 +88,8 @@ impl Experiment for ExtraBranches {
         for k in 1..=MOST_PERIODS {
             found.extend(branches(restitution, k)?);
             let born = birth(restitution, k);
-            let above: Vec<f64> = forcings.iter().copied().filter(|forcing| *forcing > born + 0.002).collect();
+            let above: Vec<f64> =
+                forcings.iter().copied().filter(|forcing| *forcing > born + 0.002).collect();
             let start = map(above[0], restitution)?.period_one(k);
             if let Some(start) = start {
                 for at in follow_attractor(restitution, above, start, transient, PAPER_CHATTER) {
@@ -141,12 +142,14 @@ fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Error> {
 /// Both ways along a pair of one impact every k periods, and what doubles from it, from branch to branch.
 fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, Error> {
     let way = |rising: bool| {
-        Continuation::new(ContinuationParameter::Forcing, RANGE, rising)?.with_steps(STEPS.0, STEPS.1, STEPS.2)
+        Continuation::new(ContinuationParameter::Forcing, RANGE, rising)?
+            .with_steps(STEPS.0, STEPS.1, STEPS.2)
     };
     let map = map(birth(restitution, k) + ABOVE_BIRTH, restitution)?;
     let Some(pair) = map.period_one_pair(k) else { return Ok(Vec::new()) };
     let Some(node) = pair.node.orbit(&map)? else { return Ok(Vec::new()) };
-    let mut all = vec![(false, map.continued(&node, &way(false)?)?), (false, map.continued(&node, &way(true)?)?)];
+    let mut all =
+        vec![(false, map.continued(&node, &way(false)?)?), (false, map.continued(&node, &way(true)?)?)];
     for _ in 0..DOUBLINGS[usize::from(k > 1)] {
         let last = &all[all.len() - 1].1;
         let doubling = last.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling);
@@ -158,8 +161,9 @@ fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, Error> {
 
 fn line(doubled: bool, branch: &Branch) -> BranchLine {
     let period = branch.points.first().map_or(0, |point| point.orbit.period());
-    let phases =
-        |impact: usize| branch.points.iter().map(|point| point.orbit.states[impact].phase().cycles()).collect();
+    let phases = |impact: usize| {
+        branch.points.iter().map(|point| point.orbit.states[impact].phase().cycles()).collect()
+    };
     BranchLine {
         doubled,
         axial_forcings: branch.points.iter().map(|point| point.parameter).collect(),
@@ -231,7 +235,8 @@ fn draw(data: &ExtraBranchesData) -> Figure {
     ];
     for (marks, name, marker) in marks {
         let points = marks.iter().map(|mark| shown(*mark));
-        panel = panel.layer(Scatter::new(points).marker(marker).size(3.6).width(0.7).filled_white().name(name));
+        panel =
+            panel.layer(Scatter::new(points).marker(marker).size(3.6).width(0.7).filled_white().name(name));
     }
     for k in 1..=MOST_PERIODS {
         let place = Text::at_data(birth(data.restitution, k) + 0.015, 0.0, format!("$k = {k}$"));

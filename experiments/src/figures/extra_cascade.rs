@@ -149,7 +149,10 @@ fn distances(cascades: &[Cascade], area: Rect) -> Panel {
     for (cascade, colour) in cascades.iter().zip(COLOURS) {
         let name = format!(r"$\epsilon = {}$", cascade.restitution);
         let of = |value: fn(&Doubling) -> f64| {
-            (1..).map(f64::from).zip(cascade.doublings.iter().map(|own| value(own).max(LEAST))).collect::<Vec<_>>()
+            (1..)
+                .map(f64::from)
+                .zip(cascade.doublings.iter().map(|own| value(own).max(LEAST)))
+                .collect::<Vec<_>>()
         };
         let distances = of(|own| own.to_limit);
         let stated = Line::new(of(|own| own.stated_error_in_doubles)).width(0.7).dash(Dash::Dotted);

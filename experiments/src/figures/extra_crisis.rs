@@ -135,7 +135,13 @@ fn magnified(orbit: &[ImpactState], saddle: &PeriodicOrbit) -> Option<Spot> {
 }
 
 /// A part of the plane with attractor, manifolds, saddle and tangency.
-fn plane(data: &ExtraCrisisData, area: Rect, [x, y]: [(f64, f64); 2], steps: (f64, f64), both: bool) -> Panel {
+fn plane(
+    data: &ExtraCrisisData,
+    area: Rect,
+    [x, y]: [(f64, f64); 2],
+    steps: (f64, f64),
+    both: bool,
+) -> Panel {
     let scatter = |spots: &[Spot]| Scatter::new(spots.iter().copied());
     let mut panel = Panel::new(area)
         .x(Axis::linear(x.0, x.1).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(steps.0).minor(2)))

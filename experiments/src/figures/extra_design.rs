@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::{
-    InitialSpin, Platform, Stroke, System, TossConstraints, TossDesign, TossHalfUnits, TossRobustness, best_toss,
-    single_toss,
+    InitialSpin, Platform, Stroke, System, TossConstraints, TossDesign, TossHalfUnits, TossRobustness,
+    best_toss, single_toss,
 };
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter,
+    Ticks,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -73,7 +74,8 @@ impl Experiment for ExtraDesign {
         let count = quality.choose(8, 36);
         progress.start(LIMITS.len() as u64 * count as u64, "designs");
         let best = |highest_flight: Option<f64>, k: i32| {
-            let frequency = FREQUENCIES[0] + (FREQUENCIES[1] - FREQUENCIES[0]) * f64::from(k) / f64::from(count - 1);
+            let frequency =
+                FREQUENCIES[0] + (FREQUENCIES[1] - FREQUENCIES[0]) * f64::from(k) / f64::from(count - 1);
             let table = TossConstraints::pizza_toss();
             let angular_frequency = [frequency; 2];
             let constraints =
@@ -115,9 +117,9 @@ impl Experiment for ExtraDesign {
         });
         let most = data.curves.iter().flatten().map(|(_, left)| left.digits.most).fold(0.0, f64::max);
         let bands = data.curves.iter().zip(LIMITS).map(|(points, (_, colour, _))| {
-            let band = points.iter().map(|(design, left)| {
-                (design.hand.angular_frequency, left.digits.least, left.digits.most)
-            });
+            let band = points
+                .iter()
+                .map(|(design, left)| (design.hand.angular_frequency, left.digits.least, left.digits.most));
             Band::new(band).colour(colour).opacity(0.15)
         });
         let speeds = Panel::new(Rect::new(40.0, 12.0, 210.0, 165.0))

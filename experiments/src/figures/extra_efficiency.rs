@@ -93,7 +93,8 @@ impl Experiment for ExtraEfficiency {
             let rows = points.chunks(phase_lags_rad.len());
             rows.map(|row| row.iter().map(|point| point.and_then(of)).collect()).collect()
         };
-        let efficient = cells.iter().zip(&points).filter_map(|(cell, point)| Some((*cell, (*point)?.efficiency?)));
+        let efficient =
+            cells.iter().zip(&points).filter_map(|(cell, point)| Some((*cell, (*point)?.efficiency?)));
         let ((lag, load), efficiency) = efficient
             .max_by(|one, other| one.1.value.total_cmp(&other.1.value))
             .ok_or_else(|| ExperimentError::NoData { quantity: "best efficiency".to_owned() })?;
@@ -151,7 +152,8 @@ fn map(data: &ExtraEfficiencyData, area: Rect, levels: usize) -> Panel {
         })
     });
     // The cells lie around the lags and loads of their motors.
-    let (half_lag, half_load) = (FARTHEST_LAG / PI / (columns - 1) as f64, 0.5 * LAST_SHARE / (rows - 1) as f64);
+    let (half_lag, half_load) =
+        (FARTHEST_LAG / PI / (columns - 1) as f64, 0.5 * LAST_SHARE / (rows - 1) as f64);
     let x = (-FARTHEST_LAG / PI - half_lag, FARTHEST_LAG / PI + half_lag);
     let y = (-half_load, LAST_SHARE + half_load);
     let printed = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::Dotted);
@@ -210,7 +212,9 @@ fn shares(data: &ExtraEfficiencyData, area: Rect) -> Panel {
             .colour(colour)
             .opacity(1.0)
     };
-    let edge = |index: usize| Line::new(heights.iter().map(|own| (own[0], own[index])).collect::<Vec<_>>()).width(0.7);
+    let edge = |index: usize| {
+        Line::new(heights.iter().map(|own| (own[0], own[index])).collect::<Vec<_>>()).width(0.7)
+    };
     let [_, low, high] = heights.get(heights.len() / 2).copied().unwrap_or([0.5, 0.3, 0.6]);
     let label =
         |height: f64, words: &str| Text::at_data(0.5 * last, height, words).anchor(Anchor::Centre).size(8.5);

@@ -3,8 +3,8 @@
 use bouncing_disk::core::elementary::exp;
 use bouncing_disk::{Error, FitSettings, TransientFit};
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule, Scatter,
-    Stroke, Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule,
+    Scatter, Stroke, Ticks,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -6,8 +6,8 @@ use bouncing_disk::core::{
     Vibration, orbit_diagram, verdicts_observed,
 };
 use bouncing_disk_plot::{
-    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel, Rule, Stroke,
-    Ticks,
+    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel, Rule,
+    Stroke, Ticks,
 };
 use serde::{Deserialize, Serialize};
 

@@ -93,7 +93,8 @@ impl Experiment for ExtraRegimes {
     fn draw(data: &ExtraRegimesData) -> Result<Figure, ExperimentError> {
         let palette = KINDS.map(|(_, colour)| colour);
         let last = KINDS.len() as u8 - 1;
-        let cells = data.rows.iter().flat_map(|row| row.bytes().map(|own| own.saturating_sub(b'0').min(last)));
+        let cells =
+            data.rows.iter().flat_map(|row| row.bytes().map(|own| own.saturating_sub(b'0').min(last)));
         let (x, y) = (FORCINGS, RESTITUTIONS);
         let along = |forcing: fn(f64) -> f64| {
             let restitutions = (0..=POINTS).map(move |k| y.0 + (y.1 - y.0) * k as f64 / POINTS as f64);

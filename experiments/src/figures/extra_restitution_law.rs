@@ -5,11 +5,12 @@ use std::f64::consts::{PI, TAU};
 use bouncing_disk::PAPER_CHATTER;
 use bouncing_disk::core::elementary::acos;
 use bouncing_disk::core::{
-    ChatterPolicy, Constant, ImpactMap, ImpactState, KuwabaraKono, OrbitEvent, Phase, RestitutionLaw, Vibration,
+    ChatterPolicy, Constant, ImpactMap, ImpactState, KuwabaraKono, OrbitEvent, Phase, RestitutionLaw,
+    Vibration,
 };
 use bouncing_disk_plot::{
-    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins, Panel,
-    Rect, Rule, Scatter, Stroke, Text, Ticks,
+    Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
+    Panel, Rect, Rule, Scatter, Stroke, Text, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +56,8 @@ impl Experiment for ExtraRestitutionLaw {
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(PAPER_CHATTER);
 
     fn caption(data: &ExtraRestitutionLawData) -> String {
-        let lost = |own: &Followed| own.lost_at.map_or("not at all".to_owned(), |at| format!("at Γ = {at:.4}"));
+        let lost =
+            |own: &Followed| own.lost_at.map_or("not at all".to_owned(), |at| format!("at Γ = {at:.4}"));
         format!(
             "The attractor followed in Γ from the period-1 orbit at Γ = {}, as in Fig. 6(a): (a) constant restitution {}; (b) the \
              law of viscoelastic bodies (Kuwabara and Kono), 1 - r proportional to v^(1/5) at low speed, with the same restitution at the \
@@ -68,7 +70,10 @@ impl Experiment for ExtraRestitutionLaw {
         )
     }
 
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraRestitutionLawData, ExperimentError> {
+    fn compute(
+        quality: Quality,
+        progress: &dyn Progress,
+    ) -> Result<ExtraRestitutionLawData, ExperimentError> {
         let section = paper::section_four()?;
         let restitution = section.restitution;
         let law = KuwabaraKono::new(restitution, TAU / (1.0 + restitution))?;

@@ -3,8 +3,8 @@
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::{
-    Estimate, FitSettings, IntervalEstimate, Motor, OperatingPoint, OperatingSettings, Operation, TransientFit,
-    TransientSettings, ensemble,
+    Estimate, FitSettings, IntervalEstimate, Motor, OperatingPoint, OperatingSettings, Operation,
+    TransientFit, TransientSettings, ensemble,
 };
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule,
@@ -91,7 +91,8 @@ impl Experiment for ExtraTorqueSpeed {
         let run_up = TransientSettings { duration, intervals: 240, ..TransientSettings::default() };
         let runs = ensemble(system, &run_up, transients)?;
         let estimate = TransientFit::new(&runs.curves, &FitSettings::default())?.stall_acceleration();
-        let [value, low, high] = [estimate.value, estimate.low, estimate.high].map(|own| motor.inertia() * own);
+        let [value, low, high] =
+            [estimate.value, estimate.low, estimate.high].map(|own| motor.inertia() * own);
         progress.advance(1);
         Ok(ExtraTorqueSpeedData {
             settings,
