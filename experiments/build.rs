@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let figures = package.join("src/figures");
     let mut libraries = BTreeSet::new();
     named_libraries(&package, &root.join("crates"), &mut libraries)?;
-    let parts = ["Cargo.toml", "Cargo.lock", "data/cases", "data/literature", "data/paper", "experiments"];
+    let parts = ["Cargo.toml", "Cargo.lock", "data/cases", "data/paper", "experiments"];
     let mut shared = Vec::new();
     for path in parts.iter().map(|part| root.join(part)).chain(libraries) {
         println!("cargo:rerun-if-changed={}", path.display());

@@ -14,7 +14,7 @@ pub fn not_computable(figure: &str) -> Vec<Claim> {
         .collect()
 }
 
-/// What is wrong with the claims of a figure or table: entries that are not answered by exactly one claim, claims that
+/// What is wrong with the claims of a figure or table: entries that are not answered by exactly one claim (an identity by one at most), claims that
 /// answer what is not theirs, numbers that come from no entry, claims without data or not judged as their kind has to be, differences
 /// without a cause, and claims that count for the paper though they do not answer an entry of its own.
 pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
@@ -28,7 +28,9 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     for key in &own {
         let answers = claims.iter().filter(|claim| matches!(claim.source(), Source::Entry(of) if of == key));
         let count = answers.count();
-        if count != 1 {
+        // What is true by construction needs no answer.
+        let optional = count == 0 && find(key).is_ok_and(|entry| entry.class == Class::Identity);
+        if count != 1 && !optional {
             faults.push(format!("{key} is answered by {count} claims"));
         }
     }

@@ -144,7 +144,7 @@ impl From<bouncing_disk::core::Error> for ExperimentError {
 }
 
 impl ExperimentError {
-    /// Wraps an error of the model: `model.run(..).map_err(ExperimentError::model)?`.
+    /// Wraps an error of the model: `model.run(..)?`.
     pub fn model(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self::Model(Box::new(error))
     }
@@ -175,9 +175,9 @@ pub trait Experiment: Sync + Send + 'static {
     /// A short title for the gallery and for lists.
     const TITLE: &'static str;
 
-    /// What the figure shows, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number
+    /// What the figure shows, in a paragraph for `docs/results.md`; nothing for a figure beyond the paper. `{section4.merging}` stands for the computed number
     /// of the claim that answers this entry of the [catalogue](crate::catalogue).
-    const DISCUSSION: &'static str;
+    const DISCUSSION: &'static str = "";
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
     /// What ends a chattering sequence in what is drawn, where there is one. A figure that compares both policies says so
@@ -219,10 +219,14 @@ pub trait Experiment: Sync + Send + 'static {
     /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
     /// [catalogue](crate::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be computed are
     /// added by the framework.
-    fn claims(data: &Self::Data) -> Vec<Claim>;
+    fn claims(_data: &Self::Data) -> Vec<Claim> {
+        Vec::new()
+    }
 
     /// Name and value with unit, for the gallery.
-    fn parameters(data: &Self::Data) -> Vec<(String, String)>;
+    fn parameters(_data: &Self::Data) -> Vec<(String, String)> {
+        Vec::new()
+    }
 
     /// The data as a table, where the paper prints a table.
     fn table(_data: &Self::Data) -> Option<Table> {

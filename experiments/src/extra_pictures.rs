@@ -8,10 +8,8 @@ use serde_json::Value;
 
 use crate::committed_picture::{FigureDigests, MadeFiles, picture_name};
 use crate::experiment::{Quality, RegisteredExperiment};
-use crate::literature;
 use crate::output::OutputFolder;
 use crate::provenance;
-use crate::registry;
 use crate::results::{DIGESTS_FILE, ResultsError};
 
 /// Their folder, in that of the documentation.
@@ -24,11 +22,6 @@ pub struct Digests {
     pub provenance: Option<Provenance>,
     /// By identifier of the figure.
     pub figures: BTreeMap<String, FigureDigests>,
-}
-
-/// Whether the documentation holds a picture of this figure. The table of the literature is a page of its own.
-pub fn is_shown(id: &str) -> bool {
-    registry::is_extra(id) && !literature::is_source(id)
 }
 
 /// Writes the pictures and their digests into `docs` from the figures in both output folders.

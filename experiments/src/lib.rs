@@ -28,7 +28,6 @@ pub mod figures;
 mod finite;
 pub mod json;
 pub mod judging;
-pub mod literature;
 pub mod measured;
 pub mod output;
 pub mod page;

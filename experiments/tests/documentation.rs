@@ -39,8 +39,7 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
 fn the_committed_pictures_of_extras_are_those_that_were_generated_and_small() {
     let digests = fs::read(docs(EXTRAS_FOLDER).join(DIGESTS_FILE)).expect("the digests are committed");
     let digests: extra_pictures::Digests = serde_json::from_slice(&digests).expect("written by this version");
-    let ids =
-        registry::all().iter().map(|entry| entry.id()).filter(|id| extra_pictures::is_shown(id)).collect();
+    let ids = registry::extras().iter().map(|entry| entry.id()).collect();
     check_pictures(EXTRAS_FOLDER, &digests.figures, ids, "cargo xtask figures --extras --docs");
 }
 

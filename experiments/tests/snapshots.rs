@@ -59,7 +59,6 @@ snapshots![
     extra_regimes,
     extra_branches,
     extra_cascade,
-    extra_literature,
     extra_crisis,
     extra_manifolds,
     extra_attractors,

@@ -11,10 +11,9 @@ use bouncing_disk_experiments::count::Counts;
 use bouncing_disk_experiments::errata;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
 use bouncing_disk_experiments::extra_pictures;
-use bouncing_disk_experiments::literature;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
-use bouncing_disk_experiments::results::{self, ResultsError};
+use bouncing_disk_experiments::results;
 use bouncing_disk_experiments::summary::Summary;
 use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};
@@ -31,7 +30,7 @@ const DEFAULT_FOLDER: &str = "target/figures";
 const DRAFTS_FOLDER: &str = "draft";
 /// What repairs the documentation.
 const DOCS_COMMAND: &str = "cargo xtask figures --docs";
-/// What repairs the pictures of the extras and the page of the literature.
+/// What repairs the pictures of the extras.
 const EXTRAS_COMMAND: &str = "cargo xtask figures --extras --docs";
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
@@ -63,11 +62,11 @@ pub(crate) struct Options {
     #[arg(long)]
     list: bool,
     /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with --extras
-    /// docs/literature.md or a picture in docs/extras, is missing or out of date
+    /// a picture in docs/extras, is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
     /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it; with
-    /// --extras make those beyond the paper and write docs/literature.md and docs/extras
+    /// --extras make those beyond the paper and write docs/extras
     #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date
@@ -200,7 +199,7 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
     let written = if run.options.extras {
-        write_extras(run.selected, folder, &drafts, &docs)
+        extra_pictures::write(run.selected, folder, &drafts, &docs)
     } else {
         results::write(errata::TEMPLATE, &registry::paper(), folder, &drafts, &docs)
     };
@@ -209,22 +208,9 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     Ok(ExitCode::SUCCESS)
 }
 
-/// Writes the page of the literature and the pictures of the other figures beyond the paper.
-fn write_extras(
-    selected: &[&dyn RegisteredExperiment],
-    paper: &OutputFolder,
-    drafts: &OutputFolder,
-    docs: &OutputFolder,
-) -> Result<(), ResultsError> {
-    for entry in selected.iter().filter(|entry| literature::is_source(entry.id())) {
-        literature::write(*entry, paper, docs)?;
-    }
-    extra_pictures::write(&shown_extras(selected), paper, drafts, docs)
-}
-
-/// Those of which the documentation holds a picture in docs/extras.
-fn shown_extras<'a>(selected: &[&'a dyn RegisteredExperiment]) -> Vec<&'a dyn RegisteredExperiment> {
-    selected.iter().copied().filter(|entry| extra_pictures::is_shown(entry.id())).collect()
+/// Those beyond the paper.
+fn extras<'a>(selected: &[&'a dyn RegisteredExperiment]) -> Vec<&'a dyn RegisteredExperiment> {
+    selected.iter().copied().filter(|entry| registry::is_extra(entry.id())).collect()
 }
 
 fn start_threads(options: &Options) -> anyhow::Result<()> {
@@ -335,12 +321,7 @@ fn check(
     if !committed.is_empty() {
         say!("to repair: {DOCS_COMMAND}")?;
     }
-    let mut extras = extra_pictures::outdated(&shown_extras(selected), options.quality, &folder, &docs)?;
-    for entry in selected.iter().filter(|entry| literature::is_source(entry.id())) {
-        if literature::is_outdated(*entry, &folder, &docs)? {
-            extras.push(literature::LITERATURE_FILE.to_owned());
-        }
-    }
+    let mut extras = extra_pictures::outdated(&extras(selected), options.quality, &folder, &docs)?;
     for name in &extras {
         say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
     }

@@ -10,8 +10,7 @@ use std::process::Command;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Vibration, orbit_diagram, survival_times};
 
 /// Pages that nobody writes by hand.
-const GENERATED: [&str; 4] =
-    ["docs/results.md", "docs/errata.md", "docs/literature.md", "docs/performance.md"];
+const GENERATED: [&str; 3] = ["docs/results.md", "docs/errata.md", "docs/performance.md"];
 
 /// Lists of what was, with the names of its time.
 const RECORDS: [&str; 2] = ["CHANGELOG.md", "docs/mutants.md"];

@@ -9,7 +9,7 @@ use bouncing_disk::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase, core_error};
+use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
 use super::regression::StraightLine;
 use crate::experiment::ExperimentError;
 
@@ -63,8 +63,8 @@ impl AlikeMotor {
     }
 
     fn of(motor: &MotorCase, curve: &SpeedCurve, duration: f64) -> Result<Self, ExperimentError> {
-        let exponential = ExponentialFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
-        let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+        let exponential = ExponentialFit::new(&curve.times, &curve.speeds)?;
+        let ramp = RampFit::new(&curve.times, &curve.speeds)?;
         let top = motor.peak_angular_speed_rad_per_s;
         let (steady, constant, residual) = if exponential.residual < ramp.residual {
             (exponential.steady_speed, exponential.time_constant, exponential.residual)
@@ -79,7 +79,7 @@ impl AlikeMotor {
             peak_angular_speed_rad_per_s: top,
             axial_forcing: motor.system()?.axial_forcing(),
             cycle: motor.cycle(ChatterPolicy::Complete)?,
-            steady_speed_rad_per_s: curve.mean_over_last(1.0 / 3.0).map_err(ExperimentError::model)?,
+            steady_speed_rad_per_s: curve.mean_over_last(1.0 / 3.0)?,
             stall_over_limit: (constant < LARGEST_CONSTANT * duration
                 && residual < LARGEST_RESIDUAL * steady.abs())
             .then(|| steady / constant / motor.largest_acceleration()),
@@ -98,7 +98,7 @@ fn oscillation(curve: &SpeedCurve) -> Result<f64, ExperimentError> {
     let points: Vec<(f64, f64)> =
         curve.times.iter().zip(&curve.speeds).skip(half).map(|(time, speed)| (*time, *speed)).collect();
     let unexplained = StraightLine::through(&points).map_or(1.0, |line| 1.0 - line.explained);
-    let spread = Spread::of(&curve.speeds[half..]).map_err(ExperimentError::model)?;
+    let spread = Spread::of(&curve.speeds[half..])?;
     Ok(spread.deviation * unexplained.max(0.0).sqrt())
 }
 
@@ -125,7 +125,7 @@ pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>,
             let share = (index as f64 + 0.5) / motors.len() as f64;
             Ok(TransientMember {
                 system: motor.system()?,
-                phase: Phase::new(TAU * share).map_err(core_error)?,
+                phase: Phase::new(TAU * share)?,
                 settings: TransientSettings {
                     duration: duration(motor),
                     intervals: INTERVALS,
@@ -139,7 +139,7 @@ pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>,
     motors
         .par_iter()
         .zip(curves)
-        .map(|(motor, curve)| AlikeMotor::of(motor, &curve.map_err(ExperimentError::model)?, duration(motor)))
+        .map(|(motor, curve)| AlikeMotor::of(motor, &curve?, duration(motor)))
         .collect()
 }
 

@@ -1,46 +1,132 @@
 //! Beyond the paper: what a disk does for good, over forcing and restitution.
 
-mod claims;
-mod compute;
-mod data;
-mod draw;
+use std::f64::consts::{FRAC_1_PI, TAU};
 
-use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk_plot::Figure;
+use bouncing_disk::core::{
+    ChatterPolicy, ImpactMap, ImpactState, Phase, Verdict, VerdictSettings, Vibration, verdicts_observed,
+};
+use bouncing_disk_plot::{
+    Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Line, Panel, Raster, Rect, Rule, Stroke, Ticks,
+};
+use serde::{Deserialize, Serialize};
 
-pub use self::data::ExtraRegimesData;
-use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::progress::Progress;
+use crate::progress::{Progress, advancing};
+
+/// Γ and restitutions of the map.
+const FORCINGS: (f64, f64) = (0.0, 3.0);
+const RESTITUTIONS: (f64, f64) = (0.0, 0.95);
+
+/// Points of the lines in closed form.
+const POINTS: usize = 200;
+
+/// What a disk does, by the digits of the data, and the colour of each.
+const KINDS: [(&str, Colour); 9] = [
+    ("at rest", Colour::PALE_GREY),
+    ("cycle with rest", Colour::WHITE),
+    ("same, by rounding", Colour::rgb(250, 225, 160)),
+    ("period 1", Colour::BLUE),
+    ("period 2", Colour::SKY),
+    ("period 3", Colour::GREEN),
+    (r"period $\geq 4$", Colour::PURPLE),
+    ("chaotic", Colour::VERMILION),
+    ("undecided", Colour::BLACK),
+];
 
 /// Verdicts over forcing and restitution.
 #[derive(Debug)]
 pub struct ExtraRegimes;
 
+/// The data of the map of verdicts.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct ExtraRegimesData {
+    columns: usize,
+    /// How long each orbit was followed.
+    settings: VerdictSettings,
+    /// The verdicts, row by row: of each column a digit, in the order of the key of the picture.
+    rows: Vec<String>,
+}
+
 impl Experiment for ExtraRegimes {
     type Data = ExtraRegimesData;
     const ID: &'static str = "extra-regimes";
     const TITLE: &'static str = "What a disk does, over forcing and restitution";
-    const DISCUSSION: &'static str = include_str!("extra_regimes/discussion.md");
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &ExtraRegimesData) -> String {
-        data.caption()
+        format!(
+            "What a disk does for good that first hits the platform as it rises fastest, with the speed of the period-1 orbit: at rest on a \
+             platform that never falls away; thrown, chattering, and at rest in a cycle that doubles can follow exactly; in one that is \
+             so long that its rounding chooses it; on an attracting periodic orbit of 1, 2, 3 or more impacts; chaotic, by an exponent more \
+             than three standard errors above zero; undecided. Lines: birth and first doubling of the period-1 orbit, in closed \
+             form, and Γ = 1/π, from which on the platform falls away (dotted). Each of {} by {} cells is followed for at most {} impacts, \
+             and as many after a rest.",
+            data.columns,
+            data.rows.len(),
+            data.settings.transient + data.settings.impacts,
+        )
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraRegimesData, ExperimentError> {
-        compute::compute(quality, progress)
+        let (columns, rows) = quality.choose((160, 120), (1_000, 1_000));
+        let (transient, impacts) = quality.choose((300, 600), (1_000, 2_000));
+        let settings = VerdictSettings { transient, impacts, longest_period: 64, tolerance: 1e-6 };
+        let middle = |(from, to): (f64, f64), k: usize, count: usize| {
+            from + (to - from) * (k as f64 + 0.5) / count as f64
+        };
+        let mut starts = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            let restitution = middle(RESTITUTIONS, row, rows);
+            // Where the platform rises fastest, with the speed of the period-1 orbit.
+            let state = ImpactState::new(Phase::new(0.0)?, -TAU / (1.0 + restitution))?;
+            for column in 0..columns {
+                let vibration = Vibration::from_axial_forcing(middle(FORCINGS, column, columns))?;
+                starts.push((ImpactMap::new(vibration, restitution)?, state));
+            }
+        }
+        progress.start(starts.len() as u64, "cells");
+        let verdicts = verdicts_observed(&starts, settings, &advancing(progress))?;
+        let row = |row: &[Verdict]| row.iter().map(|verdict| char::from(b'0' + kind(verdict))).collect();
+        Ok(ExtraRegimesData { columns, settings, rows: verdicts.chunks(columns).map(row).collect() })
     }
 
     fn draw(data: &ExtraRegimesData) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
+        let palette = KINDS.map(|(_, colour)| colour);
+        let last = KINDS.len() as u8 - 1;
+        let cells =
+            data.rows.iter().flat_map(|row| row.bytes().map(|own| own.saturating_sub(b'0').min(last)));
+        let (x, y) = (FORCINGS, RESTITUTIONS);
+        let along = |forcing: fn(f64) -> f64| {
+            let restitutions = (0..=POINTS).map(move |k| y.0 + (y.1 - y.0) * k as f64 / POINTS as f64);
+            Line::new(restitutions.map(move |restitution| (forcing(restitution), restitution))).width(0.7)
+        };
+        let map = Panel::new(Rect::new(40.0, 10.0, 350.0, 256.0))
+            .x(Axis::linear(x.0, x.1).label(r"$\Gamma$").ticks(Ticks::every(0.5).minor(5)))
+            .y(Axis::linear(y.0, y.1).label(r"restitution $\epsilon$").ticks(Ticks::every(0.2).minor(4)))
+            .layer(Raster::new(data.columns, data.rows.len(), cells.collect(), &palette, x, y))
+            .layer(along(|restitution| (1.0 - restitution) / (1.0 + restitution)).colour(Colour::BLACK))
+            .layer(along(ImpactMap::first_doubling_forcing).colour(Colour::BLACK).dash(Dash::Dashed))
+            .layer(Rule::vertical(FRAC_1_PI).stroke(Stroke::new(Colour::BLACK, 0.6).dashed(Dash::Dotted)));
+        let count = KINDS.len();
+        let ticks = KINDS.iter().enumerate().map(|(k, (name, _))| ((count - 1 - k) as f64 + 0.5, *name));
+        let ends = (0.0, count as f64);
+        let key = Panel::new(Rect::new(404.0, 40.0, 12.0, 171.0))
+            .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
+            .y(Axis::linear(ends.0, ends.1).ticks(Ticks::none()))
+            .right(Axis::linear(ends.0, ends.1).ticks(Ticks::at(ticks)))
+            .layer(Raster::new(1, count, (0..=last).rev().collect(), &palette, (0.0, 1.0), ends));
+        Ok(Figure::new(DOUBLE_COLUMN, 300.0).panels([map, key]))
     }
+}
 
-    fn claims(data: &ExtraRegimesData) -> Vec<Claim> {
-        claims::claims(data)
-    }
-
-    fn parameters(data: &ExtraRegimesData) -> Vec<(String, String)> {
-        data.parameters()
+/// The place of a verdict in [`KINDS`].
+fn kind(verdict: &Verdict) -> u8 {
+    match verdict {
+        Verdict::AtRest { .. } => 0,
+        Verdict::Chattering { cycle, .. } if cycle.is_exact() => 1,
+        Verdict::Chattering { .. } => 2,
+        Verdict::Periodic { impacts, .. } => 2 + (*impacts).min(4) as u8,
+        Verdict::Chaotic { .. } => 7,
+        _ => 8,
     }
 }

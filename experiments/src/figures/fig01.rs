@@ -1,6 +1,5 @@
 //! Fig. 1: the displacement variables of the bouncing-disk system.
 
-mod claims;
 mod compute;
 mod data;
 mod draw;
@@ -11,7 +10,6 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig01Data;
-use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -55,10 +53,6 @@ impl Experiment for Fig01 {
 
     fn draw(data: &Fig01Data) -> Result<Figure, ExperimentError> {
         Ok(draw::draw(data))
-    }
-
-    fn claims(data: &Fig01Data) -> Vec<Claim> {
-        claims::claims(data)
     }
 
     fn parameters(data: &Fig01Data) -> Vec<(String, String)> {

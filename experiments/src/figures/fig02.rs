@@ -1,14 +1,14 @@
 //! Fig. 2: trajectories of a tossing hand or a stator.
 
-mod claims;
 mod compute;
 mod data;
 mod draw;
 
+use std::f64::consts::PI;
+
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig02Data;
-use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -45,13 +45,10 @@ impl Experiment for Fig02 {
         Ok(draw::draw(data))
     }
 
-    fn claims(data: &Fig02Data) -> Vec<Claim> {
-        claims::claims(data)
-    }
-
     fn parameters(data: &Fig02Data) -> Vec<(String, String)> {
-        let list =
-            |values: &mut dyn Iterator<Item = f64>| values.map(claims::pi).collect::<Vec<_>>().join(", ");
+        let list = |values: &mut dyn Iterator<Item = f64>| {
+            values.map(|angle| format!("{:.2}π", angle / PI)).collect::<Vec<_>>().join(", ")
+        };
         let panels = &data.panels;
         [
             ("phase lag θ of (a)–(f)", list(&mut panels.iter().map(|panel| panel.phase_lag_rad))),
@@ -63,26 +60,5 @@ impl Experiment for Fig02 {
         ]
         .map(|(name, value)| (name.to_owned(), value))
         .to_vec()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::PI;
-
-    use bouncing_disk::core::elementary::sin;
-
-    use super::*;
-    use crate::progress::Silent;
-
-    /// The polygon of n points of an ellipse has sin(2π/n)/(2π/n) of its area.
-    #[test]
-    fn the_path_encloses_the_area_of_its_ellipse() {
-        let data = Fig02::compute(Quality::Paper, &Silent).expect("runs");
-        for panel in &data.panels {
-            let step = 2.0 * PI / (panel.path.phase_rad.len() - 1) as f64;
-            let polygon = panel.area_of_ellipse.abs() * sin(step) / step;
-            assert!((panel.enclosed_area.abs() - polygon).abs() < 1e-13, "{panel:?}");
-        }
     }
 }

@@ -6,7 +6,6 @@ mod compute;
 mod cycle;
 mod data;
 mod draw;
-mod laws;
 mod sprung;
 
 use bouncing_disk::Transition;
@@ -59,7 +58,7 @@ impl Experiment for Fig03 {
     }
 
     fn claims(data: &Fig03Data) -> Vec<Claim> {
-        claims::claims(data)
+        vec![claims::sprung_rotor(data)]
     }
 
     fn parameters(data: &Fig03Data) -> Vec<(String, String)> {

@@ -120,7 +120,6 @@ mod tests {
         data.followed.clear();
         data.chattering.clear();
         data.doublings.clear();
-        data.contact.clear();
         data.motions.clear();
         data.torque_ratios.clear();
         data.transfers.clear();

@@ -1,6 +1,5 @@
 //! Fig. 8: the geometry of the ultrasonic motor.
 
-mod claims;
 mod compute;
 mod data;
 mod draw;
@@ -9,7 +8,6 @@ mod stator;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig08Data;
-use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -44,10 +42,6 @@ impl Experiment for Fig08 {
 
     fn draw(data: &Fig08Data) -> Result<Figure, ExperimentError> {
         Ok(draw::draw(data))
-    }
-
-    fn claims(data: &Fig08Data) -> Vec<Claim> {
-        claims::claims(data)
     }
 
     fn parameters(data: &Fig08Data) -> Vec<(String, String)> {

@@ -1,6 +1,5 @@
 //! Fig. 9: the coefficient of friction from the deceleration of the rotor.
 
-mod claims;
 mod compute;
 mod data;
 mod draw;
@@ -11,7 +10,6 @@ use bouncing_disk_plot::Figure;
 use self::compute::SEED;
 pub use self::data::Fig09Data;
 use super::braking_record::{DECELERATIONS, Deceleration, FRICTIONS, decelerations, friction_words};
-use crate::claim::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
@@ -70,10 +68,6 @@ impl Experiment for Fig09 {
 
     fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
         Ok(draw::draw(data))
-    }
-
-    fn claims(data: &Fig09Data) -> Vec<Claim> {
-        claims::claims(data)
     }
 
     fn parameters(data: &Fig09Data) -> Vec<(String, String)> {

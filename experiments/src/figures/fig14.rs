@@ -1,6 +1,5 @@
 //! Fig. 14: growth of the dough over multiple tosses.
 
-mod claims;
 mod compute;
 mod data;
 mod draw;
@@ -51,8 +50,8 @@ impl Experiment for Fig14 {
         )
     }
 
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-        compute::compute(quality, progress)
+    fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
+        compute::compute(progress)
     }
 
     fn overlay(data: &mut Fig14Data, series: &Series) -> Result<(), ExperimentError> {
@@ -65,7 +64,12 @@ impl Experiment for Fig14 {
     }
 
     fn claims(data: &Fig14Data) -> Vec<Claim> {
-        claims::claims(data)
+        let toss_s = data.duration_s / f64::from(data.tosses_between);
+        vec![Claim::printed("appendix.growth_per_toss", data.growth_per_toss_percent).note(format!(
+            "the printed growth over the {} tosses from the start of the first to the start of the last; on the printed \
+             line it takes {:.2} s, {toss_s:.3} s a toss",
+            data.tosses_between, data.duration_s
+        ))]
     }
 
     fn parameters(data: &Fig14Data) -> Vec<(String, String)> {

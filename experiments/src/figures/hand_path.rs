@@ -22,8 +22,7 @@ impl HandPath {
         let mut path = Self { phase_rad: Vec::new(), angle_rad: Vec::new(), height_m: Vec::new() };
         for step in 0..=intervals {
             let angle = TAU * f64::from(step) / f64::from(intervals);
-            let phase = Phase::new(angle)
-                .map_err(|error| ExperimentError::model(bouncing_disk::Error::from(error)))?;
+            let phase = Phase::new(angle)?;
             path.phase_rad.push(angle);
             path.angle_rad.push(platform.angle(phase));
             path.height_m.push(platform.height(phase));
@@ -39,18 +38,6 @@ impl HandPath {
     pub(crate) fn before(&self, share: f64, intervals: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let last = (share * self.phase_rad.len() as f64) as usize;
         self.points().take(last + 1).skip(last.saturating_sub(intervals))
-    }
-
-    /// The area that the path encloses on the unrolled cylinder of this radius; positive if it is followed
-    /// anticlockwise as seen from outside with the angle to the right.
-    pub(crate) fn enclosed_area(&self, radius: f64) -> f64 {
-        let pairs = self.points().zip(self.points().skip(1));
-        0.5 * radius * pairs.map(|(one, next)| one.0 * next.1 - next.0 * one.1).sum::<f64>()
-    }
-
-    /// How far apart the two ends are, in the cylinder's surface; `None` without points.
-    pub(crate) fn closing_gap(&self, radius: f64) -> Option<f64> {
-        Some(distance(radius, self.points().next()?, self.points().last()?))
     }
 
     /// The length of the path in the cylinder's surface, along the polygon of its points.

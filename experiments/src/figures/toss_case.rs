@@ -86,8 +86,8 @@ impl TossCase {
             preload_acceleration: self.preload_acceleration_m_per_s2,
             load_acceleration: 0.0,
         };
-        let platform = Platform::from_stroke(stroke).map_err(ExperimentError::model)?;
-        let disk = disk.build().map_err(ExperimentError::model)?;
+        let platform = Platform::from_stroke(stroke)?;
+        let disk = disk.build()?;
         System::new(platform, disk).map_err(ExperimentError::model)
     }
 

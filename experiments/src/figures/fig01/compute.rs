@@ -2,8 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
-use bouncing_disk::core::elementary::sin;
-use bouncing_disk::{Event, InitialSpin, Platform, toss_trajectory};
+use bouncing_disk::{Event, InitialSpin, toss_trajectory};
 
 use super::data::Fig01Data;
 use crate::experiment::{ExperimentError, Quality};
@@ -18,26 +17,13 @@ const PHASE_LAG: f64 = -FRAC_PI_4;
 /// The instant shown, as a share of the flight.
 pub(super) const SHARE_OF_FLIGHT: f64 = 0.18;
 
-/// The platform of the model against Eq. (1), over the amplitudes.
-fn equation_fault(platform: &Platform, path: &HandPath) -> f64 {
-    let points = path.phase_rad.iter().zip(path.points());
-    points
-        .map(|(phase, (angle, height))| {
-            let turned = platform.twist_amplitude() * sin(phase + platform.phase_lag());
-            let raised = platform.amplitude() * sin(*phase);
-            let angle_fault = (angle - turned).abs() / platform.twist_amplitude();
-            angle_fault.max((height - raised).abs() / platform.amplitude())
-        })
-        .fold(0.0, f64::max)
-}
-
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
     progress.start(1, "toss");
     let table_i = paper::table_one()?;
     let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
     let system = case.system()?;
     let scales = system.scales();
-    let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest).map_err(ExperimentError::model)?;
+    let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
     let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
     let Some(flight) = flight else {
         let peak_acceleration = system.peak_acceleration();
@@ -59,7 +45,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01
         platform_angle_rad: platform.angle(instant.time.phase),
         disk_height_m: disk.height,
         disk_angle_rad: disk.angle,
-        equation_fault: equation_fault(platform, &path),
         path,
         table_i,
     })

@@ -21,6 +21,4 @@ pub struct Fig01Data {
     pub(super) disk_height_m: f64,
     pub(super) disk_angle_rad: f64,
     pub(super) path: HandPath,
-    /// Largest difference of the platform from Eq. (1), over the amplitudes.
-    pub(super) equation_fault: f64,
 }

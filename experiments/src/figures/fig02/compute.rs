@@ -2,7 +2,6 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use bouncing_disk::core::elementary::{asin, sin, tan};
 use bouncing_disk::{Platform, Stroke};
 
 use super::data::{Fig02Data, Trajectory};
@@ -31,22 +30,9 @@ impl Trajectory {
             angular_frequency: ANGULAR_FREQUENCY,
             phase_lag,
         };
-        let platform = Platform::from_stroke(stroke).map_err(ExperimentError::model)?;
+        let platform = Platform::from_stroke(stroke)?;
         let path = HandPath::new(&platform, intervals)?;
-        let (up, across) = (platform.amplitude(), CONTACT_RADIUS * platform.twist_amplitude());
-        let product = up * across * sin(phase_lag);
-        // The axes p, q of the ellipse satisfy p² + q² = A² + (a_e Φ)² and p q = A a_e Φ |sin θ|.
-        let doubled = (2.0 * product.abs() / (up * up + across * across)).min(1.0);
-        Ok(Self {
-            phase_lag_rad: phase_lag,
-            amplitude_angle_rad: amplitude_angle,
-            amplitude_over_contact_radius: up,
-            twist_amplitude_rad: platform.twist_amplitude(),
-            enclosed_area: path.enclosed_area(CONTACT_RADIUS),
-            area_of_ellipse: PI * product,
-            axis_ratio: tan(0.5 * asin(doubled)),
-            path,
-        })
+        Ok(Self { phase_lag_rad: phase_lag, amplitude_angle_rad: amplitude_angle, path })
     }
 }
 

@@ -16,14 +16,6 @@ pub struct Fig02Data {
 pub(super) struct Trajectory {
     pub(super) phase_lag_rad: f64,
     pub(super) amplitude_angle_rad: f64,
-    pub(super) amplitude_over_contact_radius: f64,
-    pub(super) twist_amplitude_rad: f64,
     /// Lengths of the path are in units of the contact radius.
     pub(super) path: HandPath,
-    /// On the unrolled cylinder, in units of the contact radius squared; from the points of the path.
-    pub(super) enclosed_area: f64,
-    /// π A a_e Φ sin θ, the same in closed form but for the sense.
-    pub(super) area_of_ellipse: f64,
-    /// Minor over major axis of the ellipse on the unrolled cylinder.
-    pub(super) axis_ratio: f64,
 }

@@ -2,8 +2,7 @@
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Engine, Error, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START,
-    Trajectory,
+    Engine, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START, Trajectory,
 };
 
 use super::data::ChatteringCycle;
@@ -12,22 +11,17 @@ use crate::experiment::{ExperimentError, Quality};
 /// A chattering orbit of the single-toss kind (Sec. IV A).
 const AXIAL_FORCING: f64 = 0.45;
 
-fn model(error: bouncing_disk::core::Error) -> ExperimentError {
-    ExperimentError::model(Error::from(error))
-}
-
 pub(super) fn cycle(quality: Quality) -> Result<ChatteringCycle, ExperimentError> {
     let restitution = crate::paper::value("section4.restitution")?;
     // The vertical motion does not depend on the rotary one.
     let system =
         ForcingParameters { axial_forcing: AXIAL_FORCING, angular_forcing: 1.0, phase_lag: 0.0, restitution };
-    let system = system.build().map_err(ExperimentError::model)?;
-    let start =
-        InitialCondition::Contact { phase: Phase::new(TOSS_START).map_err(model)?, angular_speed: 0.0 };
-    let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let system = system.build()?;
+    let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
+    let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
     let separation = |record: &EventRecord| record.event.kind() == EventKind::Separation;
-    Trajectory::record(&mut engine, separation).map_err(ExperimentError::model)?;
-    let trajectory = Trajectory::record(&mut engine, separation).map_err(ExperimentError::model)?;
+    Trajectory::record(&mut engine, separation)?;
+    let trajectory = Trajectory::record(&mut engine, separation)?;
 
     let amplitude = system.peak_acceleration();
     let from_start = |time: PhaseTime| time.since(&trajectory.start()).radians() / std::f64::consts::TAU;

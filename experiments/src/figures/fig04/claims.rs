@@ -3,25 +3,17 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::InitialSpin;
-use bouncing_disk::core::elementary::{asin, tan};
 
-use super::consistency::PARAMETER_NAMES;
-use super::data::{Best, CoarseGrid, Fig04Data, LagCurve, LagOptimum, RatioSearch, Reading, TossPoint};
+use super::data::{Best, Fig04Data, LagCurve, TossPoint};
 use crate::claim::{self, Claim};
 use crate::figures::samples;
-use crate::figures::toss_case::TossCase;
 use crate::judging::{LINE_WIDTH, trend};
+use crate::paper::Uncertain;
 use crate::printed::PrintedNumber;
 
 const ID: &str = "fig04";
-/// The bound for symmetries that hold exactly but for rounding.
-const SYMMETRY_BOUND: f64 = 1e-12;
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.
 const LINEAR_LAGS: u32 = 8;
-/// A speed ratio this close to its largest is as large: the lag of a maximum is known to 1e-8, and the ratio
-/// falls with its square.
-const RATIO_BOUND: f64 = 1e-9;
-
 /// An angle as a multiple of π.
 pub(super) fn pi(angle: f64) -> String {
     format!("{:.4}π", angle / PI)
@@ -35,42 +27,25 @@ fn best(data: &Fig04Data, initial: InitialSpin) -> Option<&Best> {
     data.best.iter().find(|best| best.initial_state == initial)
 }
 
-/// The parameters of a reading that differ from Table I, and the shifts in units of its uncertainties.
-fn described(reading: &Reading) -> String {
-    let case = &reading.parameters;
-    let values = [
-        format!("{:.4} m", case.stroke_m),
-        format!("{:.2} rad/s", case.angular_frequency_rad_per_s),
-        format!("{:.4} m", case.contact_radius_m),
-        format!("{:.4} m", case.gyration_radius_m),
-        format!("{:.3}", case.friction),
-    ];
-    let named = PARAMETER_NAMES.iter().zip(values).zip(&reading.shifts);
-    let parts = named
-        .filter(|(_, shift)| shift.abs() > 1e-9)
-        .map(|((name, value), shift)| format!("{name} = {value} ({shift:+.2} of its uncertainty)"));
-    parts.collect::<Vec<_>>().join(", ")
-}
-
-fn listed(reading: &Reading) -> String {
-    let parts = reading.numbers.iter().map(|number| {
-        let computed = if number.quantity.starts_with("φ_L") {
-            pi(number.computed)
-        } else {
-            format!("{:.4}", number.computed)
-        };
-        let verdict = if number.reproduced { "agrees" } else { "differs" };
-        format!("{}: {computed}, printed {}, {verdict}", number.quantity, number.printed)
-    });
-    parts.collect::<Vec<_>>().join("; ")
+/// The parameters of the even grid that differ from Table I, and by how much of its uncertainties.
+fn described(data: &Fig04Data) -> String {
+    let (case, table) = (&data.consistency.coarse_grid.reading.parameters, &data.table_i);
+    let shift = |value: f64, printed: &Uncertain| (value - printed.value) / printed.uncertainty;
+    format!(
+        "ω = {:.2} rad/s ({:+.2} of its uncertainty), a_g = {:.4} m ({:+.2} of its uncertainty)",
+        case.angular_frequency_rad_per_s,
+        shift(case.angular_frequency_rad_per_s, &table.angular_frequency_rad_per_s),
+        case.gyration_radius_m,
+        shift(case.gyration_radius_m, &table.gyration_radius_m),
+    )
 }
 
 pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
     let mut claims = optimum(data);
-    claims.extend(consistency(data));
+    claims.push(hand_speed(data));
+    claims.extend(even_grid(data));
     claims.push(dependence(data));
-    claims.extend(separation(data));
-    claims.extend(symmetry(data));
+    claims.push(separation(data));
     claims
 }
 
@@ -98,22 +73,9 @@ fn accepted(angles: &[f64], curve: &[f64]) -> String {
 /// The best toss with the parameters of Table I.
 fn optimum(data: &Fig04Data) -> Vec<Claim> {
     let table_i_speed = data.table_i_toss.airborne_speed_rad_per_s;
-    let measured = &data.printed.launch_angular_speed_rad_per_s;
-    let observed = &data.table_i.amplitude_angle_rad;
     let mut claims = vec![
         Claim::printed("section3.predicted_airborne_speed", table_i_speed)
             .note("its printed uncertainty is answered by table2"),
-        Claim::printed_statement(
-            "section3.prediction_agrees",
-            (table_i_speed - measured.value).abs() <= measured.uncertainty,
-            format!(
-                "{table_i_speed:.2} rad/s against {measured} rad/s; no evidence for the model: Eq. (14) computes ω and φ_L from this \
-                 very speed, and a dough that leaves without slip has it back but for the factor cos τ_sep and the rounding of \
-                 Table I"
-            ),
-        ),
-        Claim::printed("section3.observed_amplitude_angle", observed.value)
-            .note(format!("Table I's {observed} rad in other units: ± {}", pi(observed.uncertainty))),
     ];
     claims.extend(optimal_phase_lag(data));
     let Some(curve) = curves(data, InitialSpin::AbsoluteRest).first() else { return claims };
@@ -122,7 +84,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
     let reason = format!(
         "Table I as printed; all printed numbers come out with {}, both {} and {} to two digits, if the maximum is \
          the best of {} equal intervals of φ_L",
-        described(&grid.reading),
+        described(data),
         data.table_i.angular_frequency_rad_per_s.value,
         data.table_i.gyration_radius_m.value,
         grid.intervals
@@ -152,7 +114,6 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
         }
         claims.push(claim.cause(OTHER_OPTIMUM));
     }
-    claims.extend(amplitude_ratio(data));
     claims.push(one_optimum(data, curve));
     claims.extend(largest_ratio(data, curve).into_iter().flatten());
     claims.extend(beside_the_optimum(data, fastest));
@@ -166,15 +127,6 @@ fn in_turns(claim: Claim, computed: f64) -> Claim {
         return claim.note(note);
     }
     claim
-}
-
-/// The printed L is the tangent of the printed φ_L.
-fn amplitude_ratio(data: &Fig04Data) -> Option<Claim> {
-    let printed = PrintedNumber::read(&data.printed.optimal_amplitude_angle_rad)?;
-    Some(Claim::printed("section3.optimal_amplitude_ratio", tan(printed.value)).note(format!(
-        "the tangent of the printed φ_L = {}: printed against printed",
-        data.printed.optimal_amplitude_angle_rad
-    )))
 }
 
 fn optimal_phase_lag(data: &Fig04Data) -> Option<Claim> {
@@ -223,33 +175,8 @@ fn one_optimum(data: &Fig04Data, curve: &LagCurve) -> Claim {
     )
 }
 
-fn search(data: &Fig04Data, initial: InitialSpin) -> Option<&RatioSearch> {
-    data.largest_ratio.iter().find(|search| search.initial_state == initial)
-}
-
-/// The sampled amplitude angles at which the best lag gives a ratio as large as any.
-fn plateau(search: &RatioSearch) -> impl Iterator<Item = &LagOptimum> {
-    search.over_lags.iter().filter(|optimum| optimum.speed_ratio >= search.largest.speed_ratio - RATIO_BOUND)
-}
-
-/// What the search over all lags has found, in words.
-fn found(search: &RatioSearch) -> String {
-    let angles = plateau(search).map(|optimum| optimum.amplitude_angle_rad);
-    let off = plateau(search)
-        .map(|optimum| (optimum.phase_lag_rad + optimum.separation_phase_rad).abs())
-        .fold(0.0, f64::max);
-    format!(
-        "largest |ν| = {:.6}, at every sampled φ_L up to {} (of {} samples), where θ = −τ_sep to {off:.0e} rad",
-        search.largest.speed_ratio,
-        pi(angles.fold(0.0, f64::max)),
-        search.over_lags.len(),
-    )
-}
-
-/// max |ν| and its place are read off the drawn curves; over all lags it is another one.
+/// max |ν| and its place are read off the drawn curves.
 fn largest_ratio(data: &Fig04Data, linear: &LagCurve) -> Option<Vec<Claim>> {
-    let absolute = search(data, InitialSpin::AbsoluteRest)?;
-    let relative = search(data, InitialSpin::RestRelativeToHand)?;
     let at_zero = &linear.largest_speed_ratio;
     let drawn = curves(data, InitialSpin::AbsoluteRest)
         .iter()
@@ -258,18 +185,9 @@ fn largest_ratio(data: &Fig04Data, linear: &LagCurve) -> Option<Vec<Claim>> {
     let ratios: Vec<f64> = linear.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect();
     let known: Vec<f64> = ratios.iter().copied().filter(|ratio| !ratio.is_nan()).collect();
     let angles = &data.amplitude_angle_rad[ratios.len() - known.len()..];
-    let over_all = format!(
-        "dough at rest at the start: {}; turning with the hand: {}. There the hand is fastest just as the dough leaves, and friction holds the \
-         dough up to then where tan φ_L ≤ (μa_e²/a_g²) cos τ_sep, up to φ_L = {}",
-        found(absolute),
-        found(relative),
-        pi(data.held_to_separation_angle_rad)
-    );
-    let key = "section3.largest_speed_ratio";
     Some(vec![
-        Claim::printed(key, size(&drawn.largest_speed_ratio))
+        Claim::printed("section3.largest_speed_ratio", size(&drawn.largest_speed_ratio))
             .note(format!("of the curves drawn, θ = nπ/8, that of n = {}", drawn.n)),
-        Claim::reading(ID, key, "largest |ν| of all φ_L and θ", absolute.largest.speed_ratio).note(over_all),
         in_turns(
             Claim::printed("section3.amplitude_angle_of_largest_speed_ratio", at_zero.amplitude_angle_rad),
             at_zero.amplitude_angle_rad,
@@ -339,68 +257,24 @@ fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
     ]
 }
 
-/// Which sets of parameters give the printed numbers.
-fn consistency(data: &Fig04Data) -> Vec<Claim> {
-    let place = "Sec. III B";
-    let text = &data.printed;
-    let consistency = &data.consistency;
-    let mut claims = Vec::new();
-    let hand = &consistency.hand_speed;
-    claims.push(Claim::statement(
+/// Whether the printed optimum fits Table I's hand.
+fn hand_speed(data: &Fig04Data) -> Claim {
+    let hand = &data.consistency.hand_speed;
+    Claim::statement(
         ID,
-        place,
+        "Sec. III B",
         "printed φ_L, speed and speed ratio of the optimum fit Table I's c, ω and a_e",
         hand.least_rad_per_s <= hand.most_rad_per_s,
         format!(
-            "the hand's largest speed at the printed φ_L is at least {:.2} rad/s; the printed speed and ratio allow at most {:.2} rad/s, whatever μ and a_g; \
-             with a_g alone changed: {}; {}",
-            hand.least_rad_per_s,
-            hand.most_rad_per_s,
-            described(&consistency.radius_alone),
-            listed(&consistency.radius_alone)
+            "the hand's largest speed at the printed φ_L is at least {:.2} rad/s; the printed speed and ratio allow at most {:.2} rad/s, whatever μ and a_g",
+            hand.least_rad_per_s, hand.most_rad_per_s,
         ),
-    ));
-    let nearest = &consistency.nearest;
-    let first = nearest.numbers.split_last().map_or(&[][..], |(_, first)| first);
-    claims.push(Claim::statement(
-        ID,
-        place,
-        "the printed φ_L, speed, efficiency and ratio of the optimum, the largest ratio at θ = 0 and the speed of Table I's \
-         toss come out together inside Table I's uncertainties",
-        claim::all(first, |number| number.reproduced)
-            .zip(claim::all(&nearest.shifts, |shift| shift.abs() <= 1.0))
-            .map(|(reproduced, within)| reproduced && within),
-        format!(
-            "nearest set: {}; distance {:.2}; {}",
-            described(nearest),
-            nearest.distance,
-            listed(nearest)
-        ),
-    ));
-    let conflict = &consistency.conflict;
-    if let Some(printed) = PrintedNumber::read(&text.optimal_amplitude_angle_rad) {
-        claims.push(Claim::statement(
-            ID,
-            place,
-            "the printed φ_L of the fastest toss and of the largest ratio are both places of true maxima at θ = 0",
-            conflict.optimal_amplitude_angle_rad >= printed.value - printed.half_unit,
-            format!(
-                "a largest ratio of {:.3} at φ_L = {}, the lowest that round to the printed numbers, needs cω²/g = \
-                 {:.3} and μa_e²/a_g² = {:.4}; the fastest toss then has φ_L = {}, and less wherever both are higher",
-                conflict.largest_speed_ratio,
-                pi(conflict.amplitude_angle_of_largest_speed_ratio_rad),
-                conflict.stroke_acceleration,
-                conflict.grip,
-                pi(conflict.optimal_amplitude_angle_rad),
-            ),
-        ));
-    }
-    claims.extend(even_grid(&consistency.coarse_grid));
-    claims
+    )
 }
 
 /// What an even grid of amplitude angles gives.
-fn even_grid(grid: &CoarseGrid) -> impl Iterator<Item = Claim> + '_ {
+fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
+    let grid = &data.consistency.coarse_grid;
     let range = grid.gyration_radius_range_m.map_or_else(
         || "no a_g gives all numbers".to_owned(),
         |(low, high)| format!("a_g from {low:.4} to {high:.4} m gives all numbers"),
@@ -425,7 +299,7 @@ fn even_grid(grid: &CoarseGrid) -> impl Iterator<Item = Claim> + '_ {
         let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
         let claim = Claim::reading(ID, &number.key, quantity, number.computed)
             .fitted("a_g, and the number of intervals")
-            .note(described(&grid.reading));
+            .note(described(data));
         if index == 0 { claim.note(&evidence) } else { claim }
     })
 }
@@ -445,57 +319,12 @@ fn dependence(data: &Fig04Data) -> Claim {
     )
 }
 
-fn separation(data: &Fig04Data) -> Vec<Claim> {
-    let separation = &data.separation;
-    let table = TossCase::from(&data.table_i);
-    let lowest = asin(1.0 / table.stroke_acceleration());
-    let launches = &data.no_launch;
-    vec![
-        Claim::printed_statement(
-            "section3.no_launch_beyond",
-            launches.launched_just_below && launches.launched_beyond == 0,
-            format!(
-                "a dough on a hand with φ_L just below arccos(g/cω²) = {} is launched; of {} hands beyond, up to π/2, {} launch it",
-                pi(data.largest_amplitude_angle_rad),
-                launches.tried_beyond,
-                launches.launched_beyond
-            ),
-        ),
-        Claim::printed_statement(
-            "section3.separation_phase",
-            separation.deviation_from_formula_rad < SYMMETRY_BOUND,
-            format!("largest difference {:.1e} rad", separation.deviation_from_formula_rad),
-        ),
-        Claim::printed_statement(
-            "section3.separation_lowest",
-            (separation.lowest_rad - lowest).abs() < SYMMETRY_BOUND,
-            format!("{:.6} rad", separation.lowest_rad),
-        ),
-        Claim::printed("section3.separation_highest", separation.highest_rad).note(format!(
+fn separation(data: &Fig04Data) -> Claim {
+    let highest = data.separation.highest_rad;
+    Claim::printed("section3.separation_highest", highest)
+        .note(format!(
             "{:.1e} rad below π/2: sin τ_sep = g/(cω² cos φ_L) reaches 1 at the end of the range of φ_L; π/4 is a misprint of π/2",
-            FRAC_PI_2 - separation.highest_rad
+            FRAC_PI_2 - highest
         ))
-        .cause("π/4 misprinted for π/2"),
-    ]
-}
-
-fn symmetry(data: &Fig04Data) -> [Claim; 2] {
-    let symmetry = &data.symmetry;
-    let pairs = format!("over {} pairs of tosses of both initial states", symmetry.tosses);
-    let some = |holds: bool| (symmetry.tosses > 0).then_some(holds);
-    [
-        Claim::printed_statement(
-            "section3.airborne_speed_symmetry",
-            some(symmetry.airborne_speed_rad_per_s < SYMMETRY_BOUND && symmetry.speed_ratio < SYMMETRY_BOUND),
-            format!(
-                "largest deviations {:.1e} rad/s and {:.1e} {pairs}; the ratio is the speed over ωΦ, which does not change",
-                symmetry.airborne_speed_rad_per_s, symmetry.speed_ratio
-            ),
-        ),
-        Claim::printed_statement(
-            "section3.efficiency_symmetry",
-            some(symmetry.efficiency < SYMMETRY_BOUND),
-            format!("largest deviation {:.1e} {pairs}", symmetry.efficiency),
-        ),
-    ]
+        .cause("π/4 misprinted for π/2")
 }

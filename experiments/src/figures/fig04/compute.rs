@@ -8,13 +8,11 @@ use super::sweep;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::toss_case::TossCase;
 use crate::paper;
-use crate::printed::PrintedNumber;
 use crate::progress::Progress;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
     let count = quality.choose(61, 481);
-    progress.start(8, "parts");
-    let ratio_angles = quality.choose(30, 90);
+    progress.start(6, "parts");
     let done = || progress.advance(1);
     let table_i = paper::table_one()?;
     let printed = paper::section_three()?;
@@ -40,15 +38,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04
         .map(|initial| sweep::best(&table, initial))
         .collect::<Result<Vec<_>, _>>()?;
     done();
-    let largest_ratio = sweep::INITIAL_STATES
-        .into_iter()
-        .map(|initial| sweep::ratio_search(&table, initial, ratio_angles))
-        .collect::<Result<Vec<_>, _>>()?;
-    let shown = PrintedNumber::read(&printed.amplitude_angle_of_largest_speed_ratio_rad);
-    let profile = shown.map(|angle| sweep::profile(&table.at_angle(angle.value), count)).transpose()?;
-    done();
-    let symmetry = sweep::symmetry(&table, &angles)?;
-    done();
     let fastest = sweep::best_angle(&table, rest, sweep::speed)?;
     let toss = table.at_angle(fastest.amplitude_angle_rad).toss(rest)?;
     let kept = toss.energy.platform_work() - toss.energy.friction_loss;
@@ -65,12 +54,8 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04
         friction_curves,
         low_friction,
         best,
-        largest_ratio,
         held_to_separation_angle_rad: sweep::held_to_separation(&table),
-        profile,
         compromise: sweep::compromise(&table)?,
-        no_launch: sweep::no_launch(&table)?,
-        symmetry,
         consistency,
         table_i,
         printed,

@@ -1,32 +1,22 @@
 //! Which parameters give the numbers that Sec. III B prints for the best toss.
 //!
-//! Table I as printed does not give all of them. Two questions are answered: what is the nearest set of parameters
-//! whose true maxima have the printed numbers, and can the printed maxima be points of an even grid of amplitude
-//! angles?
+//! Table I as printed does not give all of them. Can the printed maxima be points of an even grid of amplitude angles?
 
 use bouncing_disk::InitialSpin;
 use bouncing_disk::core::elementary::sin;
-use bouncing_disk::core::numerics::roots::bisection;
 
-use super::data::{CoarseGrid, Comparison, Conflict, Consistency, HandSpeed, Reading, TossPoint};
+use super::data::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
 use crate::experiment::ExperimentError;
 use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
-use crate::figures::least_squares::{Bound, NoShortest, shortest};
-use crate::figures::samples::six_decimals;
 use crate::figures::toss_case::TossCase;
-use crate::paper::{SectionThree, TableOne, Uncertain};
+use crate::paper::{SectionThree, TableOne};
 use crate::printed::PrintedNumber;
 
 /// Numbers that the paper prints about tosses with θ = 0.
 const NUMBERS: usize = 7;
-/// Parameters that are varied: c, ω, a_e, a_g, μ.
-const PARAMETERS: usize = 5;
-/// The names of the parameters.
-pub(super) const PARAMETER_NAMES: [&str; PARAMETERS] = ["c", "ω", "a_e", "a_g", "μ"];
-
 /// The names of the printed numbers in `data/paper/section3.json`.
 const NAMES: [&str; NUMBERS] = [
     "predicted_airborne_speed",
@@ -75,9 +65,8 @@ impl Printed {
         std::array::from_fn(|index| (numbers[index] - self.centres[index]) / self.half_units[index])
     }
 
-    fn reading(&self, search: &Search<'_>, parameters: TossCase, numbers: &[f64; NUMBERS]) -> Reading {
+    fn reading(&self, parameters: TossCase, numbers: &[f64; NUMBERS]) -> Reading {
         let misses = self.misses(numbers);
-        let shifts = search.shifts(&parameters);
         let compare = |index: usize| Comparison {
             quantity: self.texts[index].0.to_owned(),
             key: format!("section3.{}", NAMES[index]),
@@ -85,12 +74,7 @@ impl Printed {
             computed: numbers[index],
             reproduced: misses[index].abs() <= 1.0,
         };
-        Reading {
-            parameters,
-            shifts: shifts.to_vec(),
-            distance: dot(&shifts, &shifts).sqrt(),
-            numbers: (0..NUMBERS).map(compare).collect(),
-        }
+        Reading { parameters, numbers: (0..NUMBERS).map(compare).collect() }
     }
 }
 
@@ -113,151 +97,6 @@ fn smooth_numbers(case: &TossCase) -> Result<[f64; NUMBERS], ExperimentError> {
     Ok(in_order(case.airborne_speed()?, &fastest, &best_angle(case, initial, ratio)?))
 }
 
-/// A search in units of the uncertainties of Table I.
-struct Search<'a> {
-    table: &'a TableOne,
-}
-
-impl Search<'_> {
-    fn inputs(&self) -> [&Uncertain; PARAMETERS] {
-        let table = self.table;
-        [
-            &table.stroke_m,
-            &table.angular_frequency_rad_per_s,
-            &table.contact_radius_m,
-            &table.gyration_radius_m,
-            &table.friction,
-        ]
-    }
-
-    fn case(&self, shifts: &[f64; PARAMETERS]) -> TossCase {
-        let inputs = self.inputs();
-        let value = |index: usize| inputs[index].value + shifts[index] * inputs[index].uncertainty;
-        TossCase {
-            stroke_m: value(0),
-            angular_frequency_rad_per_s: value(1),
-            contact_radius_m: value(2),
-            gyration_radius_m: value(3),
-            friction: value(4),
-            ..TossCase::from(self.table)
-        }
-    }
-
-    fn shifts(&self, case: &TossCase) -> [f64; PARAMETERS] {
-        let values = [
-            case.stroke_m,
-            case.angular_frequency_rad_per_s,
-            case.contact_radius_m,
-            case.gyration_radius_m,
-            case.friction,
-        ];
-        let inputs = self.inputs();
-        std::array::from_fn(|index| (values[index] - inputs[index].value) / inputs[index].uncertainty)
-    }
-
-    /// The set of parameters nearest to Table I, within its uncertainties, that has the first `count` printed
-    /// numbers: the shortest vector of shifts in a region with smooth bounds, by successive linearisation. Each shift
-    /// has six decimals: the places of the maxima say no more.
-    fn nearest(&self, printed: &Printed, count: usize) -> Result<Reading, ExperimentError> {
-        /// Steps of the linearisation; it needs about ten.
-        const STEPS: u32 = 40;
-        /// Shift for the difference quotients, far above the 1e-8 of the place of a maximum.
-        const DIFFERENCE: f64 = 1e-3;
-        /// Largest change of a shift in one step, within which the linearisation is fair.
-        const REACH: f64 = 0.25;
-        /// Change of the shifts, in uncertainties, at which the search ends: their last decimal.
-        const END: f64 = 1e-6;
-        /// Keeps a number that lies on its bound from falling outside by rounding.
-        const MARGIN: f64 = 1e-4;
-        let mut shifts = [0.0; PARAMETERS];
-        for _ in 0..STEPS {
-            let misses = printed.misses(&smooth_numbers(&self.case(&shifts))?);
-            let mut slopes = [[0.0; PARAMETERS]; NUMBERS];
-            for parameter in 0..PARAMETERS {
-                let at = |difference: f64| {
-                    let mut moved = shifts;
-                    moved[parameter] += difference;
-                    Ok::<_, ExperimentError>(printed.misses(&smooth_numbers(&self.case(&moved))?))
-                };
-                let (above, below) = (at(DIFFERENCE)?, at(-DIFFERENCE)?);
-                for number in 0..NUMBERS {
-                    slopes[number][parameter] = (above[number] - below[number]) / (2.0 * DIFFERENCE);
-                }
-            }
-            let mut bounds = Vec::new();
-            for (slope, miss) in slopes.iter().zip(misses).take(count) {
-                // |miss + slope (new - old)| <= 1 - MARGIN.
-                let offset = dot(slope, &shifts) - miss;
-                bounds.push(Bound { normal: *slope, limit: 1.0 - MARGIN + offset });
-                bounds.push(Bound { normal: slope.map(|part| -part), limit: 1.0 - MARGIN - offset });
-            }
-            for parameter in 0..PARAMETERS {
-                let mut normal = [0.0; PARAMETERS];
-                normal[parameter] = 1.0;
-                bounds.push(Bound { normal, limit: 1.0 });
-                bounds.push(Bound { normal: normal.map(|part| -part), limit: 1.0 });
-            }
-            let target = shortest(&bounds).map_err(|error| {
-                let quantity =
-                    "set of parameters within Table I's uncertainties with the printed numbers".to_owned();
-                match error {
-                    NoShortest::Exclusive => ExperimentError::NoData { quantity },
-                    // Such a set may exist.
-                    other => ExperimentError::Search { quantity, source: Box::new(other) },
-                }
-            })?;
-            let steps: [f64; PARAMETERS] = std::array::from_fn(|index| target[index] - shifts[index]);
-            let longest = steps.iter().fold(0.0_f64, |longest, step| longest.max(step.abs()));
-            let share = if longest > REACH { REACH / longest } else { 1.0 };
-            for (shift, step) in shifts.iter_mut().zip(steps) {
-                *shift = six_decimals((*shift + share * step).clamp(-1.0, 1.0));
-            }
-            if longest < END {
-                break;
-            }
-        }
-        let case = self.case(&shifts);
-        Ok(printed.reading(self, case, &smooth_numbers(&case)?))
-    }
-}
-
-fn dot(one: &[f64; PARAMETERS], other: &[f64; PARAMETERS]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
-}
-
-/// Halvings that find a parameter to 1e-12 of the range in which it is looked for.
-const HALVINGS: u32 = 40;
-
-/// See [`Conflict`]. The two numbers are moved by ω and a_g.
-fn conflict(printed: &Printed, table: &TossCase) -> Result<Conflict, ExperimentError> {
-    let lowest = |number: usize| printed.centres[number] - printed.half_units[number];
-    let (lowest_ratio, lowest_angle) = (lowest(5), lowest(6));
-    let omega = table.angular_frequency_rad_per_s;
-    let largest_ratio = |case: &TossCase| best_angle(case, InitialSpin::AbsoluteRest, ratio);
-    // The largest ratio rises with ω, its angle with a_g.
-    let with_radius = |gyration_radius_m: f64| {
-        let at = |omega: f64| TossCase { gyration_radius_m, angular_frequency_rad_per_s: omega, ..*table };
-        let omega = bisection(0.7 * omega, 1.3 * omega, HALVINGS, |omega| {
-            Ok::<_, ExperimentError>(largest_ratio(&at(omega))?.speed_ratio.unwrap_or(0.0) <= lowest_ratio)
-        })?;
-        Ok::<_, ExperimentError>(at(omega))
-    };
-    let radius = table.gyration_radius_m;
-    let radius = bisection(0.8 * radius, 1.2 * radius, HALVINGS, |radius| {
-        Ok::<_, ExperimentError>(largest_ratio(&with_radius(radius)?)?.amplitude_angle_rad <= lowest_angle)
-    })?;
-    let case = with_radius(radius)?;
-    let reach = case.contact_radius_m / case.gyration_radius_m;
-    let largest = largest_ratio(&case)?;
-    Ok(Conflict {
-        stroke_acceleration: case.stroke_acceleration(),
-        grip: case.friction * reach * reach,
-        largest_speed_ratio: largest.speed_ratio.unwrap_or(0.0),
-        amplitude_angle_of_largest_speed_ratio_rad: largest.amplitude_angle_rad,
-        optimal_amplitude_angle_rad: best_angle(&case, InitialSpin::AbsoluteRest, speed)?.amplitude_angle_rad,
-    })
-}
-
 /// See [`HandSpeed`]. Speed and ratio together fix the hand's speed, whatever the friction.
 fn hand_speed(printed: &Printed, table: &TossCase) -> HandSpeed {
     let (centre, half) = (&printed.centres, &printed.half_units);
@@ -266,19 +105,6 @@ fn hand_speed(printed: &Printed, table: &TossCase) -> HandSpeed {
         least_rad_per_s: rim * sin(centre[1] - half[1]),
         most_rad_per_s: (centre[2] + half[2]) / (centre[4] - half[4]),
     }
-}
-
-/// See [`Consistency::radius_alone`].
-fn radius_alone(search: &Search<'_>, printed: &Printed) -> Result<Reading, ExperimentError> {
-    let table = TossCase::from(search.table);
-    let at = |gyration_radius_m: f64| TossCase { gyration_radius_m, ..table };
-    let radius = table.gyration_radius_m;
-    // The angle falls as the radius grows.
-    let radius = bisection(0.8 * radius, 1.2 * radius, HALVINGS, |radius| {
-        let fastest = best_angle(&at(radius), InitialSpin::AbsoluteRest, speed)?;
-        Ok::<_, ExperimentError>(fastest.amplitude_angle_rad >= printed.centres[1])
-    })?;
-    Ok(printed.reading(search, at(radius), &smooth_numbers(&at(radius))?))
 }
 
 /// The printed numbers with maxima picked from a grid.
@@ -296,20 +122,20 @@ fn grid_numbers(case: &TossCase, intervals: u32) -> Result<[f64; NUMBERS], Exper
 }
 
 fn coarse_grid(
-    search: &Search<'_>,
+    table_one: &TableOne,
     printed: &Printed,
     section: &SectionThree,
 ) -> Result<CoarseGrid, ExperimentError> {
     /// Radii of gyration are tried in steps of 0.1 mm over the uncertainty of Table I.
     const RADIUS_STEPS: i32 = 100;
-    let table = TossCase::from(search.table);
-    let case = launch_case(search.table, section);
+    let table = TossCase::from(table_one);
+    let case = launch_case(table_one, section);
     let angles = printed_angles(section)?;
     let largest = case.largest_angle();
     let grid = AngleGrid::with(largest, &angles).ok_or_else(unreadable)?;
     let intervals = grid.intervals;
     let range = grid.range(&angles);
-    let radius = &search.table.gyration_radius_m;
+    let radius = &table_one.gyration_radius_m;
     let mut fitting = Vec::new();
     for step in -RADIUS_STEPS..=RADIUS_STEPS {
         let gyration_radius_m = radius.value + radius.uncertainty * f64::from(step) / f64::from(RADIUS_STEPS);
@@ -342,31 +168,25 @@ fn coarse_grid(
             .first()
             .zip(fitting.last())
             .map(|(first, last)| (first.0.gyration_radius_m, last.0.gyration_radius_m)),
-        reading: printed.reading(search, chosen, &numbers),
+        reading: printed.reading(chosen, &numbers),
         grid_speed_rad_per_s: speeds(&chosen, &grid_angle_rad)?,
         grid_angle_rad,
     })
 }
 
-/// Answers both questions; `count` is the number of points of the curves.
+/// Answers the question; `count` is the number of points of the curve.
 pub(super) fn consistency(
     table: &TableOne,
     section: &SectionThree,
     count: u32,
 ) -> Result<Consistency, ExperimentError> {
     let printed = Printed::new(section).ok_or_else(unreadable)?;
-    let search = Search { table };
     let case = TossCase::from(table);
-    let nearest = search.nearest(&printed, NUMBERS - 1)?;
-    let coarse_grid = coarse_grid(&search, &printed, section)?;
+    let coarse_grid = coarse_grid(table, &printed, section)?;
     Ok(Consistency {
-        as_printed: printed.reading(&search, case, &smooth_numbers(&case)?),
-        nearest_curve: speed_curve(&nearest.parameters, count)?,
+        as_printed: printed.reading(case, &smooth_numbers(&case)?),
         coarse_grid_curve: speed_curve(&coarse_grid.reading.parameters, count)?,
-        nearest,
-        conflict: conflict(&printed, &case)?,
         hand_speed: hand_speed(&printed, &case),
-        radius_alone: radius_alone(&search, &printed)?,
         coarse_grid,
     })
 }

@@ -27,16 +27,10 @@ pub struct Fig04Data {
     pub(super) table_i_toss: TossPoint,
     /// The best tosses of all phase lags and amplitude angles.
     pub(super) best: Vec<Best>,
-    /// The largest speed ratio of all phase lags and amplitude angles, for both initial states.
-    pub(super) largest_ratio: Vec<RatioSearch>,
     /// Up to this amplitude angle friction holds the dough to the end if θ = −τ_sep: tan φ_L = (μ a_e²/a_g²)
     /// cos τ_sep.
     pub(super) held_to_separation_angle_rad: f64,
-    /// Panel (g).
-    pub(super) profile: Option<LagProfile>,
     pub(super) compromise: Compromise,
-    pub(super) no_launch: NoLaunch,
-    pub(super) symmetry: Symmetry,
     /// Energy efficiency of the fastest toss at θ = 0 if the energy lost in friction is not counted as put
     /// in.
     pub(super) lossless_efficiency_of_fastest: f64,
@@ -81,8 +75,6 @@ pub(super) struct Separation {
     /// The first and last phase that occur, from the first and the last amplitude angle.
     pub(super) lowest_rad: f64,
     pub(super) highest_rad: f64,
-    /// Largest difference between the phase at which the dough leaves and asin(1/(π Γ)).
-    pub(super) deviation_from_formula_rad: f64,
     pub(super) separation_phase_rad: Vec<f64>,
     pub(super) curves: Vec<SeparationCurve>,
 }
@@ -120,34 +112,6 @@ pub(super) struct Best {
     pub(super) most_efficient: TossPoint,
 }
 
-/// The search for the largest |ν|, ν = α̇_f/(ωΦ), in phase lag and amplitude angle.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct RatioSearch {
-    pub(super) initial_state: InitialSpin,
-    pub(super) largest: LagOptimum,
-    /// Panel (h): the largest of all phase lags at each amplitude angle.
-    pub(super) over_lags: Vec<LagOptimum>,
-}
-
-/// The phase lag with the largest |ν| at an amplitude angle.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub(super) struct LagOptimum {
-    pub(super) amplitude_angle_rad: f64,
-    pub(super) phase_lag_rad: f64,
-    pub(super) separation_phase_rad: f64,
-    /// |ν|.
-    pub(super) speed_ratio: f64,
-}
-
-/// The curve of panel (g): |ν| against the phase lag at the φ_L printed for the largest ratio.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct LagProfile {
-    pub(super) amplitude_angle_rad: f64,
-    pub(super) phase_lag_rad: Vec<f64>,
-    pub(super) speed_ratio: Vec<f64>,
-    pub(super) best: LagOptimum,
-}
-
 /// Amplitude angles about the fastest toss, at θ = 0.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Compromise {
@@ -159,57 +123,16 @@ pub(super) struct Compromise {
     pub(super) hand_speed_at_separation_rad_per_s: f64,
 }
 
-/// Tosses about the largest amplitude angle, arccos(g/cω²).
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct NoLaunch {
-    pub(super) launched_just_below: bool,
-    pub(super) tried_beyond: u32,
-    pub(super) launched_beyond: u32,
-}
-
-/// Largest deviations from the symmetries under θ + π over all sampled tosses.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Symmetry {
-    pub(super) tosses: u64,
-    /// |speed(θ + π) + speed(θ)|.
-    pub(super) airborne_speed_rad_per_s: f64,
-    /// |ratio(θ + π) + ratio(θ)|.
-    pub(super) speed_ratio: f64,
-    /// |efficiency(θ + π) - efficiency(θ)|.
-    pub(super) efficiency: f64,
-}
-
 /// Which parameter sets give the numbers that the paper prints for θ = 0.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Consistency {
     /// What Table I gives as printed.
     pub(super) as_printed: Reading,
-    /// The set nearest to Table I whose best toss has the printed angle, speed, efficiency and ratio.
-    pub(super) nearest: Reading,
-    pub(super) conflict: Conflict,
     pub(super) hand_speed: HandSpeed,
-    /// Table I with the radius of gyration that puts the fastest toss at the printed angle.
-    pub(super) radius_alone: Reading,
     /// The maxima picked from a coarse grid of amplitude angles.
     pub(super) coarse_grid: CoarseGrid,
-    /// Airborne speed of the nearest set over its own angles.
-    pub(super) nearest_curve: SpeedCurve,
     /// Airborne speed of the coarse-grid set.
     pub(super) coarse_grid_curve: SpeedCurve,
-}
-
-/// Why the two printed angles cannot both be places of true maxima. They and the largest speed ratio depend
-/// on two numbers only, c ω²/g and μ a_e²/a_g². The angle of the fastest toss grows as the first falls and as
-/// the second rises; the first is bounded by the printed largest ratio, the second by the printed angle of
-/// that ratio. Here both are at their bounds.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Conflict {
-    pub(super) stroke_acceleration: f64,
-    pub(super) grip: f64,
-    pub(super) largest_speed_ratio: f64,
-    pub(super) amplitude_angle_of_largest_speed_ratio_rad: f64,
-    /// The largest angle of the fastest toss that is left.
-    pub(super) optimal_amplitude_angle_rad: f64,
 }
 
 /// The hand's largest speed ωΦ at the printed optimum, from Table I's c, ω and a_e and from the printed speed
@@ -233,10 +156,6 @@ pub(super) struct SpeedCurve {
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Reading {
     pub(super) parameters: TossCase,
-    /// Differences from Table I in units of its uncertainties: c, ω, a_e, a_g, μ.
-    pub(super) shifts: Vec<f64>,
-    /// Their root sum of squares.
-    pub(super) distance: f64,
     pub(super) numbers: Vec<Comparison>,
 }
 

@@ -10,7 +10,7 @@ use bouncing_disk_plot::{
 use super::data::{Family, Fig04Data, LagCurve, TossPoint};
 use crate::printed::PrintedNumber;
 
-const HEIGHT: f64 = 640.0;
+const HEIGHT: f64 = 480.0;
 const LAST_LAG: f64 = 8.0;
 /// The end of the axis of φ_L.
 const LAST_ANGLE: f64 = 0.45 * PI;
@@ -243,14 +243,9 @@ fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
             .layer(Line::new(points).colour(Colour::DARK_GREY).width(1.1).name("Table I"))
             .layer(circle([(curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s)]));
     }
-    let curves = [
-        (&consistency.nearest_curve, Colour::BLUE, Dash::Dashed, "nearest set"),
-        (&consistency.coarse_grid_curve, Colour::VERMILION, Dash::Dotted, "Eq. (14), grid"),
-    ];
-    for (curve, colour, dash, name) in curves {
-        let points = points(&curve.amplitude_angle_rad, &curve.airborne_speed_rad_per_s);
-        panel = panel.layer(Line::new(points).colour(colour).dash(dash).width(1.1).name(name));
-    }
+    let curve = &consistency.coarse_grid_curve;
+    let line = Line::new(points(&curve.amplitude_angle_rad, &curve.airborne_speed_rad_per_s));
+    panel = panel.layer(line.colour(Colour::VERMILION).dash(Dash::Dotted).width(1.1).name("Eq. (14), grid"));
     let sampled = Scatter::new(points(&grid.grid_angle_rad, &grid.grid_speed_rad_per_s));
     panel = panel.layer(sampled.colour(Colour::VERMILION).size(3.6));
     let printed = [&data.printed.optimal_amplitude_angle_rad, &data.printed.largest_airborne_speed_rad_per_s]
@@ -267,72 +262,8 @@ fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
     panel.legend(Legend::at(Corner::BottomLeft).without_frame().inset(2.0))
 }
 
-/// The printed place of the largest ratio, on an axis of φ_L or of θ.
-fn printed_ratio(data: &Fig04Data, place: f64) -> Option<(Layer, f64)> {
-    let ratio = PrintedNumber::read(&data.printed.largest_speed_ratio)?;
-    let square = Scatter::new([(place, ratio.value)]).marker(Marker::Square).size(5.0);
-    Some((square.errors_y([ratio.half_unit]).name("printed").into(), ratio.value))
-}
-
-fn ratio_axis(label: &str) -> Axis {
-    Axis::linear(0.90, 1.015).label(label).ticks(Ticks::every(0.02)).label_distance(28.0)
-}
-
-fn profile_panel(panel: Panel, data: &Fig04Data) -> Panel {
-    let mut panel = panel
-        .x(Axis::linear(-0.25 * PI, 0.25 * PI).label(r"$\theta$ (rad)").ticks(Ticks::pi(1, 8)))
-        .y(ratio_axis(r"$|\nu|$"))
-        .letter("g")
-        .layer(Rule::vertical(0.0).stroke(Stroke::new(Colour::LIGHT_GREY, 0.5)));
-    if let Some(profile) = &data.profile {
-        let curve = Line::new(points(&profile.phase_lag_rad, &profile.speed_ratio));
-        let best = &profile.best;
-        let name = |x: f64, y: f64, label: String| Text::at_data(x, y, label).size(8.0);
-        panel = panel
-            .layer(curve.colour(Colour::BLUE).width(1.1))
-            .layer(circle([(best.phase_lag_rad, best.speed_ratio)]))
-            .layer(
-                name(best.phase_lag_rad - 0.07, best.speed_ratio + 0.006, r"$-\tau_{sep}$".to_owned())
-                    .anchor(Anchor::RightCentre),
-            )
-            .layer(
-                name(-0.02, 0.92, format!(r"$\phi_L = {:.3}\pi$", profile.amplitude_angle_rad / PI))
-                    .anchor(Anchor::Centre)
-                    .halo(Colour::WHITE),
-            );
-    }
-    match printed_ratio(data, 0.0) {
-        Some((printed, ratio)) => {
-            let name = Text::at_data(0.07, ratio + 0.004, "printed").anchor(Anchor::LeftCentre);
-            panel.layer(printed).layer(name.size(8.0))
-        }
-        None => panel,
-    }
-}
-
-fn over_lags_panel(panel: Panel, data: &Fig04Data) -> Panel {
-    let mut panel = panel.x(angle_axis()).y(ratio_axis(r"$|\nu|$")).letter_in("h", Corner::TopRight);
-    let names = [r"largest of all $\theta$, start at rest", r"the same, start with the hand"];
-    let styles = [(Colour::BLACK, Dash::Solid), (Colour::GREEN, Dash::Dashed)];
-    for (search, (name, (colour, dash))) in data.largest_ratio.iter().zip(names.into_iter().zip(styles)) {
-        let points = search.over_lags.iter().map(|best| (best.amplitude_angle_rad, best.speed_ratio));
-        panel = panel.layer(Line::new(points).colour(colour).dash(dash).width(1.1).name(name));
-    }
-    if let Some(curve) = data.families.first().and_then(|family| family.curves.first()) {
-        let ratios: Vec<_> = curve.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect();
-        let line = Line::new(points(&data.amplitude_angle_rad, &ratios));
-        panel = panel.layer(line.colour(Colour::BLUE).dash(Dash::Dotted).width(1.3).name(r"$\theta = 0$"));
-    }
-    let angle = PrintedNumber::read(&data.printed.amplitude_angle_of_largest_speed_ratio_rad);
-    match angle.and_then(|angle| printed_ratio(data, angle.value)) {
-        Some((printed, _)) => panel.layer(printed),
-        None => panel,
-    }
-    .legend(Legend::at(Corner::BottomLeft).without_frame().inset(2.0))
-}
-
 pub(super) fn draw(data: &Fig04Data) -> Figure {
-    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 4, 3)
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
         .margins(Margins { left: 40.0, right: 8.0, top: 20.0, bottom: 32.0 })
         .gaps(44.0, 47.0);
     let titles = ["dough at rest at the start", "dough turning with the hand at the start"];
@@ -350,6 +281,4 @@ pub(super) fn draw(data: &Fig04Data) -> Figure {
         .panel(separation_panel(Panel::new(grid.cell(2, 0)), data))
         .panel(friction_panel(Panel::new(grid.cell(2, 1)), data))
         .panel(consistency_panel(Panel::new(grid.cell(2, 2)), data))
-        .panel(profile_panel(Panel::new(grid.cell(3, 0)), data))
-        .panel(over_lags_panel(Panel::new(grid.span(3, 1, 1, 2)), data))
 }

@@ -6,14 +6,13 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::elementary::{acos, asin, cos, sin, tan};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
-use bouncing_disk::{InitialSpin, TossPerformance, single_toss};
+use bouncing_disk::{InitialSpin, TossPerformance};
 
 use super::data::{
-    Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, LagOptimum, LagProfile, NoLaunch,
-    RatioSearch, Separation, SeparationCurve, SpeedCurve, Symmetry, TossPoint,
+    Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, Separation, SeparationCurve,
+    SpeedCurve, TossPoint,
 };
 use crate::experiment::ExperimentError;
-use crate::figures::motor_case::core_error;
 use crate::figures::toss_case::{TossCase, maximum};
 
 /// The paper's phase lags are n π/8 with n up to this.
@@ -26,13 +25,6 @@ pub(super) const BRACKETS: u32 = 60;
 /// Samples of the phase lag for the best toss of all: an odd number, so that θ = 0, where the paper has its
 /// optimum, is not one of them and must be found.
 const LAG_BRACKETS: u32 = 33;
-/// Samples of the phase lag for the largest speed ratio at one amplitude angle, odd for the same reason.
-const RATIO_BRACKETS: u32 = 65;
-/// Amplitude angles beyond arccos(g/cω²) at which a launch is tried.
-const TRIED_BEYOND: u32 = 100;
-/// The lags of the profile of the speed ratio run from minus this to plus this.
-const PROFILE_REACH: f64 = 0.25 * PI;
-
 /// The first index of the largest value.
 pub(super) fn maximum_index(values: impl Iterator<Item = f64>) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
@@ -139,7 +131,6 @@ pub(super) fn separation(table: &TossCase, count: u32) -> Result<Separation, Exp
         .collect();
     let initial = InitialSpin::AbsoluteRest;
     let mut left_at = Vec::new();
-    let mut deviation = 0.0_f64;
     let mut curves = Vec::new();
     for n in 0..=LAGS {
         let case = table.at_lag(phase_lag(n));
@@ -148,8 +139,6 @@ pub(super) fn separation(table: &TossCase, count: u32) -> Result<Separation, Exp
         for phase in &phases {
             let case = case.at_angle(angle(*phase));
             let toss = case.toss(initial)?;
-            let formula = asin(1.0 / (PI * case.system()?.axial_forcing()));
-            deviation = deviation.max((toss.separation_phase - formula).abs());
             left_at.push(toss.separation_phase);
             speeds.push(toss.airborne_speed);
         }
@@ -162,7 +151,6 @@ pub(super) fn separation(table: &TossCase, count: u32) -> Result<Separation, Exp
     Ok(Separation {
         lowest_rad: left_at.iter().copied().fold(f64::INFINITY, f64::min),
         highest_rad: left_at.iter().copied().fold(0.0, f64::max),
-        deviation_from_formula_rad: deviation,
         separation_phase_rad: left_at,
         curves,
     })
@@ -224,42 +212,6 @@ pub(super) fn best(table: &TossCase, initial_state: InitialSpin) -> Result<Best,
     Ok(Best { initial_state, fastest_phase_lag_rad, fastest, most_efficient_phase_lag_rad, most_efficient })
 }
 
-/// The largest |ν| at an amplitude angle, of all phase lags; beyond ±π/2 they repeat with the other sign.
-fn best_lag(case: &TossCase, initial: InitialSpin) -> Result<LagOptimum, ExperimentError> {
-    let found = maximum((-FRAC_PI_2, FRAC_PI_2), RATIO_BRACKETS, |lag| {
-        case.at_lag(lag).toss(initial).map(|toss| ratio(&toss))
-    })?;
-    let toss = case.at_lag(found.place).toss(initial)?;
-    Ok(LagOptimum {
-        amplitude_angle_rad: case.amplitude_angle_rad,
-        phase_lag_rad: found.place,
-        separation_phase_rad: toss.separation_phase,
-        speed_ratio: ratio(&toss),
-    })
-}
-
-/// The largest |ν| of all phase lags and amplitude angles: at each of `count` angles the best of all lags,
-/// and between the neighbours of the best angle the golden section.
-pub(super) fn ratio_search(
-    table: &TossCase,
-    initial_state: InitialSpin,
-    count: u32,
-) -> Result<RatioSearch, ExperimentError> {
-    let last = table.last_angle();
-    // Without twist there is no ratio: the first angle is that of the first interval's end.
-    let angle = |index: u32| last * f64::from(index) / f64::from(count);
-    let over_lags = (1..=count)
-        .map(|index| best_lag(&table.at_angle(angle(index)), initial_state))
-        .collect::<Result<Vec<_>, _>>()?;
-    let best = maximum_index(over_lags.iter().map(|optimum| optimum.speed_ratio)) as u32;
-    let range = (angle(best).max(1e-6 * last), angle((best + 2).min(count)));
-    let found = maximum(range, 2, |angle| {
-        best_lag(&table.at_angle(angle), initial_state).map(|optimum| optimum.speed_ratio)
-    })?;
-    let largest = best_lag(&table.at_angle(found.place), initial_state)?;
-    Ok(RatioSearch { initial_state, largest, over_lags })
-}
-
 /// The largest amplitude angle at which a dough whose hand is fastest at the separation, θ = −τ_sep, is held
 /// up to then. Just before it the hand's angular acceleration and the contact force both fall in proportion
 /// to the time that is left, so that friction holds where ω² Φ ≤ (μ a_e/a_g²) A ω² cos τ_sep.
@@ -275,28 +227,12 @@ pub(super) fn held_to_separation(table: &TossCase) -> f64 {
     held
 }
 
-/// |ν| against the phase lag at an amplitude angle; the dough starts at rest.
-pub(super) fn profile(case: &TossCase, count: u32) -> Result<LagProfile, ExperimentError> {
-    let phase_lag_rad: Vec<_> = (0..count)
-        .map(|index| PROFILE_REACH * (2.0 * f64::from(index) / f64::from(count - 1) - 1.0))
-        .collect();
-    let ratios = phase_lag_rad
-        .iter()
-        .map(|lag| case.at_lag(*lag).toss(InitialSpin::AbsoluteRest).map(|toss| ratio(&toss)));
-    Ok(LagProfile {
-        amplitude_angle_rad: case.amplitude_angle_rad,
-        speed_ratio: ratios.collect::<Result<_, _>>()?,
-        best: best_lag(case, InitialSpin::AbsoluteRest)?,
-        phase_lag_rad,
-    })
-}
-
 /// Between which angles the fastest toss at θ = 0 lies.
 pub(super) fn compromise(table: &TossCase) -> Result<Compromise, ExperimentError> {
     let initial = InitialSpin::AbsoluteRest;
     let hand_at_separation = |angle: f64| {
         let system = table.at_angle(angle).system()?;
-        let phase = Phase::new(table.at_angle(angle).toss(initial)?.separation_phase).map_err(core_error)?;
+        let phase = Phase::new(table.at_angle(angle).toss(initial)?.separation_phase)?;
         Ok::<_, ExperimentError>(system.platform().angular_speed(phase).abs())
     };
     let fastest_hand = maximum((0.0, table.last_angle()), BRACKETS, hand_at_separation)?;
@@ -308,51 +244,19 @@ pub(super) fn compromise(table: &TossCase) -> Result<Compromise, ExperimentError
     })
 }
 
-/// Whether the dough leaves at amplitude angles just below and everywhere beyond arccos(g/cω²).
-pub(super) fn no_launch(table: &TossCase) -> Result<NoLaunch, ExperimentError> {
-    let limit = table.largest_angle();
-    let leaves = |angle: f64| -> Result<bool, ExperimentError> {
-        let system = table.at_angle(angle).system()?;
-        Ok(single_toss(&system, InitialSpin::AbsoluteRest).is_ok())
-    };
-    let mut launched_beyond = 0;
-    for index in 1..=TRIED_BEYOND {
-        let angle = limit + (FRAC_PI_2 - limit) * f64::from(index) / f64::from(TRIED_BEYOND);
-        launched_beyond += u32::from(leaves(angle)?);
-    }
-    Ok(NoLaunch {
-        launched_just_below: leaves(table.last_angle())?,
-        tried_beyond: TRIED_BEYOND,
-        launched_beyond,
-    })
-}
-
-pub(super) fn symmetry(table: &TossCase, angles: &[f64]) -> Result<Symmetry, ExperimentError> {
-    let mut symmetry =
-        Symmetry { tosses: 0, airborne_speed_rad_per_s: 0.0, speed_ratio: 0.0, efficiency: 0.0 };
-    for initial in INITIAL_STATES {
-        for n in 0..=LAGS {
-            for angle in angles {
-                let case = table.at_angle(*angle).at_lag(phase_lag(n));
-                let one = case.toss(initial)?;
-                let other = case.at_lag(case.phase_lag_rad + PI).toss(initial)?;
-                symmetry.tosses += 1;
-                let speed = (one.airborne_speed + other.airborne_speed).abs();
-                symmetry.airborne_speed_rad_per_s = symmetry.airborne_speed_rad_per_s.max(speed);
-                let efficiency = (one.efficiency - other.efficiency).abs();
-                symmetry.efficiency = symmetry.efficiency.max(efficiency);
-                if let (Some(one), Some(other)) = (one.speed_ratio, other.speed_ratio) {
-                    symmetry.speed_ratio = symmetry.speed_ratio.max((one + other).abs());
-                }
-            }
-        }
-    }
-    Ok(symmetry)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The phase lag with the largest |ν| at an amplitude angle, the phase of separation there, and |ν|.
+    fn best_lag(case: &TossCase, initial: InitialSpin) -> (f64, f64, f64) {
+        let at = |lag: f64| case.at_lag(lag).toss(initial);
+        // An odd number of intervals, so that θ = 0 is no sample; beyond ±π/2 the tosses repeat with the other sign.
+        let found =
+            maximum((-FRAC_PI_2, FRAC_PI_2), 65, |lag| at(lag).map(|toss| ratio(&toss))).expect("leaves");
+        let toss = at(found.place).expect("leaves");
+        (found.place, toss.separation_phase, ratio(&toss))
+    }
 
     #[test]
     fn the_largest_ratio_is_one_as_long_as_friction_holds_the_dough_to_the_hands_fastest_moment() {
@@ -360,23 +264,11 @@ mod tests {
         let held = held_to_separation(&table);
         for initial in INITIAL_STATES {
             for share in [0.1, 0.5, 0.98] {
-                let best = best_lag(&table.at_angle(share * held), initial).expect("leaves");
-                assert!((best.speed_ratio - 1.0).abs() < 1e-12, "{share} {best:?}");
-                assert!((best.phase_lag_rad + best.separation_phase_rad).abs() < 1e-6, "{share} {best:?}");
+                let (lag, separation, ratio) = best_lag(&table.at_angle(share * held), initial);
+                assert!((ratio - 1.0).abs() < 1e-12, "{share} {ratio}");
+                assert!((lag + separation).abs() < 1e-6, "{share} {lag} {separation}");
             }
-            let beyond = best_lag(&table.at_angle(1.2 * held), initial).expect("leaves");
-            assert!(beyond.speed_ratio < 1.0 - 1e-6, "{beyond:?}");
+            assert!(best_lag(&table.at_angle(1.2 * held), initial).2 < 1.0 - 1e-6);
         }
-    }
-
-    /// The search meets both the plateau and, on the curve of θ = 0, the flat maximum that the paper prints.
-    #[test]
-    fn the_search_over_all_lags_finds_more_than_the_linear_motion_has() {
-        let table = TossCase::from(&crate::paper::table_one().expect("reads"));
-        let initial = InitialSpin::AbsoluteRest;
-        let search = ratio_search(&table, initial, 12).expect("runs");
-        let linear = best_angle(&table, initial, ratio).expect("runs");
-        assert!((search.largest.speed_ratio - 1.0).abs() < 1e-12, "{:?}", search.largest);
-        assert!(linear.speed_ratio.is_some_and(|ratio| (0.985..0.995).contains(&ratio)), "{linear:?}");
     }
 }

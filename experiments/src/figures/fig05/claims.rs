@@ -3,17 +3,13 @@
 use std::f64::consts::PI;
 
 use super::compute::FIRST_PHASE_LAG;
-use super::data::{Column, Dependence, Fig05Data, Influence, Toss};
+use super::data::{Column, Dependence, Fig05Data, Toss};
 use crate::claim::{self, Claim};
 
-const ID: &str = "fig05";
 /// The share of the hand's speed that a dough in a firm grip may lack.
 const NEARLY_NOTHING: f64 = 0.01;
 /// The hand's speed at the lowest point, cos(3π/2 + θ), is known to this share of the largest one.
 const ROUNDING: f64 = 100.0 * f64::EPSILON;
-/// How well the place of a smooth maximum is known (rad): the root of the rounding of its value is 1e-8.
-const PLACE_BOUND: f64 = 1e-6;
-
 pub(super) fn pi(angle: f64) -> String {
     format!("{:.3}π", angle / PI)
 }
@@ -50,7 +46,6 @@ fn both<const N: usize>(statements: [Option<bool>; N]) -> Option<bool> {
 
 pub(super) fn claims(data: &Fig05Data) -> Vec<Claim> {
     let mut claims = amplitude_ratio(data);
-    claims.extend(effects(data));
     claims.extend(limits(data));
     claims.extend(phase_lag(data));
     claims
@@ -61,7 +56,6 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
     let slip_share =
         |_: &Column, toss: &Toss| toss.slip_at_separation_rad_per_s / toss.hand_speed_at_separation_rad_per_s;
     let slips = values(data, slip_share);
-    let hand = values(data, |column, _| column.largest_hand_speed_rad_per_s);
     let point = &data.grid_point;
     let height = values(data, |_, toss| toss.apex_height_m);
     let speed = values(data, |_, toss| toss.airborne_speed_rad_per_s);
@@ -84,16 +78,6 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
         )
         .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand; φ_L = π/2 itself \
                is out of reach, since the dough does not leave beyond arccos(g/cω²)"),
-        Claim::printed_statement(
-            "section3.slow_hand_at_low_angle",
-            rises(&hand),
-            listed(data, |column, toss| {
-                format!(
-                    "ωΦ = {:.2} rad/s, airborne speed {:.2} rad/s",
-                    column.largest_hand_speed_rad_per_s, toss.airborne_speed_rad_per_s
-                )
-            }),
-        ),
         Claim::printed_statement(
             "section3.middle_column_is_fastest",
             match speed[..] {
@@ -118,56 +102,6 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
                 point.largest_amplitude_angle_rad / PI,
                 point.angular_frequency_rad_per_s
             )),
-    ]
-}
-
-/// A thing that φ_L acts on: its name with the unit, and its value.
-type Thing = (&'static str, fn(&Influence) -> f64);
-
-/// What φ_L and θ act on.
-fn effects(data: &Fig05Data) -> [Claim; 2] {
-    let series = |of: &[Influence], value: fn(&Influence) -> f64| of.iter().map(value).collect::<Vec<_>>();
-    let things: [Thing; 3] = [
-        ("τ_sep (rad)", |at| at.separation_phase_rad),
-        ("ωΦ (rad/s)", |at| at.largest_hand_speed_rad_per_s),
-        ("largest N (m g)", |at| at.largest_force),
-    ];
-    let (angle, lag) = (&data.effects.of_angle, &data.effects.of_lag);
-    let ranges = things.map(|(name, value)| {
-        let values = series(angle, value);
-        let end = |value: Option<&f64>| value.map_or(f64::NAN, |value| *value);
-        format!("{name} from {:.3} to {:.3}", end(values.first()), end(values.last()))
-    });
-    let [separation, hand, force] = things.map(|(_, value)| series(angle, value));
-    let ends = |at: Option<&Influence>| at.map_or(f64::NAN, |at| at.amplitude_angle_rad);
-    let unmoved = things.map(|(_, value)| {
-        let values = series(lag, value);
-        claim::all(values.windows(2), |pair| (pair[1] - pair[0]).abs() <= ROUNDING * pair[0].abs())
-    });
-    let set = claim::all(lag, |at| (at.fastest_hand_phase_rad + at.phase_lag_rad).abs() <= PLACE_BOUND);
-    let places: Vec<_> = lag
-        .iter()
-        .map(|at| format!("θ = {}: {}", pi(at.phase_lag_rad), pi(at.fastest_hand_phase_rad)))
-        .collect();
-    [
-        Claim::printed_statement(
-            "section3.three_effects",
-            both([rises(&separation), rises(&hand), falls(&force)]),
-            format!(
-                "as φ_L goes from {} to {}, θ = 0, they change all the way: {}",
-                pi(ends(angle.first())),
-                pi(ends(angle.last())),
-                ranges.join(", ")
-            ),
-        ),
-        Claim::printed_statement(
-            "section3.phase_lag_effect",
-            both([unmoved[0], unmoved[1], unmoved[2], set]),
-            format!(
-                "the hand turns fastest at τ = −θ ({}), while τ_sep, ωΦ and the largest N do not change with θ",
-                places.join("; ")
-            ),
-        ),
     ]
 }
 
@@ -204,16 +138,6 @@ fn limits(data: &Fig05Data) -> Vec<Claim> {
 
 /// What θ does.
 fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
-    let pairs: Vec<_> = data
-        .columns
-        .iter()
-        .filter_map(|column| match &column.tosses[..] {
-            [one, two] => Some((column, one, two)),
-            _ => None,
-        })
-        .collect();
-    let slower =
-        claim::all(&pairs, |(_, one, two)| two.airborne_speed_rad_per_s < one.airborne_speed_rad_per_s);
     let lags = &data.lags;
     let late = |wanted: fn(f64) -> bool| {
         lags.iter().filter(move |lag| wanted(lag.phase_lag_rad)).map(|lag| lag.late_gain_rad_per_s)
@@ -221,7 +145,7 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
     let at_zero = late(|lag| lag == FIRST_PHASE_LAG).next();
     let reduced = at_zero.and_then(|zero| claim::all(late(|lag| lag > 0.0), |gain| gain < zero));
     let at_rest =
-        ROUNDING * pairs.iter().map(|(_, one, _)| one.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
+        ROUNDING * data.columns.iter().map(|own| own.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
     let reversed =
         claim::all(lags, |lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
     let described = |value: fn(&Dependence) -> f64| {
@@ -247,22 +171,6 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
                 "the dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
                 described(|lag| lag.lowest_speed_rad_per_s)
             ),
-        ),
-        Claim::statement(
-            ID,
-            "this work",
-            "the toss at θ_2 is slower than that at θ_1 at each of the three φ_L",
-            slower,
-            pairs
-                .iter()
-                .map(|(column, one, two)| {
-                    format!(
-                        "φ_L = {}: {:.2} and {:.2} rad/s",
-                        column.printed, one.airborne_speed_rad_per_s, two.airborne_speed_rad_per_s
-                    )
-                })
-                .collect::<Vec<_>>()
-                .join("; "),
         ),
     ]
 }

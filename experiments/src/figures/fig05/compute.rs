@@ -1,15 +1,14 @@
 //! The computation of Fig. 5.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_8};
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::{EventKind, InitialSpin, Mode, System, toss_trajectory};
 
-use super::data::{Column, Dependence, Effects, Fig05Data, GridPoint, Grip, Influence, Toss};
+use super::data::{Column, Dependence, Fig05Data, GridPoint, Grip, Toss};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::angle_grid::{AngleGrid, launch_case, printed_angles, unreadable};
-use crate::figures::motor_case::core_error;
-use crate::figures::toss_case::{TossCase, maximum};
+use crate::figures::toss_case::TossCase;
 use crate::paper::{self, SectionThree, TableOne};
 use crate::printed::PrintedNumber;
 use crate::progress::Progress;
@@ -55,7 +54,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05
         .map(|factor| Grip::new(&table, factor, &columns))
         .collect::<Result<Vec<_>, _>>()?;
     let grid_point = GridPoint::new(&table_i, &printed)?;
-    let effects = Effects::new(&table, &optimum)?;
     progress.advance(1);
     Ok(Fig05Data {
         table_i,
@@ -65,7 +63,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05
         lags,
         firm_grip,
         grid_point,
-        effects,
     })
 }
 
@@ -80,41 +77,6 @@ impl GridPoint {
             intervals: grid.intervals,
             index,
             amplitude_angle_rad: grid.angle(index),
-        })
-    }
-}
-
-impl Influence {
-    fn new(case: &TossCase) -> Result<Self, ExperimentError> {
-        /// Samples of the phase among which the fastest one is bracketed.
-        const BRACKETS: u32 = 33;
-        let system = case.system()?;
-        let platform = system.platform();
-        let fastest = maximum((-FRAC_PI_2, FRAC_PI_2), BRACKETS, |phase| {
-            Ok::<_, ExperimentError>(platform.angular_speed(Phase::new(phase).map_err(core_error)?).abs())
-        })?;
-        Ok(Self {
-            amplitude_angle_rad: case.amplitude_angle_rad,
-            phase_lag_rad: case.phase_lag_rad,
-            separation_phase_rad: case.toss(InitialSpin::AbsoluteRest)?.separation_phase,
-            largest_hand_speed_rad_per_s: platform.peak_angular_speed(),
-            largest_force: 1.0 + system.peak_acceleration(),
-            fastest_hand_phase_rad: fastest.place,
-        })
-    }
-}
-
-impl Effects {
-    fn new(table: &TossCase, optimum: &TossCase) -> Result<Self, ExperimentError> {
-        /// Amplitude angles from the first to the largest.
-        const ANGLES: u32 = 20;
-        let angles = (1..=ANGLES).map(|index| table.last_angle() * f64::from(index) / f64::from(ANGLES));
-        Ok(Self {
-            of_angle: angles.map(|angle| Influence::new(&table.at_angle(angle))).collect::<Result<_, _>>()?,
-            of_lag: PHASE_LAGS_NEAR_ZERO
-                .into_iter()
-                .map(|lag| Influence::new(&optimum.at_lag(lag)))
-                .collect::<Result<_, _>>()?,
         })
     }
 }
@@ -142,8 +104,7 @@ impl Column {
 impl Toss {
     fn new(case: &TossCase, points: u32) -> Result<Self, ExperimentError> {
         let system = case.system()?;
-        let trajectory =
-            toss_trajectory(&system, InitialSpin::AbsoluteRest).map_err(ExperimentError::model)?;
+        let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
         let scales = system.scales();
         let mut toss = Self::empty(case.phase_lag_rad);
         toss.largest_hand_speed_rad_per_s = system.platform().peak_angular_speed();

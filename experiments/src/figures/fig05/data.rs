@@ -16,7 +16,6 @@ pub struct Fig05Data {
     pub(super) lags: Vec<Dependence>,
     pub(super) firm_grip: Vec<Grip>,
     pub(super) grid_point: GridPoint,
-    pub(super) effects: Effects,
 }
 
 /// The φ_L of panel (c) as a point of the even grid on which the three printed angles lie.
@@ -28,29 +27,6 @@ pub(super) struct GridPoint {
     pub(super) intervals: u32,
     pub(super) index: u32,
     pub(super) amplitude_angle_rad: f64,
-}
-
-/// What φ_L and θ act on.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Effects {
-    /// Over the amplitude angle, θ = 0.
-    pub(super) of_angle: Vec<Influence>,
-    /// Over the phase lag, at the printed optimal φ_L.
-    pub(super) of_lag: Vec<Influence>,
-}
-
-/// The three things of Sec. III B that the amplitude ratio affects, and what the phase lag sets.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Influence {
-    pub(super) amplitude_angle_rad: f64,
-    pub(super) phase_lag_rad: f64,
-    pub(super) separation_phase_rad: f64,
-    /// ωΦ.
-    pub(super) largest_hand_speed_rad_per_s: f64,
-    /// N at the lowest point, in m g.
-    pub(super) largest_force: f64,
-    /// Where within a quarter of a period of τ = 0 the hand turns fastest.
-    pub(super) fastest_hand_phase_rad: f64,
 }
 
 /// One amplitude ratio.

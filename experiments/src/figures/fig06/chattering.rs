@@ -1,4 +1,4 @@
-//! The chattering orbit: its cycle, the end of the single tosses, and the two ways to end a chattering sequence.
+//! The chattering orbit: its cycle, and the end of the single tosses.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -6,12 +6,11 @@ use std::ops::ControlFlow;
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Vibration, sweep};
 use bouncing_disk::{
-    ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, OrbitClass,
-    TossOrbit, multi_toss,
+    ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, TossOrbit,
+    multi_toss,
 };
-use rayon::prelude::*;
 
-use super::data::{Policies, SingleTosses, Slice};
+use super::data::{SingleTosses, Slice};
 use super::inputs::{Inputs, Systems};
 use super::slices::slice;
 use crate::experiment::ExperimentError;
@@ -63,7 +62,7 @@ pub(super) fn cycles(
 
 /// Rest on the platform at its lowest point, turning with it.
 pub(super) fn from_rest(system: &DimensionlessSystem) -> Result<InitialCondition, ExperimentError> {
-    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    let phase = Phase::new(1.5 * PI)?;
     Ok(InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
 }
 
@@ -109,12 +108,12 @@ pub(super) fn single_tosses(
     }
     // A NaN (no Γ at all) ends the loop at once.
     let (last, first_other) = bracket_of_width(last, first_other, 1.0e-9, |forcing| {
-        let cycle = cycles(&[forcing], restitution, policy).map_err(ExperimentError::model)?;
+        let cycle = cycles(&[forcing], restitution, policy)?;
         Ok::<_, ExperimentError>(cycle.iter().all(is_single))
     })?;
     let beyond: Vec<f64> =
         (0..200).map(|i| first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / 200.0).collect();
-    let beyond = cycles(&beyond, restitution, policy).map_err(ExperimentError::model)?;
+    let beyond = cycles(&beyond, restitution, policy)?;
     let periods: Vec<u64> = beyond.iter().flatten().map(|cycle| cycle.platform_periods).collect();
     let singles = beyond.iter().flatten().filter(|cycle| cycle.is_single_toss()).count();
     Ok(SingleTosses {
@@ -123,61 +122,4 @@ pub(super) fn single_tosses(
         share_beyond: singles as f64 / beyond.len() as f64,
         periods_beyond: periods.into_iter().min(),
     })
-}
-
-/// The chattering orbits under the paper's cut and complete.
-pub(super) fn policies(
-    forcings: &[f64],
-    inputs: Inputs,
-    settings: MultiTossSettings,
-) -> Result<Policies, ExperimentError> {
-    let complete = MultiTossSettings { policy: ChatterPolicy::Complete, ..settings };
-    let cycles_of = |policy| cycles(forcings, inputs.restitution, policy).map_err(ExperimentError::model);
-    let (cut, summed) = (cycles_of(settings.policy)?, cycles_of(complete.policy)?);
-    let pairs: Vec<Option<Pair>> = (forcings, cut, summed)
-        .into_par_iter()
-        .map(|(&forcing, cut, summed)| {
-            let (Some(cut), Some(summed)) = (cut, summed) else {
-                return Ok(None);
-            };
-            let same =
-                cut.platform_periods == summed.platform_periods && cut.long_flights == summed.long_flights;
-            let systems = Systems::at(forcing, inputs)?;
-            let difference = |system: &DimensionlessSystem| -> Result<Option<f64>, ExperimentError> {
-                let (cut, summed) = (tosses(system, settings)?, tosses(system, complete)?);
-                let settled = |orbit: &TossOrbit| {
-                    matches!(orbit.class, OrbitClass::Chattering { .. })
-                        && orbit.rotation_repeats == Some(true)
-                };
-                let apart = cut.mean_angular_speed.zip(summed.mean_angular_speed);
-                let both = settled(&cut) && settled(&summed);
-                Ok(apart.filter(|_| both).map(|(a, b)| (a - b).abs() / system.twist_speed()))
-            };
-            let [linear, semielliptical] = if same {
-                [difference(&systems.linear)?, difference(&systems.semielliptical)?]
-            } else {
-                [None; 2]
-            };
-            Ok(Some(Pair { forcing, same, linear, semielliptical }))
-        })
-        .collect::<Result<_, ExperimentError>>()?;
-    let pairs: Vec<Pair> = pairs.into_iter().flatten().collect();
-    let largest = |of: fn(&Pair) -> Option<f64>| pairs.iter().filter_map(of).fold(0.0_f64, f64::max);
-    let settled = |of: fn(&Pair) -> Option<f64>| pairs.iter().filter_map(of).count();
-    Ok(Policies {
-        compared: pairs.len(),
-        different_cycles: pairs.iter().filter(|pair| !pair.same).count(),
-        first_different: pairs.iter().find(|pair| !pair.same).map(|pair| pair.forcing),
-        settled_linear: settled(|pair| pair.linear),
-        settled_semielliptical: settled(|pair| pair.semielliptical),
-        largest_difference_linear: largest(|pair| pair.linear),
-        largest_difference_semielliptical: largest(|pair| pair.semielliptical),
-    })
-}
-
-struct Pair {
-    forcing: f64,
-    same: bool,
-    linear: Option<f64>,
-    semielliptical: Option<f64>,
 }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::chattering;
 use super::crossings::branch_crossings;
-use super::data::{BestLag, Bouncing, Column, Fig06Data, Merging, Policies, SingleTosses, Slice, Transfer};
+use super::data::{BestLag, Bouncing, Column, Fig06Data, Merging, SingleTosses, Slice, Transfer};
 use super::inputs::{Inputs, map, no_orbit};
 use super::slices::followed_slice;
 use super::{contact, dimension, explored, merging, period_one};
@@ -58,16 +58,16 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
     progress.start(2 * values as u64, "orbits");
     let first_map = map(followed_from, restitution)?;
     let first = first_map.period_one(1).ok_or_else(|| no_orbit(followed_from))?;
-    let first_orbit = first_map.refine(&[first]).map_err(ExperimentError::model)?;
+    let first_orbit = first_map.refine(&[first])?;
     let diagrams = Diagrams::of(&forcings, first, inputs, settings, progress)?;
-    progress.start(4, "searches");
+    progress.start(3, "searches");
     let not_chattering = forcings
         .par_iter()
         .zip(&diagrams.chattering)
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
         .map(|(forcing, _)| bouncing(*forcing, restitution))
         .collect::<Result<_, ExperimentError>>()?;
-    let Searches { merging, single_tosses, policies, doublings, zoom } =
+    let Searches { merging, single_tosses, doublings, zoom } =
         Searches::of(&diagrams, &section, settings, quality, progress)?;
     let last = doublings.last().copied().unwrap_or(f64::NAN);
     let chaotic: Vec<&Followed> =
@@ -79,7 +79,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
     let explored = explored::explored(first, inputs, &merging, &impacts)?;
     let (transfers, best_lags) = along_the_diagram(&diagrams, &chaotic, crisis, inputs, settings)?;
     let one_impact_decides = explored::one_impact_decides(crisis, restitution, quality)?;
-    let (period_one_threshold, phase_at_threshold_rad) = period_one::threshold(inputs, first)?;
+    let period_one_threshold = period_one::threshold(inputs, first)?;
     let branch_crossings = branch_crossings(&diagrams.followed, &doublings);
     let at_doubling = doublings.first().copied().unwrap_or(f64::NAN);
     let phase = map(at_doubling, restitution)?.period_one(1).ok_or_else(|| no_orbit(at_doubling))?.phase();
@@ -99,18 +99,14 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
         zoom,
         doublings,
         period_one_threshold,
-        closed_forms: period_one::closed_forms(restitution),
-        phase_at_threshold_rad,
         phase_at_first_doubling_rad: phase.angle(),
         multiplier_where_followed_from: bouncing_disk::core::Multipliers::of(first_orbit.monodromy)
             .spectral_radius(),
         merging,
         single_tosses,
-        policies,
         branch_crossings,
         lyapunov_exponents,
         period_one: period_one::period_one(inputs)?,
-        contact: contact::contact(inputs)?,
         motions: contact::motions(&section.axial_forcings_of_fig7, inputs)?,
         dimension: dimension::dimension()?,
         torque_ratios: dimension::torque_ratios()?,
@@ -125,7 +121,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
 /// Γ and the Lyapunov exponent of each orbit that has one.
 fn exponents(chaotic: &[&Followed]) -> Result<Vec<(f64, f64)>, ExperimentError> {
     let orbits: Vec<_> = chaotic.iter().map(|at| (at.map, at.state)).collect();
-    let growths = lyapunov_exponents(&orbits, 0, GROWTH_IMPACTS).map_err(ExperimentError::model)?;
+    let growths = lyapunov_exponents(&orbits, 0, GROWTH_IMPACTS)?;
     Ok(chaotic.iter().zip(growths).filter_map(|(at, growth)| Some((at.axial_forcing, growth?))).collect())
 }
 
@@ -153,8 +149,7 @@ impl Diagrams {
         let above = forcings.iter().copied().filter(|forcing| *forcing >= followed_from);
         let walk: Vec<Followed> =
             follow_attractor(restitution, above, first, settings.transient_impacts, PAPER_CHATTER)
-                .collect::<Result<_, _>>()
-                .map_err(ExperimentError::model)?;
+                .collect::<Result<_, _>>()?;
         progress.advance((forcings.len() - walk.len()) as u64);
         let followed: Vec<Option<Slice>> = walk
             .par_iter()
@@ -166,8 +161,7 @@ impl Diagrams {
             .collect::<Result<_, _>>()?;
         // The attractor is lost where its orbit comes to rest in the longer run, too.
         let followed: Vec<Slice> = followed.into_iter().map_while(|slice| slice).collect();
-        let cycles =
-            chattering::cycles(forcings, restitution, settings.policy).map_err(ExperimentError::model)?;
+        let cycles = chattering::cycles(forcings, restitution, settings.policy)?;
         let cycles: Vec<_> = forcings.iter().copied().zip(cycles).collect();
         let chattering: Vec<Option<Slice>> = cycles
             .par_iter()
@@ -190,7 +184,6 @@ impl Diagrams {
 struct Searches {
     merging: Merging,
     single_tosses: SingleTosses,
-    policies: Policies,
     doublings: Vec<f64>,
     zoom: Vec<Column>,
 }
@@ -206,24 +199,21 @@ impl Searches {
     ) -> Result<Self, ExperimentError> {
         let inputs = Inputs::from(section);
         let Diagrams { first, walk, cycles, .. } = diagrams;
-        let some: Vec<f64> = cycles.iter().map(|(forcing, _)| *forcing).step_by(10).collect();
         let crisis = || merging::merging(*first, inputs, quality.choose(40_000, 400_000));
         let others = || -> Result<_, ExperimentError> {
             let single_tosses = chattering::single_tosses(cycles, section, settings.policy)?;
             progress.advance(1);
-            let policies = chattering::policies(&some, inputs, settings)?;
-            progress.advance(1);
-            let doublings = doubling_cascade(inputs.restitution, 7).map_err(ExperimentError::model)?;
+            let doublings = doubling_cascade(inputs.restitution, 7)?;
             progress.advance(1);
             let below = walk.iter().rev().find(|at| at.axial_forcing <= explored::ZOOM.0);
             let zoom = explored::zoom(below.map_or(*first, |at| at.state), inputs, quality)?;
-            Ok((single_tosses, policies, doublings, zoom))
+            Ok((single_tosses, doublings, zoom))
         };
         let (merging, others) = rayon::join(crisis, others);
-        let (merging, (single_tosses, policies, doublings, zoom)) = (merging?, others?);
+        let (merging, (single_tosses, doublings, zoom)) = (merging?, others?);
         progress.advance(1);
         let doublings: Vec<f64> = doublings.into_iter().map(|doubling| doubling.axial_forcing).collect();
-        Ok(Self { merging, single_tosses, policies, doublings, zoom })
+        Ok(Self { merging, single_tosses, doublings, zoom })
     }
 }
 
@@ -259,11 +249,10 @@ fn bouncing(axial_forcing: f64, restitution: f64) -> Result<Bouncing, Experiment
     let map = map(axial_forcing, restitution)?;
     let mut period = None;
     if let Some(leaves) = map.vibration().separation_phase() {
-        let orbit =
-            map.orbit_from_launch(Launch::new(leaves, 0.0).map_err(ExperimentError::model)?, PAPER_CHATTER);
-        let settled = orbit_diagram(&[orbit], SETTLING, 1).map_err(ExperimentError::model)?;
+        let orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, PAPER_CHATTER);
+        let settled = orbit_diagram(&[orbit], SETTLING, 1)?;
         if let Some(state) = settled.first().and_then(|states| states.first()) {
-            period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;
+            period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN)?;
         }
     }
     Ok(Bouncing { axial_forcing, period })

@@ -1,87 +1,19 @@
-//! Whether a disk bounces at all, how far it goes, and where it gets its angular momentum.
+//! How far a disk goes, and where it gets its angular momentum.
 
-use std::f64::consts::{FRAC_1_PI, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase, survival_times};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase};
 use bouncing_disk::{
     CollisionEvent, Collisions, DimensionlessSystem, Engine, Event, EventRecord, ForcingParameters,
     InitialCondition,
 };
 use rayon::prelude::*;
 
-use super::data::{Contact, Motion, Transfer};
-use super::inputs::{Inputs, Systems, map};
+use super::data::{Motion, Transfer};
+use super::inputs::{Inputs, Systems};
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
 use crate::paper;
-
-/// The Γ next to 1/π: so many neighbours in doubles on both sides, and powers of ten of the relative distance beyond them.
-const NEIGHBOURS: i32 = 8;
-/// See [`NEIGHBOURS`].
-const FARTHEST_POWER: i32 = -14;
-/// Events within which a disk at rest would leave; a period of the platform has fewer than ten.
-const EVENTS: usize = 100;
-/// Disks thrown up, at as many phases, with as much relative speed as the platform has at most (in units of g/ω).
-const THROWN: usize = 16;
-/// Impacts within which they come to rest: each takes half of the speed.
-const THROWN_IMPACTS: usize = 10_000;
-
-/// Γ on both sides of 1/π. The double nearest to it lies above it by 0.37 of the distance of two doubles; it is left out, for
-/// π times it cannot be told from 1.
-fn forcings() -> Vec<f64> {
-    let mut forcings = Vec::new();
-    let (mut below, mut above) = (FRAC_1_PI, FRAC_1_PI);
-    for _ in 0..NEIGHBOURS {
-        (below, above) = (below.next_down(), above.next_up());
-        forcings.extend([below, above]);
-    }
-    let mut distance = 0.1;
-    for _ in FARTHEST_POWER..0 {
-        forcings.extend([FRAC_1_PI * (1.0 - distance), FRAC_1_PI * (1.0 + distance)]);
-        distance *= 0.1;
-    }
-    // Far below, too: a tenth to nine tenths of 1/π.
-    forcings.extend((1..10).map(|tenths| 0.1 * f64::from(tenths) * FRAC_1_PI));
-    forcings.sort_by(f64::total_cmp);
-    forcings
-}
-
-pub(super) fn contact(inputs: Inputs) -> Result<Vec<Contact>, ExperimentError> {
-    let ulp = FRAC_1_PI.next_up() - FRAC_1_PI;
-    forcings()
-        .into_par_iter()
-        .map(|axial_forcing| {
-            let system = Systems::at(axial_forcing, inputs)?.linear;
-            let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
-            let rest =
-                InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
-            let mut engine =
-                Engine::new(system, rest, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
-            let mut leaves = false;
-            for _ in 0..EVENTS {
-                let Some(record) = engine.advance().map_err(ExperimentError::model)? else { break };
-                leaves |= matches!(record.event, Event::Separation);
-            }
-            let map = map(axial_forcing, inputs.restitution)?;
-            let orbits = (0..THROWN)
-                .map(|index| {
-                    let angle = TAU * index as f64 / THROWN as f64;
-                    let start = Phase::new(angle)
-                        .and_then(|phase| ImpactState::new(phase, -1.0 / inputs.restitution));
-                    Ok(map.orbit(start.map_err(ExperimentError::model)?, ChatterPolicy::Complete))
-                })
-                .collect::<Result<Vec<_>, ExperimentError>>()?;
-            let lives = survival_times(&orbits, THROWN_IMPACTS).map_err(ExperimentError::model)?;
-            Ok(Contact {
-                axial_forcing,
-                distance_in_ulps: (axial_forcing - FRAC_1_PI) / ulp,
-                leaves,
-                still_bouncing: lives.into_iter().filter(|lived| *lived >= THROWN_IMPACTS).count(),
-                thrown: THROWN,
-            })
-        })
-        .collect()
-}
 
 /// Impacts of a long motion.
 const LONG: usize = 4_000;
@@ -102,14 +34,13 @@ fn speed_bound(peak: f64, restitution: f64) -> f64 {
 
 fn motion(axial_forcing: f64, system: &DimensionlessSystem) -> Result<Motion, ExperimentError> {
     let peak = system.peak_acceleration();
-    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    let phase = Phase::new(1.5 * PI)?;
     let start = InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) };
-    let mut collisions =
-        Collisions::new(*system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut collisions = Collisions::new(*system, start, ChatterPolicy::Complete)?;
     let (mut impacts, mut highest) = (0, peak);
     let (mut first, mut half, mut last) = (None, 0.0, None);
     while impacts < LONG {
-        let Some(event) = collisions.advance().map_err(ExperimentError::model)? else { break };
+        let Some(event) = collisions.advance()? else { break };
         let CollisionEvent::Collision(collision) = event else { continue };
         impacts += 1;
         let phase = collision.state.phase;
@@ -127,7 +58,6 @@ fn motion(axial_forcing: f64, system: &DimensionlessSystem) -> Result<Motion, Ex
     let (Some(first), Some(last)) = (first, last) else {
         return Err(super::inputs::no_orbit(axial_forcing));
     };
-    let height = |phase: Phase| peak * phase.sin();
     let span = last.time.since(&first.time).radians();
     let launched = system.restitution() * speed_bound(peak, system.restitution()) + peak;
     Ok(Motion {
@@ -135,7 +65,6 @@ fn motion(axial_forcing: f64, system: &DimensionlessSystem) -> Result<Motion, Ex
         restitution: system.restitution(),
         impacts,
         platform_periods: span / TAU,
-        mean_vertical_velocity: (height(last.time.phase) - height(first.time.phase)) / (span * peak),
         highest: highest / peak,
         height_bound: (peak + 0.5 * launched * launched) / peak,
         turned_in_first_half: (half - first.angle) / system.twist_speed(),
@@ -157,7 +86,7 @@ pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, E
                 phase_lag: inputs.semielliptical.phase_lag_rad,
                 restitution,
             };
-            motion(axial_forcing, &system.build().map_err(ExperimentError::model)?)
+            motion(axial_forcing, &system.build()?)
         })
         .collect()
 }
@@ -173,11 +102,10 @@ fn share_in_impacts(
     system: &DimensionlessSystem,
     start: InitialCondition,
 ) -> Result<Option<f64>, ExperimentError> {
-    let mut engine =
-        Engine::new(*system, start, bouncing_disk::PAPER_CHATTER).map_err(ExperimentError::model)?;
+    let mut engine = Engine::new(*system, start, bouncing_disk::PAPER_CHATTER)?;
     let (mut impacts, mut impulsive, mut contact) = (0, 0.0, 0.0);
     while impacts < TRANSFERS {
-        let Some(record) = engine.advance().map_err(ExperimentError::model)? else { break };
+        let Some(record) = engine.advance()? else { break };
         impacts += usize::from(matches!(record.event, Event::Impact { .. }));
         impulsive += record.angular_impulse.abs();
         contact += turned_in_contact(&record, system);
@@ -198,7 +126,7 @@ fn turned_in_contact(record: &EventRecord, system: &DimensionlessSystem) -> f64 
 /// The share of the motor of Table III, from rest.
 pub(super) fn motor_transfer() -> Result<Option<f64>, ExperimentError> {
     let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
-    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    let phase = Phase::new(1.5 * PI)?;
     share_in_impacts(motor.dimensionless(), InitialCondition::Contact { phase, angular_speed: 0.0 })
 }
 
@@ -208,7 +136,7 @@ pub(super) fn transfers(
     from_rest: &[f64],
     inputs: Inputs,
 ) -> Result<Vec<Transfer>, ExperimentError> {
-    let phase = Phase::new(1.5 * PI).map_err(ExperimentError::model)?;
+    let phase = Phase::new(1.5 * PI)?;
     let starts: Vec<(f64, Option<ImpactState>)> = followed
         .iter()
         .map(|(forcing, state)| (*forcing, Some(*state)))

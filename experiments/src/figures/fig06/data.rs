@@ -2,9 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The identifier of the figure.
-pub(super) const ID: &str = "fig06";
-
 /// Data of Fig. 6.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fig06Data {
@@ -38,10 +35,6 @@ pub struct Fig06Data {
     pub doublings: Vec<f64>,
     /// The lowest Γ at which the period-1 orbit was found, by bisection.
     pub period_one_threshold: f64,
-    /// The same, and the first doubling, in closed form.
-    pub closed_forms: ClosedForms,
-    /// Impact phase of the period-1 orbit at the threshold found (rad).
-    pub phase_at_threshold_rad: f64,
     /// Impact phase of the period-1 orbit at the first doubling (rad).
     pub phase_at_first_doubling_rad: f64,
     /// Spectral radius of the period-1 orbit where following starts.
@@ -50,16 +43,12 @@ pub struct Fig06Data {
     pub merging: Merging,
     /// Where the chattering orbit stops being a chain of single tosses.
     pub single_tosses: SingleTosses,
-    /// The two chattering policies compared.
-    pub policies: Policies,
     /// Γ at which two branches of the period-4 orbit have the same speed in (d).
     pub branch_crossings: Vec<f64>,
     /// Lyapunov exponents of the followed attractor beyond the last doubling: Γ, and the growth rate per impact.
     pub lyapunov_exponents: Vec<(f64, f64)>,
     /// The rotation of period-1 orbits.
     pub period_one: PeriodOne,
-    /// Disks on a platform with Γ next to 1/π.
-    pub contact: Vec<Contact>,
     /// Long motions: how far they go.
     pub motions: Vec<Motion>,
     /// How many numbers the impact map depends on.
@@ -96,15 +85,6 @@ pub struct Column {
     pub impact_phase_cycles: Vec<f64>,
 }
 
-/// What is known in closed form about period 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ClosedForms {
-    /// (1 − ε)/(1 + ε).
-    pub period_one_threshold: f64,
-    /// sqrt(((1 − ε)/(1 + ε))² + (2(1 + ε²)/(π(1 + ε)²))²).
-    pub first_doubling: f64,
-}
-
 /// The rotation of period-1 orbits, from many starts and for many motions of the platform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PeriodOne {
@@ -114,8 +94,6 @@ pub struct PeriodOne {
     pub impacts_each: usize,
     /// The largest |w_T|/(ωΦ) in the last impact of an orbit.
     pub largest_tangential_speed: f64,
-    /// Impacts of all of them after which |w_T| was larger than before.
-    pub slips_increased: usize,
     /// Speeds against the phase lag.
     pub lags: Vec<LagScan>,
 }
@@ -137,21 +115,6 @@ pub struct LagScan {
     pub speed_of_elliptical: f64,
 }
 
-/// A disk on a platform that vibrates with Γ next to 1/π.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Contact {
-    /// Γ.
-    pub axial_forcing: f64,
-    /// Γ − 1/π, as a multiple of the distance of two doubles there.
-    pub distance_in_ulps: f64,
-    /// Whether a disk at rest on the platform leaves it.
-    pub leaves: bool,
-    /// Of the disks thrown up at first, those that have not come to rest for ever after many impacts.
-    pub still_bouncing: usize,
-    /// Disks thrown up.
-    pub thrown: usize,
-}
-
 /// A long motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
@@ -163,8 +126,6 @@ pub struct Motion {
     pub impacts: usize,
     /// Periods of the platform.
     pub platform_periods: f64,
-    /// Mean vertical velocity of the disk over the whole, as a share of ωA.
-    pub mean_vertical_velocity: f64,
     /// Largest height of the disk, in amplitudes of the platform.
     pub highest: f64,
     /// No disk can ever rise higher, by energy.
@@ -301,8 +262,6 @@ pub struct Slice {
     pub period: Option<usize>,
     /// Periods of the platform in the same.
     pub platform_periods: Option<u64>,
-    /// Whether the rotary motions of (c) and (d) have the same vertical one, to the last bit.
-    pub vertical_motions_agree: bool,
     /// τ_imp/2π.
     pub impact_phase_cycles: Vec<f64>,
     /// |w_A Γ/(ωA)|.
@@ -363,23 +322,4 @@ pub struct SingleTosses {
     pub share_beyond: f64,
     /// Fewest periods of the platform in a cycle from there to 0.52, over the Γ that chatter.
     pub periods_beyond: Option<u64>,
-}
-
-/// Paper's cut and complete policy, over some of the Γ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Policies {
-    /// Values of Γ compared that chatter under both.
-    pub compared: usize,
-    /// Those whose cycles differ in length.
-    pub different_cycles: usize,
-    /// The smallest Γ of those.
-    pub first_different: Option<f64>,
-    /// Values of Γ at which the rotation (c) repeats under both.
-    pub settled_linear: usize,
-    /// The same for (d).
-    pub settled_semielliptical: usize,
-    /// Largest difference of the mean speeds (c), as a share of ωΦ, where the rotation repeats.
-    pub largest_difference_linear: f64,
-    /// The same for (d).
-    pub largest_difference_semielliptical: f64,
 }

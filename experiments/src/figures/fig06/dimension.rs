@@ -50,13 +50,12 @@ fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
     let mut outcomes = Vec::with_capacity(3 * IMPACTS.len());
     for (angle, axial, tangential) in IMPACTS {
         let state = CollisionState {
-            phase: Phase::new(angle).map_err(ExperimentError::model)?,
+            phase: Phase::new(angle)?,
             axial_impact_velocity: axial * peak,
             tangential_impact_velocity: tangential * twist,
         };
         let next = Collisions::after(system, state, ChatterPolicy::Complete)
-            .and_then(|mut collisions| collisions.advance())
-            .map_err(ExperimentError::model)?;
+            .and_then(|mut collisions| collisions.advance())?;
         let Some(CollisionEvent::Collision(next)) = next else {
             return Err(no_orbit(system.axial_forcing()));
         };

@@ -109,14 +109,14 @@ fn saddle(
         .take(SADDLE_STARTS)
         .map(|state| map.orbit(*state, bouncing_disk::PAPER_CHATTER))
         .collect();
-    let lives = survival_times(&orbits, SADDLE_LIFE).map_err(ExperimentError::model)?;
+    let lives = survival_times(&orbits, SADDLE_LIFE)?;
     let stay: Vec<Orbit> = orbits
         .into_iter()
         .zip(lives)
         .filter(|(_, lived)| *lived >= SADDLE_LIFE)
         .map(|(orbit, _)| orbit)
         .collect();
-    let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS).map_err(ExperimentError::model)?;
+    let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS)?;
     Ok((Cells::of(&states.concat(), CELLS), stay.len()))
 }
 
@@ -134,8 +134,7 @@ pub(super) fn explored(
     };
     let (before, after) = (crisis - BESIDE, crisis + BESIDE);
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
-    let beside = orbit_diagram(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING)
-        .map_err(ExperimentError::model)?;
+    let beside = orbit_diagram(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING)?;
     let chattering = recorded(&[orbit_from_rest(before, inputs)?], VISITING)?;
     let union: Vec<ImpactState> = beside[0].iter().chain(&chattering[0]).copied().collect();
     let after = visited(after, &beside[1]);
@@ -176,8 +175,7 @@ pub(super) fn zoom(
     let forcings = (0..=steps).map(|step| low + (high - low) * f64::from(step) / f64::from(steps));
     let followed =
         follow_attractor(inputs.restitution, forcings, from, ZOOM_TRANSIENT, bouncing_disk::PAPER_CHATTER)
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(ExperimentError::model)?;
+            .collect::<Result<Vec<_>, _>>()?;
     let orbits: Vec<Orbit> =
         followed.iter().map(|at| at.map.orbit(at.state, bouncing_disk::PAPER_CHATTER)).collect();
     let states = recorded(&orbits, ZOOM_IMPACTS)?;
@@ -232,10 +230,8 @@ pub(super) fn best_lags(
                     phase_lag,
                     restitution: inputs.restitution,
                 }
-                .build()
-                .map_err(ExperimentError::model)?;
-                let orbit =
-                    multi_toss(system, start(&system, state)?, settings).map_err(ExperimentError::model)?;
+                .build()?;
+                let orbit = multi_toss(system, start(&system, state)?, settings)?;
                 let speed = orbit.mean_angular_speed.unwrap_or_default() / system.twist_speed();
                 if speed > best.speed {
                     let period = match orbit.class {
@@ -288,14 +284,10 @@ pub(super) fn one_impact_decides(
                 phase_lag: -phase,
                 restitution,
             }
-            .build()
-            .map_err(ExperimentError::model)?;
+            .build()?;
             let angular_speed = system.twist_speed();
-            let start = InitialCondition::Contact {
-                phase: Phase::new(1.5 * PI).map_err(ExperimentError::model)?,
-                angular_speed,
-            };
-            let orbit = multi_toss(system, start, settings).map_err(ExperimentError::model)?;
+            let start = InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed };
+            let orbit = multi_toss(system, start, settings)?;
             Ok(Some(BestLag {
                 axial_forcing,
                 angular_forcing: LARGE_ANGULAR_FORCING,

@@ -58,7 +58,7 @@ impl Systems {
 }
 
 pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
-    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
+    let vibration = Vibration::from_axial_forcing(axial_forcing)?;
     ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
 }
 

@@ -22,12 +22,12 @@ pub(super) fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactSta
     let forcings = (0..).map(|i| followed_from + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
     let mut state = first;
     for followed in follow_attractor(restitution, forcings, first, 300, ChatterPolicy::Complete) {
-        state = followed.map_err(ExperimentError::model)?.state;
+        state = followed?.state;
     }
     let map = map(SAFE_FORCING, restitution)?;
     let mut states = Vec::new();
     while states.len() < STARTS {
-        match map.state_after(state, 1_000, ChatterPolicy::Complete).map_err(ExperimentError::model)? {
+        match map.state_after(state, 1_000, ChatterPolicy::Complete)? {
             Some(next) => states.push(next),
             None => break,
         }
@@ -51,7 +51,7 @@ fn orbits(forcings: &[f64], starts: &[ImpactState], restitution: f64) -> Result<
 fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(f64, f64), ExperimentError> {
     bracket_of_width(SAFE_FORCING, LOST_FORCING, BRACKET, |forcing| {
         let orbits = orbits(&[forcing], starts, restitution)?;
-        let lives = survival_times(&orbits, impacts).map_err(ExperimentError::model)?;
+        let lives = survival_times(&orbits, impacts)?;
         Ok(lives.into_iter().all(|lived| lived == impacts))
     })
 }
@@ -70,8 +70,7 @@ pub(super) fn merging(
     );
     let ((survived, lost), (survived_in_a_tenth, lost_in_a_tenth)) = (whole?, tenth?);
     let forcings: Vec<f64> = (0..16).map(|i| 0.5600 + 0.0001 * f64::from(i)).collect();
-    let lives = survival_times(&orbits(&forcings, &starts, restitution)?, impacts / 10)
-        .map_err(ExperimentError::model)?;
+    let lives = survival_times(&orbits(&forcings, &starts, restitution)?, impacts / 10)?;
     let mean_life_impacts = forcings
         .into_iter()
         .zip(lives.chunks(starts.len().max(1)))

@@ -6,7 +6,7 @@ use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState};
 use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, ForcingParameters};
 
-use super::data::{ClosedForms, LagScan, PeriodOne};
+use super::data::{LagScan, PeriodOne};
 use super::inputs::{Inputs, map, no_orbit};
 use crate::experiment::ExperimentError;
 
@@ -30,8 +30,8 @@ const IMPACTS: usize = 200;
 /// Lags tried over a whole turn.
 const LAGS_TRIED: u32 = 72;
 
-/// The lowest Γ at which Newton's iteration finds the orbit, and its phase there (rad).
-pub(super) fn threshold(inputs: Inputs, first: ImpactState) -> Result<(f64, f64), ExperimentError> {
+/// The lowest Γ at which Newton's iteration finds the orbit.
+pub(super) fn threshold(inputs: Inputs, first: ImpactState) -> Result<f64, ExperimentError> {
     let mut state = first;
     let (_, found) = bracket_of_width(BELOW_THRESHOLD, inputs.followed_from, BRACKET, |forcing| {
         // The same orbit, not another one: one impact in one period of the platform.
@@ -42,15 +42,7 @@ pub(super) fn threshold(inputs: Inputs, first: ImpactState) -> Result<(f64, f64)
         }
         Ok::<_, ExperimentError>(orbit.is_none())
     })?;
-    Ok((found, state.phase().angle()))
-}
-
-/// The closed forms of the literature on the bouncing ball.
-pub(super) fn closed_forms(restitution: f64) -> ClosedForms {
-    ClosedForms {
-        period_one_threshold: (1.0 - restitution) / (1.0 + restitution),
-        first_doubling: ImpactMap::first_doubling_forcing(restitution),
-    }
+    Ok(found)
 }
 
 fn system(
@@ -70,8 +62,6 @@ struct Turning {
     slip: f64,
     /// The disk's speed/(ωΦ) just before it.
     speed: f64,
-    /// Impacts after which |w_T| was larger than before.
-    increased: usize,
 }
 
 fn turn(
@@ -87,41 +77,30 @@ fn turn(
         axial_impact_velocity: orbit.velocity(),
         tangential_impact_velocity: slip,
     };
-    let mut increased = 0;
-    let mut collisions =
-        Collisions::after(*system, state, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut collisions = Collisions::after(*system, state, ChatterPolicy::Complete)?;
     for _ in 0..impacts {
-        let Some(CollisionEvent::Collision(next)) = collisions.advance().map_err(ExperimentError::model)?
-        else {
+        let Some(CollisionEvent::Collision(next)) = collisions.advance()? else {
             return Err(no_orbit(system.axial_forcing()));
         };
-        // The slip just after the impact before: the disk's speed does not change in flight.
-        let after = next.angular_speed - system.platform_angular_speed(state.phase);
-        increased += usize::from(after.abs() > state.tangential_impact_velocity.abs());
         state = next.state;
     }
     Ok(Turning {
         slip: state.tangential_impact_velocity.abs() / scale,
         speed: state.angular_speed(system) / scale,
-        increased,
     })
 }
 
 pub(super) fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
-    let forms = closed_forms(inputs.restitution);
-    let mut result = PeriodOne {
-        orbits: 0,
-        impacts_each: IMPACTS,
-        largest_tangential_speed: 0.0,
-        slips_increased: 0,
-        lags: Vec::new(),
-    };
+    let threshold = (1.0 - inputs.restitution) / (1.0 + inputs.restitution);
+    let first_doubling = ImpactMap::first_doubling_forcing(inputs.restitution);
+    let mut result =
+        PeriodOne { orbits: 0, impacts_each: IMPACTS, largest_tangential_speed: 0.0, lags: Vec::new() };
     // The window of one impact every k periods runs from k times the threshold to the doubling, of which the height above the
     // threshold, in squares, does not depend on k.
     let squared = |value: f64| value * value;
-    let height = squared(forms.first_doubling) - squared(forms.period_one_threshold);
+    let height = squared(first_doubling) - squared(threshold);
     for flight in 1..=LONGEST_FLIGHT {
-        let low = flight as f64 * forms.period_one_threshold;
+        let low = flight as f64 * threshold;
         let high = (squared(low) + height).sqrt();
         for place in PLACES {
             let forcing = low + place * (high - low);
@@ -134,7 +113,6 @@ pub(super) fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
                         let turning = turn(&system, orbit, speed, IMPACTS)?;
                         result.orbits += 1;
                         result.largest_tangential_speed = result.largest_tangential_speed.max(turning.slip);
-                        result.slips_increased += turning.increased;
                     }
                 }
             }

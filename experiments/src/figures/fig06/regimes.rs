@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::data::{BestLag, Fig06Data, ID, Shadow, Slice};
+use super::data::{BestLag, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
 use crate::catalogue;
 use crate::claim::{self, Cases, Claim};
@@ -263,12 +263,8 @@ fn complexity(data: &Fig06Data) -> Claim {
 fn chattering(data: &Fig06Data) -> Vec<Claim> {
     let merging = &data.merging;
     let single = &data.single_tosses;
-    let policies = &data.policies;
     let printed_end =
         catalogue::number("section4.single_tosses_end", 0).map_or(f64::NAN, |printed| printed.value);
-    let cycles = || data.chattering.iter().filter_map(|slice| slice.period);
-    let shortest = cycles().min().unwrap_or_default();
-    let settled = data.not_chattering.iter().filter(|of| of.period.is_some()).count();
     let periods = single.periods_beyond.map_or("no".to_owned(), |low| format!("{low} or more"));
     vec![
         Claim::printed("section4.merging", merging.axial_forcing()).note(format!(
@@ -293,35 +289,5 @@ fn chattering(data: &Fig06Data) -> Vec<Claim> {
             ),
         )
         .cause("single tosses end at Γ = 0.5085"),
-        Claim::printed_statement(
-            "section4.chattering_is_periodic",
-            claim::all(&data.chattering, |slice| slice.period.is_some()),
-            format!(
-                "at {} values of Γ the disk comes to rest again, after {shortest} impacts or more. After every rest it \
-                 leaves in the same vertical state, so the vertical motion repeats; a long cycle depends on its rounding. At \
-                 {} further values a disk from rest does not come to rest again within 20000 impacts; at {settled} of them it is then on a \
-                 periodic orbit that bounces",
-                data.chattering.len(),
-                data.not_chattering.len(),
-            ),
-        ),
-        Claim::statement(
-            ID,
-            "Sec. IV A",
-            "cutting the chattering short does not change the chattering orbits",
-            claim::all(Some(policies.different_cycles).filter(|_| policies.compared > 0), |count| count == 0),
-            format!(
-                "at {} of {} values of Γ the cycle has another length when the infinite sequence is summed{}; where the \
-                 rotation repeats from cycle to cycle under both the mean speeds differ by at most {:.1e} ωΦ in (c) ({} values) and \
-                 {:.1e} ωΦ in (d) ({} values). A statement of this work, not of the paper",
-                policies.different_cycles,
-                policies.compared,
-                policies.first_different.map_or(String::new(), |forcing| format!(" (first at Γ = {forcing:.4})")),
-                policies.largest_difference_linear,
-                policies.settled_linear,
-                policies.largest_difference_semielliptical,
-                policies.settled_semielliptical,
-            ),
-        ),
     ]
 }

@@ -27,7 +27,7 @@ pub(super) fn followed_slice(
             relative_speed: -system.restitution() * followed.state.velocity(),
             angular_speed: system.platform_angular_speed(phase),
         };
-        multi_toss(*system, start, settings).map_err(ExperimentError::model)
+        multi_toss(*system, start, settings)
     };
     let linear = tosses(&systems.linear)?;
     if matches!(linear.class, OrbitClass::Chattering { .. } | OrbitClass::AtRest) {
@@ -57,11 +57,6 @@ pub(super) fn slice(
         _ => None,
     };
     let impacts = &linear.collisions;
-    let vertical = |orbit: &TossOrbit| {
-        let states = orbit.collisions.iter().map(|collision| collision.state);
-        states.map(|state| (state.phase, state.axial_impact_velocity)).collect::<Vec<_>>()
-    };
-    let shared = linear.collisions.len().min(semielliptical.collisions.len());
     let platform_periods = match linear.class {
         OrbitClass::Periodic { platform_periods, .. }
         | OrbitClass::Chattering(ChatteringCycle { platform_periods, .. }) => Some(platform_periods),
@@ -71,7 +66,6 @@ pub(super) fn slice(
         axial_forcing,
         period,
         platform_periods,
-        vertical_motions_agree: vertical(linear)[..shared] == vertical(semielliptical)[..shared],
         impact_phase_cycles: impacts
             .iter()
             .map(|collision| six_decimals(collision.state.phase.cycles()))

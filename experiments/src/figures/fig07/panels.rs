@@ -25,13 +25,13 @@ const COARSE: usize = 60;
 const LONGEST_PERIOD: usize = 64;
 
 pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
-    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(ExperimentError::model)?;
+    let vibration = Vibration::from_axial_forcing(axial_forcing)?;
     ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
 }
 
 pub(super) fn grid(top: f64, rows: usize, columns: usize) -> Result<Grid, ExperimentError> {
-    let phase = Axis::new(0.0, 1.0, columns).map_err(ExperimentError::model)?;
-    let speed = Axis::new(0.0, top, rows).map_err(ExperimentError::model)?;
+    let phase = Axis::new(0.0, 1.0, columns)?;
+    let speed = Axis::new(0.0, top, rows)?;
     Grid::new(phase, speed).map_err(ExperimentError::model)
 }
 
@@ -53,17 +53,16 @@ enum Route {
 
 fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
     let Some(period_one) = map.period_one(1) else { return Ok(Route::Gone) };
-    let orbit = map.refine(&[period_one]).map_err(ExperimentError::model)?;
+    let orbit = map.refine(&[period_one])?;
     if let Ok(radius) = orbit.trapping_radius(map, 64) {
         return KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model);
     }
     // Beyond the first doubling: leave the saddle along the phase.
-    let beside = Phase::new(period_one.phase().angle() + 1.0e-3).map_err(ExperimentError::model)?;
-    let beside = ImpactState::new(beside, period_one.velocity()).map_err(ExperimentError::model)?;
-    let survivor =
-        map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let beside = Phase::new(period_one.phase().angle() + 1.0e-3)?;
+    let beside = ImpactState::new(beside, period_one.velocity())?;
+    let survivor = map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete)?;
     let Some(state) = survivor else { return Ok(Route::Gone) };
-    let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
+    let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8)?;
     let periodic =
         settled.and_then(|orbit| orbit.trapping_radius(map, 64).ok().map(|radius| (orbit, radius)));
     let Some((orbit, radius)) = periodic else { return Ok(Route::Chaotic(state)) };
@@ -76,15 +75,14 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
     let mut known = vec![first.clone()];
     'search: while known.len() < 4 {
-        let basins = map.basins(grid, &known, settings).map_err(ExperimentError::model)?;
+        let basins = map.basins(grid, &known, settings)?;
         for (index, _) in basins.labels().iter().enumerate().filter(|(_, label)| **label == UNDECIDED) {
             let from = start(&grid, index / COARSE, index % COARSE)?;
-            let settled =
-                map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8).map_err(ExperimentError::model)?;
+            let settled = map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8)?;
             if let Some(orbit) = settled
                 && let Ok(radius) = orbit.trapping_radius(map, 64)
             {
-                known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
+                known.push(KnownOrbit::new(orbit, radius)?);
                 continue 'search;
             }
         }
@@ -98,11 +96,8 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
 fn chattering(map: &ImpactMap) -> Result<Vec<Spot>, ExperimentError> {
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(Vec::new()) };
     let mut spots = Vec::new();
-    for event in map.orbit_from_launch(
-        Launch::new(leaves, 0.0).map_err(ExperimentError::model)?,
-        bouncing_disk::PAPER_CHATTER,
-    ) {
-        match event.map_err(ExperimentError::model)? {
+    for event in map.orbit_from_launch(Launch::new(leaves, 0.0)?, bouncing_disk::PAPER_CHATTER) {
+        match event? {
             OrbitEvent::Impact(impact) => spots.push(spot(impact.into())),
             _ => {
                 spots.truncate(MARKED);
@@ -135,9 +130,7 @@ pub(super) fn panel(
         Route::Gone => (Vec::new(), LONGEST, STILL_OPEN),
     };
     let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
-    let basins = map
-        .basins_observed(grid(top, side, side)?, &known, settings, &advancing(progress))
-        .map_err(ExperimentError::model)?;
+    let basins = map.basins_observed(grid(top, side, side)?, &known, settings, &advancing(progress))?;
     let kinds: Vec<u8> = basins.labels().iter().map(|label| kind(*label, open)).collect();
     let share = |kind: u8| kinds.iter().filter(|own| **own == kind).count() as f64 / kinds.len() as f64;
     let attractor = match route {
@@ -197,7 +190,7 @@ pub(super) fn decay(map: &ImpactMap, top: f64, side: usize) -> Result<Vec<(u32, 
     let orbits = (0..side * side)
         .map(|index| Ok(map.orbit(start(&grid, index / side, index % side)?, ChatterPolicy::Complete)))
         .collect::<Result<Vec<_>, ExperimentError>>()?;
-    let lives = survival_times(&orbits, most as usize).map_err(ExperimentError::model)?;
+    let lives = survival_times(&orbits, most as usize)?;
     let share = |count: u32| {
         lives.iter().filter(|lived| **lived >= count as usize).count() as f64 / lives.len() as f64
     };

@@ -49,16 +49,14 @@ pub(super) fn along_window(
             let map = map(axial_forcing, section.restitution)?;
             let mut known = Vec::new();
             if let Some(state) = map.period_one(1) {
-                let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
+                let orbit = map.refine(&[state])?;
                 if let Ok(radius) = orbit.trapping_radius(&map, 64) {
-                    known.push(KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?);
+                    known.push(KnownOrbit::new(orbit, radius)?);
                 }
             }
             let highest = TOPS[TOPS.len() - 1];
             let settings = BasinSettings { max_impacts: LONGEST_ALONG, policy: ChatterPolicy::Complete };
-            let basins = map
-                .basins(grid(highest as f64, rows, columns)?, &known, settings)
-                .map_err(ExperimentError::model)?;
+            let basins = map.basins(grid(highest as f64, rows, columns)?, &known, settings)?;
             let shares = TOPS
                 .iter()
                 .map(|top| {
@@ -93,18 +91,14 @@ pub(super) fn beyond(
             let map = map(axial_forcing, section.restitution)?;
             let grid = grid(top, side, side)?;
             let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
-            let basins = map.basins(grid, &[], settings).map_err(ExperimentError::model)?;
+            let basins = map.basins(grid, &[], settings)?;
             let open = |label: &u8| *label == UNDECIDED;
             let mut period = None;
             if let Some(index) = basins.labels().iter().position(open) {
                 let from = start(&grid, index / side, index % side)?;
-                let survivor = map
-                    .state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)
-                    .map_err(ExperimentError::model)?;
+                let survivor = map.state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)?;
                 if let Some(state) = survivor {
-                    period = map
-                        .period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)
-                        .map_err(ExperimentError::model)?;
+                    period = map.period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)?;
                 }
             }
             Ok(Beyond {
@@ -131,14 +125,14 @@ pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, Expe
                 for index in 0..REST_PHASES {
                     let angle = leaves.angle() + falling * f64::from(index) / f64::from(REST_PHASES);
                     let phase = if index == 0 { Ok(leaves) } else { Phase::new(angle) };
-                    let phase = phase.map_err(ExperimentError::model)?;
+                    let phase = phase?;
                     let orbit = Launch::new(phase, 0.0)
                         .map(|launch| map.orbit_from_launch(launch, ChatterPolicy::Complete));
-                    orbits.push(orbit.map_err(ExperimentError::model)?);
+                    orbits.push(orbit?);
                 }
             }
             let longest = LONGEST_BEYOND as usize;
-            let lives = survival_times(&orbits, longest).map_err(ExperimentError::model)?;
+            let lives = survival_times(&orbits, longest)?;
             Ok(Rest {
                 axial_forcing,
                 starts: orbits.len(),
@@ -155,17 +149,15 @@ pub(super) fn traced(
     restitution: f64,
 ) -> Result<Option<Traced>, ExperimentError> {
     let Some(&(cycles, speed)) = other.impacts.first() else { return Ok(None) };
-    let first = bouncing_disk::core::ImpactState::from_normalised(2.0 * PI * cycles, speed)
-        .map_err(ExperimentError::model)?;
+    let first = bouncing_disk::core::ImpactState::from_normalised(2.0 * PI * cycles, speed)?;
     let steps = (TRACE_REACH / TRACE_STEP) as u32;
     // Γ and period as far as it can be followed: to a rest, or to the period-1 orbit.
     let trace = |direction: f64| -> Result<Vec<(f64, Option<usize>)>, ExperimentError> {
         let forcings = (0..=steps).map(|step| axial_forcing + direction * TRACE_STEP * f64::from(step));
         let mut passed = Vec::new();
         for at in follow_attractor(restitution, forcings, first, TRACE_IMPACTS, ChatterPolicy::Complete) {
-            let at = at.map_err(ExperimentError::model)?;
-            let period =
-                at.map.period_of(at.state, LONGEST_PERIOD, REPEATS_WITHIN).map_err(ExperimentError::model)?;
+            let at = at?;
+            let period = at.map.period_of(at.state, LONGEST_PERIOD, REPEATS_WITHIN)?;
             if period == Some(1) {
                 break;
             }

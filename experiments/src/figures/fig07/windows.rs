@@ -36,17 +36,16 @@ impl Cells {
         let map = map(forcing, restitution)?;
         let mut known = Vec::new();
         if let Some(state) = map.period_one(1) {
-            let orbit = map.refine(&[state]).map_err(ExperimentError::model)?;
+            let orbit = map.refine(&[state])?;
             if let Ok(radius) = orbit.trapping_radius(&map, 64) {
-                let first = KnownOrbit::new(orbit, radius).map_err(ExperimentError::model)?;
+                let first = KnownOrbit::new(orbit, radius)?;
                 known = others(&map, &first)?;
                 known.insert(0, first);
             }
         }
         let settings = BasinSettings { max_impacts: 20_000, policy: ChatterPolicy::Complete };
-        let basins = map
-            .basins_observed(grid(LARGEST_TOP, rows, columns)?, &known, settings, &advancing(progress))
-            .map_err(ExperimentError::model)?;
+        let basins =
+            map.basins_observed(grid(LARGEST_TOP, rows, columns)?, &known, settings, &advancing(progress))?;
         let kinds = basins.labels().iter().map(|label| kind(*label, STILL_OPEN)).collect();
         Ok(Self { kinds, columns })
     }

@@ -19,7 +19,7 @@ const PRELOADS: u32 = 9;
 const SYNTHETIC: u32 = 25;
 pub(super) const SEED: u64 = 9;
 
-/// Speeds of a curve that the line is fitted to, and the relative error that counts as rounding.
+/// Speeds of a curve that the line is fitted to.
 const SAMPLES: usize = 60;
 
 pub(super) fn compute(progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
@@ -55,9 +55,7 @@ pub(super) fn compute(progress: &dyn Progress) -> Result<Fig09Data, ExperimentEr
         curves,
         printed_mean,
         printed_deviation,
-        lowest_reference: paper::value("section5.lowest_reference_friction")?,
-        highest_reference: paper::value("section5.highest_reference_friction")?,
-        synthetic_spread: Spread::of(&frictions).map_err(ExperimentError::model)?,
+        synthetic_spread: Spread::of(&frictions)?,
         synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
         synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
         synthetic,
@@ -82,41 +80,37 @@ fn still_system(case: &MotorCase, preload_acceleration: f64) -> Result<System, E
         preload_acceleration,
         load_acceleration: 0.0,
     };
-    let platform = platform.build().map_err(ExperimentError::model)?;
-    System::new(platform, disk.build().map_err(ExperimentError::model)?).map_err(ExperimentError::model)
+    let platform = platform.build()?;
+    Ok(System::new(platform, disk.build()?)?)
 }
 
 /// The rotor on the still stator from `first_speed` to rest.
 fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Result<Curve, ExperimentError> {
     let system = still_system(case, preload_n / mass)?;
     let scales = system.scales();
-    let phase = Phase::new(0.0).map_err(|error| ExperimentError::model(bouncing_disk::Error::from(error)))?;
+    let phase = Phase::new(0.0)?;
     let start = InitialCondition::Contact { phase, angular_speed: first_speed / scales.angular_speed };
-    let mut engine = Engine::new(system, start, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
-    let braked = Trajectory::record(&mut engine, |record| record.event == Event::SlipToStick)
-        .map_err(ExperimentError::model)?;
+    let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
+    let braked = Trajectory::record(&mut engine, |record| record.event == Event::SlipToStick)?;
     let points: Vec<(f64, f64)> = braked
         .uniform(SAMPLES)
         .map(|snapshot| (scales.time_seconds(snapshot.time), scales.state(&snapshot.disk).angular_speed))
         .collect();
     let line = StraightLine::through(&points);
     let (slope, intercept) = line.map_or((f64::NAN, f64::NAN), |line| (line.slope, line.intercept));
-    let off = points.iter().map(|(t, speed)| (speed - intercept - slope * t).abs()).fold(0.0, f64::max);
     let friction = friction_from_braking(&Braking {
         angular_acceleration: slope,
         normal_force: preload_n,
         mass,
         contact_radius: case.contact_radius_m,
         gyration_radius: case.gyration_radius_m,
-    })
-    .map_err(ExperimentError::model)?;
+    })?;
     Ok(Curve {
         preload_n,
         time_s: points.iter().map(|point| point.0).collect(),
         angular_speed_rad_per_s: points.iter().map(|point| point.1).collect(),
         brake_rad_per_s2: slope,
         stop_s: -intercept / slope,
-        residual: off / first_speed,
         friction,
     })
 }

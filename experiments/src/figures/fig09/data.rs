@@ -16,8 +16,6 @@ pub struct Fig09Data {
     pub(super) curves: Vec<Curve>,
     pub(super) printed_mean: f64,
     pub(super) printed_deviation: f64,
-    pub(super) lowest_reference: f64,
-    pub(super) highest_reference: f64,
     /// Synthetic, not measured: preload (N) and μ.
     pub(super) synthetic: Vec<(f64, f64)>,
     pub(super) synthetic_spread: Spread,
@@ -42,8 +40,6 @@ pub(super) struct Curve {
     /// Slope of the line (rad/s²) and the time (s) at which it reaches 0.
     pub(super) brake_rad_per_s2: f64,
     pub(super) stop_s: f64,
-    /// Largest distance of the curve from its line, over the first speed.
-    pub(super) residual: f64,
     /// μ by Eq. (17).
     pub(super) friction: f64,
 }

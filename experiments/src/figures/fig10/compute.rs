@@ -48,7 +48,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
         for amplitude_m in amplitudes {
             let motor = MotorCase { amplitude_m, preload_acceleration_m_per_s2: preload, ..case };
             let settings = TransientSettings { duration, intervals: MEMBER_INTERVALS, ..defaults };
-            let runs = ensemble(&motor.system()?, &settings, members).map_err(ExperimentError::model)?;
+            let runs = ensemble(&motor.system()?, &settings, members)?;
             panels.push(transient(&motor, &runs, section.rotor_mass_kg())?);
             progress.advance(1);
         }
@@ -147,9 +147,9 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
         intervals: MEMBER_INTERVALS,
         ..TransientSettings::default()
     };
-    let runs = ensemble(&motor.system()?, &settings, 1).map_err(ExperimentError::model)?;
+    let runs = ensemble(&motor.system()?, &settings, 1)?;
     let (curve, fit) = (&runs.curves[0], runs.fits[0]);
-    let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+    let ramp = RampFit::new(&curve.times, &curve.speeds)?;
     let (lowest, highest) = (end(-1.0)?, end(1.0)?);
     Ok(Exception {
         amplitude_m: motor.amplitude_m,
@@ -183,14 +183,14 @@ fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<T
             .iter()
             .map(|curve| curve.speeds[range.clone()].iter().sum::<f64>() / per_point as f64)
             .collect();
-        let spread = Spread::of(&means).map_err(ExperimentError::model)?;
+        let spread = Spread::of(&means)?;
         time.push(0.5 * (member.times[range.start] + member.times[range.end - 1]));
         low.push(spread.mean - spread.deviation);
         high.push(spread.mean + spread.deviation);
     }
     let mut ramp_residual = 0.0;
     for curve in &runs.curves {
-        let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
+        let ramp = RampFit::new(&curve.times, &curve.speeds)?;
         ramp_residual += ramp.residual / ramp.steady_speed;
     }
     let inertia = mass * motor.gyration_radius_m * motor.gyration_radius_m;

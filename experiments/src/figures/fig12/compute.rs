@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;
-use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, core_error};
+use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
 use crate::paper;
@@ -148,12 +148,11 @@ struct Flown {
 fn flown(motor: &MotorCase, flights: usize, duration_s: f64) -> Result<Flown, ExperimentError> {
     let system = motor.system()?;
     let scales = system.scales();
-    let mut collisions =
-        Collisions::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut collisions = Collisions::new(system, start()?, ChatterPolicy::Complete)?;
     let mut flown = Flown { times_s: Vec::new(), speeds_rad_per_s: Vec::new() };
     let mut last = None;
     while flown.times_s.len() < flights
-        && let Some(event) = collisions.advance().map_err(ExperimentError::model)?
+        && let Some(event) = collisions.advance()?
     {
         let time = match event {
             CollisionEvent::Collision(collision) => {
@@ -185,11 +184,11 @@ fn is_short(motor: &MotorCase) -> Result<bool, ExperimentError> {
     let system = motor.system()?;
     let map = system.dimensionless().map();
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(false) };
-    let launch = Launch::new(leaves, 0.0).map_err(core_error)?;
+    let launch = Launch::new(leaves, 0.0)?;
     let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
     let mut flights = 0;
     while flights <= LOW_PERIOD_FLIGHTS {
-        match orbit.advance().map_err(core_error)? {
+        match orbit.advance()? {
             Some(OrbitEvent::Impact(impact)) => {
                 flights += usize::from(impact.periods > 0 || impact.remainder > LONG_FLIGHT);
             }
@@ -215,7 +214,7 @@ fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
 
 /// A rotor at rest on the stator at its lowest point.
 fn start() -> Result<InitialCondition, ExperimentError> {
-    Ok(InitialCondition::Contact { phase: Phase::new(1.5 * PI).map_err(core_error)?, angular_speed: 0.0 })
+    Ok(InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed: 0.0 })
 }
 
 fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {
@@ -258,11 +257,11 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
         relaunch_perturbation: 0.0,
         ..TransientSettings::default()
     };
-    let phase = Phase::new(1.5 * PI).map_err(core_error)?;
-    let curve = transient(&motor.system()?, phase, &settings).map_err(ExperimentError::model)?;
-    let exponential = curve.fit().map_err(ExperimentError::model)?;
-    let ramp = RampFit::new(&curve.times, &curve.speeds).map_err(ExperimentError::model)?;
-    let last = curve.mean_over_last(0.2).map_err(ExperimentError::model)?;
+    let phase = Phase::new(1.5 * PI)?;
+    let curve = transient(&motor.system()?, phase, &settings)?;
+    let exponential = curve.fit()?;
+    let ramp = RampFit::new(&curve.times, &curve.speeds)?;
+    let last = curve.mean_over_last(0.2)?;
     let points = || curve.times.iter().copied().zip(curve.speeds.iter().copied());
     let reached_s = points().find(|(_, speed)| (speed - last).abs() <= REACHED_WITHIN * last.abs());
     let reached_s = reached_s.map(|point| point.0);
@@ -331,10 +330,9 @@ fn zoom(
 ) -> Result<Zoom, ExperimentError> {
     let system = motor.system()?;
     let scales = system.scales();
-    let mut engine =
-        Engine::new(system, start()?, ChatterPolicy::Complete).map_err(ExperimentError::model)?;
+    let mut engine = Engine::new(system, start()?, ChatterPolicy::Complete)?;
     let mut started = false;
-    while let Some(record) = engine.advance().map_err(ExperimentError::model)? {
+    while let Some(record) = engine.advance()? {
         started = scales.time_seconds(record.time) >= from_s;
         if started && record.event == bouncing_disk::Event::Separation {
             break;
@@ -348,8 +346,7 @@ fn zoom(
         let flight = matches!(record.event, bouncing_disk::Event::Impact { .. });
         seen += usize::from(flight && record.span.radians() > PI);
         seen >= flights && (low.is_none() || record.event == bouncing_disk::Event::Separation)
-    })
-    .map_err(ExperimentError::model)?;
+    })?;
     let first = flown.0.partition_point(|time| *time < from_s);
     let many = LINE_CYCLES * cycle.flights().filter(|_| cycle.is_low_period()).unwrap_or_default();
     let of_lines = |values: &[f64]| values.iter().skip(first).take(many).copied().collect();

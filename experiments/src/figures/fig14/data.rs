@@ -32,19 +32,19 @@ pub struct Fig14Data {
     pub synthetic_slope_per_s: f64,
     /// Standard error of that slope (1/s).
     pub synthetic_slope_error_per_s: f64,
-    /// Other seeds, and the share of them whose slope lies within two standard errors of the printed one.
-    pub records: u32,
-    /// See `records`.
-    pub recovered_share: f64,
     /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth
     /// of one toss (rad/s).
     pub airborne_speed_change_rad_per_s: f64,
-    /// The printed uncertainty of the measured launch speed (rad/s).
-    pub measured_uncertainty_rad_per_s: f64,
     /// Share of its rotation, in per cent, that a dough loses which grows so much while it flies: its angular
     /// momentum does not change.
     pub flight_spin_loss_percent: f64,
     /// A user's own diameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Growth>,
+}
+
+impl Fig14Data {
+    pub(super) fn on_line(&self, time: f64) -> f64 {
+        1.0 + self.slope_per_s * (time - self.start_s)
+    }
 }

@@ -4,21 +4,16 @@ use super::data::Table1Data;
 use crate::claim::{Cases, Claim};
 use crate::figures::uncertainty::Propagated;
 
-const ID: &str = "table1";
-
-/// The relations of Eqs. (13) and (15) must hold to this share: they are identities, and the rest is
-/// rounding.
+/// Two speeds that are the same differ by no more than this share: rounding.
 const ROUNDING: f64 = 1e-14;
 /// A length along a polygon of hundreds of points of a straight line adds as many roundings.
 const LENGTH: f64 = 1e-12;
 
 pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
     let entries = &data.computed_entries;
-    let (start, components, fastest) = (&data.start, &data.components, &data.fastest);
-    let (arc, restitution) = (&data.arc, &data.restitution);
+    let arc = &data.arc;
     let (frequency, angle, friction) =
         ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
-    let corrected = data.separation.corrected_angular_frequency_rad_per_s;
     vec![
         over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
         combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
@@ -26,28 +21,10 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
         over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
         combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
             .note("the effects of c, a_e and the launch speeds"),
-        Claim::reading(ID, frequency, "ω by Eq. (14) with the launch speeds taken at τ_sep", corrected.value),
         over_alike(friction, entries.friction.value, data.alike.friction)
             .note(format!("tan({}°)", data.slip_slope_deg.value)),
         over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
             .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
-        Claim::printed_statement(
-            "section3.start_is_lowest",
-            (start.height_over_amplitude + 1.0).abs() <= ROUNDING
-                && start.velocity_over_largest.abs() <= ROUNDING,
-            format!(
-                "there s/A = {}, and ṡ/(Aω) = {:.1e}",
-                start.height_over_amplitude, start.velocity_over_largest
-            ),
-        ),
-        Claim::printed_statement(
-            "section3.stroke_components",
-            components.stroke_deviation <= ROUNDING && components.angle_deviation_rad <= ROUNDING,
-            format!(
-                "at {} angles from 0 to π/2: A² + (a_e Φ)² = c² to {:.1e} and arctan L = φ_L to {:.1e} rad",
-                components.angles, components.stroke_deviation, components.angle_deviation_rad
-            ),
-        ),
         Claim::printed_statement(
             "section3.arc_length",
             (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
@@ -62,31 +39,7 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
             ),
         )
         .cause("half of the arc called the arc"),
-        Claim::printed_statement(
-            "section3.restitution_is_no_input",
-            (!restitution.tried.is_empty()).then_some(
-                restitution.speed_deviation_rad_per_s <= 0.0 && restitution.efficiency_deviation <= 0.0,
-            ),
-            format!(
-                "at ε = {:?}, for {} phase lags and both initial states the airborne speed differs by {} rad/s and the efficiency by {}: \
-                 there is no impact before the separation. The initial state does matter for θ ≠ 0; the text says \"at rest\" (Sec. III A) and \
-                 \"at rest relative to the hand\" (Sec. I), see fig04",
-                restitution.tried,
-                restitution.phase_lags_rad.len(),
-                restitution.speed_deviation_rad_per_s,
-                restitution.efficiency_deviation
-            ),
-        ),
         launch_without_slip(data),
-        Claim::printed_statement(
-            "section3.fastest_hand_phase",
-            (fastest.smallest_there - 1.0).abs() <= ROUNDING && fastest.largest_elsewhere < 1.0,
-            format!(
-                "for {} phase lags from −π to π |β̇| is at least {} ωΦ at τ = −θ and π − θ, and at most {:.3} ωΦ \
-                 further than a hundredth of a period from these",
-                fastest.lags, fastest.smallest_there, fastest.largest_elsewhere
-            ),
-        ),
     ]
 }
 

@@ -1,35 +1,22 @@
 //! What is computed for Table I.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::PI;
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::core::elementary::{acos, asin, atan2, hypot, tan};
-use bouncing_disk::{InitialSpin, LaunchSpeeds, Platform, Stroke, System, single_toss};
+use bouncing_disk::core::elementary::{acos, asin, hypot, tan};
+use bouncing_disk::{LaunchSpeeds, Platform, Stroke, System};
 
-use super::data::{
-    Alike, Arc, AtSeparation, AtStart, Components, ComputedEntries, Fastest, Restitution, Row, Table1Data,
-};
+use super::data::{Alike, Arc, AtSeparation, ComputedEntries, Row, Table1Data};
 use crate::catalogue;
 use crate::experiment::ExperimentError;
 use crate::figures::hand_path::HandPath;
-use crate::figures::motor_case::core_error;
 use crate::figures::printed_inputs::{DRAWN, agreement, draws};
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
 use crate::paper::{self, SectionThree, TableOne, Uncertain};
 
-/// Amplitude angles at which Eq. (13), and phase lags at which Eq. (15) is checked.
-const CHECKED: u32 = 64;
-/// Phases of a period at which the hand's speed is looked at.
-const PHASES: u32 = 400;
-/// Phases this close (rad) to the fastest ones count as the same.
-const NEIGHBOURHOOD: f64 = TAU / 100.0;
 /// Pieces of a period of the hand's path; its ends are among their ends.
 const PIECES: u32 = 400;
-/// Coefficients of restitution and phase lags of the tosses that are compared.
-const RESTITUTIONS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 0.99];
-const COMPARED_LAGS: [f64; 4] = [0.0, FRAC_PI_2, PI, -FRAC_PI_2];
-
 pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
     let table_i = paper::table_one()?;
     let section = paper::section_three()?;
@@ -40,18 +27,9 @@ pub(super) fn compute() -> Result<Table1Data, ExperimentError> {
     let rows = rows(&table_i, &computed_entries, &separation)?;
     let case = TossCase::from(&table_i);
     let system = case.system()?;
-    let start = Phase::new(bouncing_disk::TOSS_START).map_err(core_error)?;
     let platform = system.platform();
     Ok(Table1Data {
-        start: AtStart {
-            height_over_amplitude: platform.height(start) / platform.amplitude(),
-            velocity_over_largest: platform.velocity(start)
-                / (platform.amplitude() * platform.angular_frequency()),
-        },
-        components: components(&case)?,
-        fastest: fastest(&case)?,
         arc: arc(&case, platform)?,
-        restitution: restitution(&case)?,
         alike: alike(slip_slope_deg.uncertainty)?,
         table_i,
         section,
@@ -77,10 +55,8 @@ fn computed_entries(
     Ok(ComputedEntries {
         angular_frequency_rad_per_s: Propagated::of(inputs, |at| {
             stroke(at).map(|stroke| stroke.angular_frequency)
-        })
-        .map_err(ExperimentError::model)?,
-        amplitude_angle_rad: Propagated::of(inputs, |at| stroke(at).map(|stroke| stroke.amplitude_angle))
-            .map_err(ExperimentError::model)?,
+        })?,
+        amplitude_angle_rad: Propagated::of(inputs, |at| stroke(at).map(|stroke| stroke.amplitude_angle))?,
         friction: Propagated::of([slip_slope_deg], |[slope]| {
             Ok::<_, ExperimentError>(tan(PI / 180.0 * slope))
         })?,
@@ -98,11 +74,7 @@ fn alike(uncertainty_deg: f64) -> Result<Alike, ExperimentError> {
         ("table1.stroke", 0),
         ("table1.contact_radius", 0),
     ];
-    let strokes = draws(launch, DRAWN, SEED)?
-        .into_iter()
-        .map(stroke)
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(ExperimentError::model)?;
+    let strokes = draws(launch, DRAWN, SEED)?.into_iter().map(stroke).collect::<Result<Vec<_>, _>>()?;
     let slopes = draws([("section3.slip_slope", 0)], DRAWN, SEED)?;
     let tangent = |slope: f64| tan(PI / 180.0 * slope);
     // Both ends of the slope's range are printed to whole degrees.
@@ -175,43 +147,6 @@ fn separation(system: &System) -> Result<Phase, ExperimentError> {
     })
 }
 
-fn components(case: &TossCase) -> Result<Components, ExperimentError> {
-    let (mut stroke_deviation, mut angle_deviation) = (0.0_f64, 0.0_f64);
-    for index in 0..=CHECKED {
-        let angle = FRAC_PI_2 * f64::from(index) / f64::from(CHECKED);
-        let system = case.at_angle(angle).system()?;
-        let rim = case.contact_radius_m * system.platform().twist_amplitude();
-        let amplitude = system.platform().amplitude();
-        stroke_deviation = stroke_deviation.max((hypot(amplitude, rim) / case.stroke_m - 1.0).abs());
-        angle_deviation = angle_deviation.max((atan2(rim, amplitude) - angle).abs());
-    }
-    Ok(Components { angles: CHECKED as usize + 1, stroke_deviation, angle_deviation_rad: angle_deviation })
-}
-
-fn fastest(case: &TossCase) -> Result<Fastest, ExperimentError> {
-    let (mut smallest_there, mut largest_elsewhere) = (f64::INFINITY, 0.0_f64);
-    for index in 0..=CHECKED {
-        let lag = TAU * f64::from(index) / f64::from(CHECKED) - PI;
-        let system = case.at_lag(lag).system()?;
-        let platform = system.platform();
-        let share = |phase: f64| -> Result<f64, ExperimentError> {
-            let phase = Phase::new(phase).map_err(core_error)?;
-            Ok(platform.angular_speed(phase).abs() / platform.peak_angular_speed())
-        };
-        for half_turns in [0.0, PI] {
-            smallest_there = smallest_there.min(share(half_turns - lag)?);
-        }
-        for step in 0..PHASES {
-            let offset = TAU * f64::from(step) / f64::from(PHASES);
-            // The distance to the nearer of 0, π and 2π.
-            if offset.min((offset - PI).abs()).min(TAU - offset) > NEIGHBOURHOOD {
-                largest_elsewhere = largest_elsewhere.max(share(offset - lag)?);
-            }
-        }
-    }
-    Ok(Fastest { lags: CHECKED as usize + 1, smallest_there, largest_elsewhere })
-}
-
 fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
     let path = HandPath::new(platform, PIECES)?;
     let per_period_m = path.length(case.contact_radius_m);
@@ -220,31 +155,6 @@ fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
         length_m: 0.5 * per_period_m,
         half_m: hypot(platform.amplitude(), case.contact_radius_m * platform.twist_amplitude()),
         per_period_m,
-    })
-}
-
-fn restitution(case: &TossCase) -> Result<Restitution, ExperimentError> {
-    let (mut speed, mut efficiency) = (0.0_f64, 0.0_f64);
-    for lag in COMPARED_LAGS {
-        for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
-            let tosses = RESTITUTIONS
-                .into_iter()
-                .map(|restitution| {
-                    single_toss(&case.at_lag(lag).system_with(restitution)?, initial)
-                        .map_err(ExperimentError::model)
-                })
-                .collect::<Result<Vec<_>, _>>()?;
-            for toss in &tosses {
-                speed = speed.max((toss.airborne_speed - tosses[0].airborne_speed).abs());
-                efficiency = efficiency.max((toss.efficiency - tosses[0].efficiency).abs());
-            }
-        }
-    }
-    Ok(Restitution {
-        tried: RESTITUTIONS.to_vec(),
-        phase_lags_rad: COMPARED_LAGS.to_vec(),
-        speed_deviation_rad_per_s: speed,
-        efficiency_deviation: efficiency,
     })
 }
 

@@ -15,11 +15,7 @@ pub struct Table1Data {
     pub(super) rows: Vec<Row>,
     pub(super) computed_entries: ComputedEntries,
     pub(super) separation: AtSeparation,
-    pub(super) start: AtStart,
-    pub(super) components: Components,
-    pub(super) fastest: Fastest,
     pub(super) arc: Arc,
-    pub(super) restitution: Restitution,
     pub(super) alike: Alike,
 }
 
@@ -42,18 +38,6 @@ pub(super) struct Arc {
     pub(super) half_m: f64,
     /// How far the hand moves in a period.
     pub(super) per_period_m: f64,
-}
-
-/// Tosses that differ in the restitution only.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Restitution {
-    pub(super) tried: Vec<f64>,
-    /// Phase lags of the tosses; each with both initial states.
-    pub(super) phase_lags_rad: Vec<f64>,
-    /// Largest difference of the airborne speed from that at the first restitution (rad/s).
-    pub(super) speed_deviation_rad_per_s: f64,
-    /// The same for the efficiency.
-    pub(super) efficiency_deviation: f64,
 }
 
 /// One line of the table.
@@ -94,31 +78,4 @@ pub(super) struct AtSeparation {
     pub(super) corrected_angular_frequency_rad_per_s: Propagated,
     /// It over that of Eq. (14), minus 1.
     pub(super) angular_frequency_change: f64,
-}
-
-/// The hand at τ_0 = 3π/2.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct AtStart {
-    pub(super) height_over_amplitude: f64,
-    pub(super) velocity_over_largest: f64,
-}
-
-/// Eq. (13) over amplitude angles from 0 to π/2.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Components {
-    pub(super) angles: usize,
-    /// Largest |sqrt(A² + (a_e Φ)²)/c − 1|.
-    pub(super) stroke_deviation: f64,
-    /// Largest |arctan(a_e Φ/A) − φ_L|.
-    pub(super) angle_deviation_rad: f64,
-}
-
-/// Eq. (15), first part, over phase lags from −π to π.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Fastest {
-    pub(super) lags: usize,
-    /// Smallest |β̇|/(ωΦ) at τ = −θ and π − θ.
-    pub(super) smallest_there: f64,
-    /// Largest |β̇|/(ωΦ) at phases further than a hundredth of a period from these.
-    pub(super) largest_elsewhere: f64,
 }

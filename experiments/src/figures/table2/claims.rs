@@ -3,8 +3,6 @@
 use super::data::Table2Data;
 use crate::claim::Claim;
 
-const ID: &str = "table2";
-
 pub(super) fn claims(data: &Table2Data) -> Vec<Claim> {
     let mut claims = Vec::new();
     for effect in &data.effects {
@@ -14,29 +12,20 @@ pub(super) fn claims(data: &Table2Data) -> Vec<Claim> {
             effect.upper_rad_per_s, effect.lower_rad_per_s
         )));
     }
-    claims.extend(together(data));
+    claims.push(together(data));
     claims
 }
 
-/// The uncertainty of all inputs together, by the usual rule and by the one that Table I follows.
-fn together(data: &Table2Data) -> [Claim; 2] {
+/// The uncertainty of all inputs together, by the usual rule.
+fn together(data: &Table2Data) -> Claim {
     const KEY: &str = "section3.predicted_airborne_speed_uncertainty";
     let combined = &data.combined;
-    [
-        Claim::printed(KEY, combined.root_sum_of_squares_rad_per_s).note(format!(
+    Claim::printed(KEY, combined.root_sum_of_squares_rad_per_s).note(format!(
             "root of the sum of squares; the largest single effect is {:.1} and the root sum of squares of the others {:.1}, both of which print as the \
              paper's number; ω and φ_L are not independent of c and a_e: with both launch speeds, c, a_e, a_g and μ as independent inputs it is {:.1}",
             combined.largest_rad_per_s,
             combined.without_largest_rad_per_s,
             data.uncertainty_from_launch_speeds_rad_per_s
         ))
-        .cause("±5 is no sum of the effects"),
-        Claim::reading(
-            ID,
-            KEY,
-            "the same as the plain sum of the effects, by which Table I's own uncertainties come out",
-            combined.sum_rad_per_s,
-        )
-        .note("no rule of both gives the printed number"),
-    ]
+        .cause("±5 is no sum of the effects")
 }

@@ -135,7 +135,7 @@ fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<f64, E
     let airborne_speed =
         |[axial_speed, angular_speed, stroke, contact_radius, gyration_radius, friction]: [f64; 6]| {
             let launch = LaunchSpeeds { axial_speed, angular_speed, stroke, contact_radius };
-            let stroke = Stroke::from_launch_speeds(launch).map_err(ExperimentError::model)?;
+            let stroke = Stroke::from_launch_speeds(launch)?;
             TossCase {
                 stroke_m: stroke.stroke,
                 contact_radius_m: contact_radius,
