@@ -305,7 +305,7 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
         within_limit: Cases::of(
             motors
                 .iter()
-                .filter(|motor| !motor.cycle.is_low_period())
+                .filter(|motor| motor.is_exponential())
                 .filter_map(|motor| motor.stall_over_limit)
                 .map(|stall| stall <= 1.0),
         ),

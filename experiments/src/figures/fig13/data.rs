@@ -162,7 +162,7 @@ pub(super) struct Prevalence {
     pub(super) share_up_to: Vec<(usize, f64)>,
     /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in lines.
     pub(super) share_of_short: f64,
-    /// Of the motors of long period that settle, how many have an α̇_ss/t_c of at most the limit μ a_e g/a_g².
+    /// Of the motors that settle and whose rise is exponential, how many have an α̇_ss/t_c of at most the limit μ a_e g/a_g².
     pub(super) within_limit: Cases,
     /// Medians over the motors: steady speed over ωΦ; α̇_ss/t_c over the limit, over those that settle.
     pub(super) median_speed_ratio: f64,
