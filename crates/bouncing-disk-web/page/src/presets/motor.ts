@@ -56,8 +56,9 @@ export const MOTOR_FIGURES: readonly Preset[] = [
     title: "Run-up of the motor",
     text:
       "Impacts drag the rotor along to its steady speed, nearly exponentially, and more roughly where a larger " +
-      "amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², is caught in a short cycle: its " +
-      "rise bends from 12 to 5 rad/s² and then breaks off, after which the speed stays at 16.6 rad/s. The measured " +
+      "amplitude makes them fewer and harder; (a), at exactly 1 nm and 9.8 m/s², repeats a short cycle: its rise " +
+      "bends from 12 to 5 rad/s² and then breaks off, after which the speed stays at 16.6 rad/s. No motor could be " +
+      "set to it: less than 0.05 % of the preload undoes it. The measured " +
       "runs (d) to (f) are not in the paper's text, so they are not here either.",
     opens: 1,
     panels: [
@@ -89,7 +90,7 @@ export const MOTOR_FIGURES: readonly Preset[] = [
       "A long chattering cycle averages over many impacts, and the speed approaches its limit exponentially; a " +
       "short one adds the same impulses again and again, and the speed rises on straight lines and stops " +
       "abruptly. The printed amplitude of the second case gives a long cycle; short ones stand next to it, " +
-      "which the motor view marks as traps.",
+      "each narrower than 0.05 % of the preload.",
     panels: [
       motor("(a) long", { amplitude: 1e-7, preload_acceleration: 0.5 }),
       motor("(d) short, as printed", { amplitude: 1e-8, preload_acceleration: 1 }),
