@@ -64,7 +64,8 @@ fn map(peak_acceleration: f64, restitution: f64) -> ImpactMap {
 
 /// The first impact after a launch.
 fn first_impact(map: &ImpactMap, launch: Launch) -> ImpactState {
-    let next = map.orbit_from_launch(launch, ChatterPolicy::Complete).next().expect("endless").expect("flies");
+    let next =
+        map.orbit_from_launch(launch, ChatterPolicy::Complete).next().expect("endless").expect("flies");
     match next {
         OrbitEvent::Impact(impact) => impact.into(),
         other => panic!("{other:?}"),
@@ -107,9 +108,8 @@ impl Checked<'_> {
             }
         };
         let grid = if self.entry.inputs.contains_key("grid") { self.input("grid") } else { 0.0 };
-        let near = |target: &PrintedNumber| {
-            (number - target.value).abs() <= target.half_unit.max(grid) * ROUNDING
-        };
+        let near =
+            |target: &PrintedNumber| (number - target.value).abs() <= target.half_unit.max(grid) * ROUNDING;
         !targets.is_empty() && targets.iter().all(near)
     }
 
@@ -121,7 +121,8 @@ impl Checked<'_> {
         let launch = Launch::new(Phase::new(0.0).expect("legal"), 2.0 * frequency - frequency * frequency);
         let first = first_impact(&map, launch.expect("rises"));
         let settings = VerdictSettings { transient: 3_000, impacts: 6_000, ..VerdictSettings::default() };
-        let Verdict::Periodic { impacts, mut state, .. } = map.verdict(first, settings).expect("decided") else {
+        let Verdict::Periodic { impacts, mut state, .. } = map.verdict(first, settings).expect("decided")
+        else {
             return Vec::new();
         };
         let mut speeds = Vec::new();
@@ -255,7 +256,8 @@ fn every_input_and_every_printed_number_stands_in_the_text() {
         for own in ["inputs", "statements"] {
             members.remove(own);
         }
-        let text = members.values().map(|value| value.as_str().map_or_else(|| value.to_string(), str::to_owned));
+        let text =
+            members.values().map(|value| value.as_str().map_or_else(|| value.to_string(), str::to_owned));
         let text = text.collect::<Vec<_>>().join("\n");
         let own = entry.statements.iter().flat_map(|statement| statement.inputs.values());
         for input in entry.inputs.values().chain(own) {
