@@ -104,14 +104,6 @@ pub enum ExperimentError {
         /// The number or statement.
         quantity: String,
     },
-    /// A search ended without an answer: whether there is what it looked for is not known.
-    #[error("the search for \"{quantity}\" ended without an answer")]
-    Search {
-        /// What was looked for.
-        quantity: String,
-        /// Why it ended.
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
     /// A user's measurements cannot be used.
     #[error(transparent)]
     Measured(#[from] MeasuredError),

@@ -179,7 +179,7 @@ mod tests {
         folder.write_set("demo", Quality::Draft, "", 0.25, &files).expect("writable");
         let summary = Summary::of(&entries, &folder, &Measurements::none()).expect("readable");
         assert!(summary.claims.contains("\"verdict\": \"reproduced\""), "{}", summary.claims);
-        assert!(summary.page.contains("τ<sub>imp</sub> &amp; Γ &lt; 1"));
+        assert!(summary.page.contains("τ_imp &amp; Γ &lt; 1"));
         assert_eq!(summary.outdated(&folder).expect("readable"), [CLAIMS_FILE, PAGE_FILE]);
         assert_eq!(Summary::update(&entries, &folder, &Measurements::none()).expect("writable"), summary);
         assert!(summary.outdated(&folder).expect("readable").is_empty());

@@ -217,10 +217,10 @@ mod tests {
     #[test]
     fn a_very_soft_spring_presses_like_the_constant_preload_of_the_engine() {
         for (launch, constant) in motors() {
-            let spring = Spring { middle: launch.height, deflection: 1e12 };
+            let spring = Spring { middle: launch.height, deflection: 1e16 };
             let there = launch.impact(&spring).expect("lands");
             assert!((there.duration - constant.duration).abs() < 1e-6, "{there:?} {constant:?}");
-            assert!((there.velocity / constant.velocity - 1.0).abs() < 1e-6, "{there:?} {constant:?}");
+            assert!((there.velocity / constant.velocity - 1.0).abs() < 1e-8, "{there:?} {constant:?}");
         }
     }
 }
