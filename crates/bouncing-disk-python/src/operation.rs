@@ -1,7 +1,8 @@
 //! Motors under a load: operating points, curves, stall, the best phase lag.
 
 use bouncing_disk::{
-    Estimate, InputSpread, InputTolerance, Motor as Model, OperatingPoint, OperatingSettings, Operation, Shortfall,
+    Estimate, InputSpread, InputTolerance, Motor as Model, OperatingPoint, OperatingSettings, Operation,
+    Shortfall,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -331,8 +332,16 @@ pub(crate) fn input_spreads<'py>(
         None => Ok(vec![motor.stall_spread_observed(&settings, &tolerance, observer)?]),
     })?;
     let class = |spread: InputSpread| {
-        let InputSpread { mean, standard_deviation, from_to: [low, high], draws, without, unsettled, trapped, .. } =
-            spread;
+        let InputSpread {
+            mean,
+            standard_deviation,
+            from_to: [low, high],
+            draws,
+            without,
+            unsettled,
+            trapped,
+            ..
+        } = spread;
         let fields = (
             (mean.value, mean.standard_error, standard_deviation.value, standard_deviation.standard_error),
             ((low, high), draws, without, unsettled, trapped),

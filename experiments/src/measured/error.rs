@@ -99,7 +99,7 @@ pub enum LineFault {
     #[error("{0} is not a number; legal is {1}")]
     NotANumber(Excerpt, Range),
     /// A number is outside its legal range, or so large or small that there is no such double.
-    #[error("{} is not legal; legal is {1}", .0.bare())]
+    #[error("{value} is not legal; legal is {1}", value = .0.bare())]
     OutOfRange(Excerpt, Range),
     /// A number is in the range of its column, but the figure has no place for it.
     #[error("{0} is not legal; legal is {1}")]

@@ -267,8 +267,10 @@ fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Res
     let step = |windows: &Windows| windows.duration / INTERVALS as f64;
     let all = || model.windows.iter().zip(model.transients);
     // Variances of errors are not looked at here.
-    let windows = all().map(|(own, transient)| Windows::of(transient, model.settings.windows, 0.0, step(own)));
-    let moved = Model { windows: windows.collect(), ..*model }.members(std::slice::from_ref(places), watch)?;
+    let windows =
+        all().map(|(own, transient)| Windows::of(transient, model.settings.windows, 0.0, step(own)));
+    let moved =
+        Model { windows: windows.collect(), ..*model }.members(std::slice::from_ref(places), watch)?;
     let gained = mean_of(&moved[0]) - mean_of(&local.members);
     let rest = weights.apply(&(model.measured() - &local.smooth));
     let response = directions.response();

@@ -185,7 +185,7 @@ impl Motor {
     /// How far the mean speed (rad/s) lies apart under each of these load torques (N m) over the tolerances of the inputs:
     /// what stands beside the errors of [`Self::torque_speed_curve`] with the same settings. `None` where fewer than four
     /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve of 16 members:
-    /// all cost COST curves.
+    /// all cost some six curves.
     ///
     /// ```
     /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
@@ -241,8 +241,7 @@ impl Motor {
     }
 
     /// How far the stall load (N m) lies apart over the tolerances of the inputs: what stands beside the error of
-    /// [`Self::stall_load`] with the same settings, and costs two to ten of it. `None` where fewer than four draws have a
-    /// stall load.
+    /// [`Self::stall_load`] with the same settings, and costs up to nine of it. The stall load of a draw may be below zero.
     ///
     /// # Errors
     /// Those of [`Self::speed_spreads`].
@@ -265,8 +264,7 @@ impl Motor {
         tolerance: &InputTolerance,
         observer: &dyn Observer,
     ) -> Result<Option<InputSpread>, Error> {
-        let shares: Vec<f64> =
-            (1..2 * STALL_STEPS).map(|k| k as f64 / STALL_STEPS as f64 - 1.0).collect();
+        let shares: Vec<f64> = (1..2 * STALL_STEPS).map(|k| k as f64 / STALL_STEPS as f64 - 1.0).collect();
         let loaded = |motor: &Self, shares: &[f64]| {
             let (own, largest) = (LoadedMotor::of(motor), motor.largest_torque());
             shares.iter().map(|share| own.with_load(share * largest)).collect::<Result<Vec<_>, Error>>()

@@ -141,7 +141,8 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
             (from + part * (to - from), unresolved(&speed, shares.len(), above - 1) * (to - from))
         }
         _ => {
-            let (end, limit) = if above.is_some() { (shares[0], -1.0) } else { (shares[shares.len() - 1], 1.0) };
+            let (end, limit) =
+                if above.is_some() { (shares[0], -1.0) } else { (shares[shares.len() - 1], 1.0) };
             (0.5 * (end + limit), (limit - end).abs() / EVEN)
         }
     }

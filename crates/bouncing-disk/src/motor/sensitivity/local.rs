@@ -394,7 +394,8 @@ impl Line {
             centre: y - slope * x,
             slope,
             // Half of Student's interval over 1.96, as of all estimates.
-            slope_error: (variance / square).sqrt() * student_quantile(values.len() as f64 - 2.0) / NORMAL_975,
+            slope_error: (variance / square).sqrt() * student_quantile(values.len() as f64 - 2.0)
+                / NORMAL_975,
             scatter: variance.sqrt(),
         }
     }

@@ -50,8 +50,7 @@ pub fn shared_transients(
     settings: &TransientSettings,
 ) -> Result<Vec<SpeedCurve>, Error> {
     let watch = Watch::begin(&Unobserved, 0, settings.intervals as u64)?;
-    let curves =
-        with_instructions(systems, phase, settings, InstructionSet::best(), &mut watch.work())?;
+    let curves = with_instructions(systems, phase, settings, InstructionSet::best(), &mut watch.work())?;
     watch.end();
     Ok(curves)
 }

@@ -110,7 +110,8 @@ fn lines_have_the_errors_of_textbooks() {
     // Student's with two degrees of freedom.
     assert!((line.slope - 2.2).abs() < 1e-14 && (line.centre - 2.9).abs() < 1e-14);
     assert!(
-        (line.scatter - 0.9_f64.sqrt()).abs() < 1e-14 && (line.slope_error - 0.18_f64.sqrt() * 4.302_652_729_911_28 / NORMAL_975).abs() < 1e-14
+        (line.scatter - 0.9_f64.sqrt()).abs() < 1e-14
+            && (line.slope_error - 0.18_f64.sqrt() * 4.302_652_729_911_28 / NORMAL_975).abs() < 1e-14
     );
 }
 

@@ -36,8 +36,7 @@ fn varied(base: &System, count: u32) -> Vec<System> {
 fn assert_as_alone(systems: &[System], phase: Phase, settings: &TransientSettings) {
     for set in InstructionSet::available() {
         let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
-        let curves =
-            with_instructions(systems, phase, settings, set, &mut watch.work()).expect("no failure");
+        let curves = with_instructions(systems, phase, settings, set, &mut watch.work()).expect("no failure");
         assert_eq!(curves.len(), systems.len());
         for (system, curve) in systems.iter().zip(&curves) {
             let alone = transient(system, phase, settings).expect("no failure");
