@@ -11,7 +11,7 @@ mod layout;
 mod parse;
 mod series;
 
-pub use error::MeasuredError;
+pub use error::{LineFault, MeasuredError};
 pub use folder::Measurements;
 pub use layout::{Column, LARGEST, LARGEST_FILE, Layout, MOST_ROWS, Range, Role, SMALLEST, TINIEST};
 pub use series::Series;

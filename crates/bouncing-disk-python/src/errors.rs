@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use bouncing_disk::core::{Error as CoreError, NoCrisis};
-use bouncing_disk::{Error, MotorFileError};
-use pyo3::exceptions::PyRuntimeError;
+use bouncing_disk::{Error, MeasuredSpeedsError, MotorFileError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
@@ -225,6 +225,20 @@ pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError, names: &[Nam
         _ => Vec::new(),
     };
     raise(py, error.to_string(), Raised::Invalid("text", details))
+}
+
+/// The exception of measured speeds that cannot be read.
+pub(crate) fn of_measured(py: Python<'_>, error: &MeasuredSpeedsError) -> PyErr {
+    match error {
+        MeasuredSpeedsError::Unreadable { source, .. } => PyOSError::new_err(format!("{error}: {source}")),
+        MeasuredSpeedsError::Model(error) => of(py, *error),
+        _ => invalid_text(py, error),
+    }
+}
+
+/// The exception of a text that means nothing, by what is said of it.
+pub(crate) fn invalid_text(py: Python<'_>, error: &dyn std::error::Error) -> PyErr {
+    raise(py, error.to_string(), Raised::Invalid("text", Vec::new()))
 }
 
 /// The exception of a JSON text that cannot be read.

@@ -1,14 +1,19 @@
 //! Fits of transients.
 
+use std::path::PathBuf;
+use std::str::FromStr;
+
 use bouncing_disk::{
-    Error, ExponentialFit, FitSettings, IntervalEstimate, RiseEstimate, RiseForm, TransientFit,
+    CsvColumns, Error, ExponentialFit, FitSettings, IntervalEstimate, MeasuredSpeeds, RiseEstimate, RiseForm,
+    TransientFit, UnknownUnit,
 };
+use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, columns, row};
 use crate::names::{Name, derived, name};
 use crate::real::Real;
-use crate::{long_call, results};
+use crate::{errors, long_call, results};
 
 /// What the library calls the curves that are fitted.
 pub(crate) const NAMES: [Name; 8] = [
@@ -159,4 +164,55 @@ pub(crate) fn fit_transients<'py>(
     let fields =
         (exponential, ramp, form, fit.start_time, fit.zero_time(), fit.duration, fit.points, fit.members);
     results::make(py, "TransientFit", fields)
+}
+
+/// Times and speeds of a run.
+type Run<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+/// Measured speeds from a file of separated values, as instruments write them.
+///
+/// The first line that names the columns is the header; units are in the names, in the row below, or given here. Remarks,
+/// semicolons, tabs and decimal commas are legal; what is not clear is refused with its line and field.
+///
+/// Parameters
+/// ----------
+/// path : path-like
+///     The file: times, speeds and, for repeated runs, a number of the run (``member``).
+/// time_column, speed_column : str, optional
+///     The names of the columns, if they are not known ones; other columns are then passed over.
+/// time_unit : {"s", "ms", "us", "min"}, optional
+///     The unit of the times.
+/// speed_unit : {"rad/s", "rpm", "rev/s", "deg/s"}, optional
+///     The unit of the speeds.
+///
+/// Returns
+/// -------
+/// list of (times, speeds)
+///     Times (s) and angular speeds (rad/s) of each run.
+#[pyfunction]
+#[pyo3(signature = (path, *, time_column=None, speed_column=None, time_unit=None, speed_unit=None),
+       text_signature = "(path, *, time_column=None, speed_column=None, time_unit=None, speed_unit=None)")]
+pub(crate) fn read_speeds<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    time_column: Option<String>,
+    speed_column: Option<String>,
+    time_unit: Option<&str>,
+    speed_unit: Option<&str>,
+) -> PyResult<Vec<Run<'py>>> {
+    fn unit<T: FromStr<Err = UnknownUnit>>(py: Python<'_>, text: Option<&str>) -> PyResult<Option<T>> {
+        text.map(str::parse).transpose().map_err(|error| errors::invalid_text(py, &error))
+    }
+    let columns = CsvColumns {
+        time: time_column,
+        speed: speed_column,
+        time_unit: unit(py, time_unit)?,
+        speed_unit: unit(py, speed_unit)?,
+    };
+    let read = py.detach(|| MeasuredSpeeds::from_csv_with(&path, &columns));
+    let read = read.map_err(|error| errors::of_measured(py, &error))?;
+    let arrays = |times: &[f64], speeds: &[f64]| {
+        (results::array(py, times.to_vec()), results::array(py, speeds.to_vec()))
+    };
+    Ok(read.runs().iter().map(|run| arrays(&run.times, &run.speeds)).collect())
 }

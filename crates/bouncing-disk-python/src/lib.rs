@@ -72,7 +72,7 @@ mod _native {
     #[pymodule_export]
     use crate::diagram::{lyapunov_exponents, orbit_diagram, survival_times};
     #[pymodule_export]
-    use crate::fits::{fit_exponential, fit_transients};
+    use crate::fits::{fit_exponential, fit_transients, read_speeds};
     #[pymodule_export]
     use crate::impact_map::ImpactMap;
     #[pymodule_export]
@@ -82,7 +82,7 @@ mod _native {
     #[pymodule_export]
     use crate::motor_sweep::motor_map;
     #[pymodule_export]
-    use crate::operation::{best_phase_lag, operating_point, stall_load, torque_speed_curve};
+    use crate::operation::{best_phase_lag, input_spreads, operating_point, stall_load, torque_speed_curve};
     #[pymodule_export]
     use crate::orbit_batch::iterate_orbits;
     #[pymodule_export]

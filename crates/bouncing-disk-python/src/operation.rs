@@ -1,6 +1,9 @@
 //! Motors under a load: operating points, curves, stall, the best phase lag.
 
-use bouncing_disk::{Estimate, Motor as Model, OperatingPoint, OperatingSettings, Operation, Shortfall};
+use bouncing_disk::{
+    Estimate, InputSpread, InputTolerance, Motor as Model, OperatingPoint, OperatingSettings, Operation,
+    Shortfall,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -263,6 +266,89 @@ pub(crate) fn stall_load<'py>(
         stall.no_load_speed.standard_error,
     );
     results::make(py, "StallLoad", fields)
+}
+
+/// How far the speeds or the stall load of a motor lie apart over what its inputs are known to.
+///
+/// The errors of the other calls hold at exactly the inputs given. The response of a motor to preload and amplitude is rough:
+/// here stands what a designer can count on.
+///
+/// Parameters
+/// ----------
+/// motor : Motor
+/// load_torques : (n,) array_like, optional
+///     Load torques (N m) of the speeds; by default the stall load is asked for.
+/// tolerance : float, default 0.01
+///     Relative tolerance of preload and amplitude, in [0, 0.5].
+/// perturbation_decades : float, default 1
+///     Decades over which the size of the relaunch perturbation is drawn, in [0, 6].
+/// draws : int, default 39
+///     Motors that are drawn, in [8, 10000].
+/// relative_error, members, most_impacts, relaunch_perturbation, seed : optional
+///     As of :func:`operating_point`.
+/// progress : callable, optional
+///     Called as ``progress(done, total)`` with the number of draws.
+///
+/// Returns
+/// -------
+/// list of InputSpread or None
+///     One for each load, or that of the stall load alone; None where fewer than four draws have a speed.
+#[pyfunction]
+#[pyo3(signature = (
+    motor, *, load_torques=None, tolerance=Real(0.01), perturbation_decades=Real(1.0), draws=Count::Fits(39),
+    relative_error=Real(0.01), members=Count::Fits(16), most_impacts=Count::Fits(20_000_000),
+    relaunch_perturbation=Real(1e-3), seed=Count::Fits(1), progress=ProgressCallable(None)
+), text_signature = "(motor, *, load_torques=None, tolerance=0.01, perturbation_decades=1.0, draws=39, relative_error=0.01, \
+                     members=16, most_impacts=20000000, relaunch_perturbation=0.001, seed=1, progress=None)")]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+pub(crate) fn input_spreads<'py>(
+    py: Python<'py>,
+    motor: &Bound<'py, Motor>,
+    load_torques: Option<&Bound<'py, PyAny>>,
+    tolerance: Real,
+    perturbation_decades: Real,
+    draws: Count,
+    relative_error: Real,
+    members: Count,
+    most_impacts: Count,
+    relaunch_perturbation: Real,
+    seed: Count,
+    progress: ProgressCallable,
+) -> PyResult<Vec<Option<Bound<'py, PyAny>>>> {
+    let settings =
+        Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
+    let (preload, amplitude, draws) = (tolerance.0, tolerance.0, draws.usize(py, "draws")?);
+    let tolerance =
+        InputTolerance { preload, amplitude, perturbation_decades: perturbation_decades.0, draws };
+    let loads = load_torques.map(|loads| row(loads, "load_torques")).transpose()?;
+    let motor: Model = motor.get().0;
+    let names = [
+        name("tolerance of the preload", &["tolerance"]),
+        name("number of loads", &["load_torques"]).legal("[1, 1000000] torques"),
+        name("load_torque", &["load_torques"]),
+    ];
+    let spreads = long_call::run_named(py, progress.0, &names, |observer| match &loads {
+        Some(loads) => motor.speed_spreads_observed(loads, &settings, &tolerance, observer),
+        None => Ok(vec![motor.stall_spread_observed(&settings, &tolerance, observer)?]),
+    })?;
+    let class = |spread: InputSpread| {
+        let InputSpread {
+            mean,
+            standard_deviation,
+            from_to: [low, high],
+            draws,
+            without,
+            unsettled,
+            trapped,
+            ..
+        } = spread;
+        let fields = (
+            (mean.value, mean.standard_error, standard_deviation.value, standard_deviation.standard_error),
+            ((low, high), draws, without, unsettled, trapped),
+        );
+        results::make(py, "InputSpread", results::joined(py, fields.0, fields.1)?)
+    };
+    spreads.into_iter().map(|spread| spread.map(class).transpose()).collect()
 }
 
 /// The phase lag at which a motor turns fastest.

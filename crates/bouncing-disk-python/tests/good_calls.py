@@ -150,6 +150,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.operating_point, [MOTOR], quick | {"load_torque": 0.0}),
         (bd.torque_speed_curve, [MOTOR], quick | {"load_torques": [0.0, 1e-9]}),
         (bd.stall_load, [MOTOR], quick),
+        (bd.input_spreads, [MOTOR], quick | {"load_torques": [0.0], "tolerance": 0.01, "draws": 8}),
         (bd.best_phase_lag, [MOTOR], quick),
         (bd.low_period_traps, [MOTOR], {"preload_accelerations": [9.8, 10.0], "progress": None}),
         (bd.nearest_trap, [MOTOR], {"relative_range": 1e-4, "progress": None}),

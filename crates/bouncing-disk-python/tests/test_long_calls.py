@@ -40,6 +40,7 @@ ENDLESS = {
     "curve": "bd.torque_speed_curve(MOTOR, load_torques=np.linspace(0, 1e-6, 8), relative_error=1e-6,"
     " most_impacts=10**15)",
     "stall load": "bd.stall_load(MOTOR, relative_error=1e-6, most_impacts=10**15)",
+    "spreads": "bd.input_spreads(MOTOR, relative_error=1e-6, most_impacts=10**15)",
     "best lag": "bd.best_phase_lag(MOTOR, relative_error=1e-6, most_impacts=10**15)",
     "survival": "bd.survival_times(axial_forcing=0.56, most=2**32 - 1, **STARTS)",
     "exponents": "bd.lyapunov_exponents(axial_forcing=0.56, impacts=2**32 - 1, **STARTS)",

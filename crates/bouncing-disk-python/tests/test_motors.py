@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,6 +76,31 @@ def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
     assert point.status == "steady" and point.shortfall == "" and point.impacts > 0
     few = bd.operating_point(MOTOR, relative_error=1e-6, most_impacts=1)
     assert few.status == "unsettled" and few.shortfall != ""
+
+
+def test_the_spread_over_inputs_is_more_than_an_error() -> None:
+    quick = {"relative_error": 0.05, "draws": 12}
+    free, overpowered = bd.input_spreads(MOTOR, load_torques=[0.0, 2.0 * MOTOR.largest_torque], **quick)
+    assert overpowered is None and free is not None and free.draws == 12 and free.without == 0
+    assert free.from_to[0] < free.mean < free.from_to[1]
+    exact = bd.input_spreads(MOTOR, load_torques=[0.0], tolerance=0.0, perturbation_decades=0.0, **quick)[0]
+    assert exact is not None and exact.standard_deviation < free.standard_deviation
+    (stall,) = bd.input_spreads(MOTOR, **quick)
+    assert stall is not None and 0.0 < stall.mean < MOTOR.largest_torque
+
+
+def test_measured_speeds_are_read_as_instruments_write_them(tmp_path: Path) -> None:
+    file = tmp_path / "run.csv"
+    file.write_text("% mine\nt (ms);n (rpm)\n0,5;60\n1,5;120\n2,5;180\n")
+    ((times, speeds),) = bd.read_speeds(file)
+    assert times.tolist() == [0.0005, 0.0015, 0.0025]
+    assert speeds / (2.0 * np.pi) == pytest.approx([1.0, 2.0, 3.0])
+    with pytest.raises(ValueError, match="line 2, field 1: the unit of the time is .ms. here"):
+        bd.read_speeds(file, time_unit="s")
+    with pytest.raises(ValueError, match="furlong"):
+        bd.read_speeds(file, speed_unit="furlong")
+    with pytest.raises(OSError, match="absent"):
+        bd.read_speeds(tmp_path / "absent.csv")
 
 
 def test_many_transients_are_those_of_one_by_one() -> None:

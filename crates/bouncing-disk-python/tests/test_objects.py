@@ -86,6 +86,7 @@ def everything() -> dict[str, Any]:
         ),
         "OperatingPoint": bd.operating_point(MOTOR, relative_error=0.1),
         "TorqueSpeedCurve": bd.torque_speed_curve(MOTOR, load_torques=[0.0, 1.0], relative_error=0.1),
+        "InputSpread": bd.input_spreads(MOTOR, draws=8, relative_error=0.1)[0],
         "MotorReport": MOTOR.report(),
         "LyapunovSpectra": bd.lyapunov_spectra(axial_forcing=[0.2, 0.56], impacts=100, **STARTS),
         "Manifold": bd.manifold(MAP, saddle(), arclength=2.0),

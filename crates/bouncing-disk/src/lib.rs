@@ -136,7 +136,7 @@ pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, Sensiti
 pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};
 pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices, sobol_indices_observed};
-pub use motor::shared_orbit::transients::{shared_transients, shared_transients_observed};
+pub use motor::shared_orbit::transients::shared_transients;
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,

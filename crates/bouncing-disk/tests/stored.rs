@@ -250,8 +250,6 @@ fn motors() {
             ("/curves/0/times", json!([]), "number of points"),
         ],
     );
-    let ramp = RampFit::new(&runs.curves[0].times, &runs.curves[0].speeds).expect("rises");
-    check(&ramp, &[("/rise_time", json!(0.0), "rise_time")]);
     check(&runs.fits[0], &[("/time_constant", json!(0.0), "time_constant")]);
     check(&RiseForm::Ramp, &[]);
     let statistics = MotorStatistics::of(&motor, &runs, settings.duration, ChatterPolicy::Complete);
@@ -259,12 +257,6 @@ fn motors() {
         &statistics.expect("no failure"),
         &[("/form", json!("line"), "line"), ("/steady_speed/standard_error", json!(-1.0), "standard_error")],
     );
-    let impulses = NormalImpulses::of(motor.dimensionless().map(), 20, 1e-3).expect("no failure");
-    check(
-        &impulses,
-        &[("/landings/0", json!(TAU), "phase of a landing"), ("/duration", json!(-1.0), "duration")],
-    );
-    check(&impulses.impacts[0], &[]);
 }
 
 /// JSON holds no such number; a binary format does.
@@ -281,7 +273,6 @@ fn what_is_no_number_is_not_read() {
         refused(&PhaseSpan { periods: 0, remainder: number }, "remainder");
         refused(&SiEnergy { friction_loss: number, ..toss.energy }, "friction_loss");
         refused(&TossPerformance { airborne_speed: number, ..toss }, "airborne_speed");
-        refused(&PhasedImpulse { phase: 0.0, impulse: number }, "impulse");
     }
 }
 

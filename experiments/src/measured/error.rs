@@ -1,5 +1,7 @@
 //! What can be wrong with a file of measurements.
 
+use bouncing_disk::csv_records::RecordFault;
+
 use super::layout::Range;
 use crate::visible::{Excerpt, visible};
 
@@ -34,15 +36,13 @@ pub enum MeasuredError {
     /// The file is a table of a newer program.
     #[error(transparent)]
     Newer(Box<bouncing_disk::StorageError>),
-    /// The file is not text in UTF-8.
-    #[error("{file}, line {line}, byte {byte}: not text in UTF-8")]
-    NotText {
+    /// The file has no records, whatever its columns.
+    #[error("{file}, {fault}")]
+    Form {
         /// The file.
         file: &'static str,
-        /// The line.
-        line: usize,
-        /// The byte in the line.
-        byte: usize,
+        /// The fault, with its line.
+        fault: RecordFault,
     },
     /// There is no header.
     #[error("{file} is empty; its first line must be {legal}")]
@@ -52,191 +52,17 @@ pub enum MeasuredError {
         /// The header.
         legal: String,
     },
-    /// The columns are not separated by commas.
-    #[error("{file}, line {line}: columns are separated by {found}; legal is a comma, as in {legal}")]
-    Separator {
+    /// A line is not what the layout says.
+    #[error("{file}, line {line}{}: {fault}", column_words(*.column))]
+    Line {
         /// The file.
         file: &'static str,
         /// The line.
         line: usize,
-        /// What separates them.
-        found: &'static str,
-        /// The header.
-        legal: String,
-    },
-    /// A quotation mark begins a field and nothing ends it on the line.
-    #[error("{file}, line {line}, column {column}: a quotation mark is not closed on its line")]
-    OpenQuote {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column of the field.
-        column: usize,
-    },
-    /// The header has a name that is not known.
-    #[error("{file}, line {line}, column {column}: the header has {value}; legal is {legal}")]
-    UnknownColumn {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// The name found.
-        value: Excerpt,
-        /// The header.
-        legal: String,
-    },
-    /// The header has a name twice.
-    #[error("{file}, line {line}, column {column}: the header has \"{name}\" again")]
-    RepeatedColumn {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The second column of the name.
-        column: usize,
-        /// The name.
-        name: &'static str,
-    },
-    /// The header lacks a name.
-    #[error("{file}, line {line}: the header has no column \"{name}\"; legal is {legal}")]
-    MissingColumn {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The name.
-        name: &'static str,
-        /// The header.
-        legal: String,
-    },
-    /// A line has more or fewer fields than the header.
-    #[error("{file}, line {line}, column {column}: the line has {fields} fields; legal is {columns}")]
-    Fields {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The first column that is missing or too much.
-        column: usize,
-        /// The fields of the line.
-        fields: usize,
-        /// The columns of the header.
-        columns: usize,
-    },
-    /// A field is not a number.
-    #[error("{file}, line {line}, column {column} ({name}): {value} is not a number; legal is {legal}")]
-    NotANumber {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// The name of the column.
-        name: &'static str,
-        /// The text of the field.
-        value: Excerpt,
-        /// The legal values.
-        legal: Range,
-    },
-    /// A number is outside its legal range, or so large or small that there is no such double.
-    #[error("{file}, line {line}, column {column} ({name}): {} is not legal; legal is {legal}", value.bare())]
-    OutOfRange {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// The name of the column.
-        name: &'static str,
-        /// The number as it is written.
-        value: Excerpt,
-        /// The legal values.
-        legal: Range,
-    },
-    /// A number is in the range of its column, but the figure has no place for it.
-    #[error("{file}, line {line}, column {column} ({name}): {value} is not legal; legal is {legal}")]
-    NotOfFigure {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// The name of the column.
-        name: &'static str,
-        /// The number.
-        value: f64,
-        /// The legal values.
-        legal: String,
-    },
-    /// A time does not rise.
-    #[error(
-        "{file}, line {line}, column {column} ({name}): {value} follows {previous}; legal is a larger number on \
-         every line{}", trial_words(*.trial)
-    )]
-    NotRising {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// The name of the column.
-        name: &'static str,
-        /// The number.
-        value: f64,
-        /// The one before it.
-        previous: f64,
-        /// The trial, where there are trials.
-        trial: Option<u32>,
-    },
-    /// A quantity changes within a trial.
-    #[error(
-        "{file}, line {line}, column {column} ({name}): {value} follows {previous}; legal is the same number on \
-         every line{}", trial_words(*.trial)
-    )]
-    NotConstant {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-        /// The name of the column.
-        name: &'static str,
-        /// The number.
-        value: f64,
-        /// The one before it.
-        previous: f64,
-        /// The trial, where there are trials.
-        trial: Option<u32>,
-    },
-    /// There are more lines of numbers than a picture can show.
-    #[error("{file}, line {line}: the file has more than {most} lines of numbers; legal are {most} or fewer")]
-    TooLong {
-        /// The file.
-        file: &'static str,
-        /// The first line too many.
-        line: usize,
-        /// The most.
-        most: usize,
-    },
-    /// There are too few lines of numbers.
-    #[error("{file}, line {line}: the file ends after {rows} lines of numbers; legal is {least} or more")]
-    TooShort {
-        /// The file.
-        file: &'static str,
-        /// The last line.
-        line: usize,
-        /// The lines of numbers.
-        rows: usize,
-        /// The fewest.
-        least: usize,
+        /// The column and its name, where the fault is in one, and in one of the layout.
+        column: Option<(usize, &'static str)>,
+        /// What is wrong.
+        fault: LineFault,
     },
     /// The numbers are legal, but what the figure computes from them is not defined.
     #[error("{file}: {what} cannot be evaluated")]
@@ -248,6 +74,70 @@ pub enum MeasuredError {
         /// What was reported.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+/// What is wrong with a line, beside what would be legal.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LineFault {
+    /// The columns are not separated by commas but by the first; the header.
+    #[error("columns are separated by {0}; legal is a comma, as in {1}")]
+    Separator(&'static str, String),
+    /// The header has a name that is not known; the header.
+    #[error("the header has {0}; legal is {1}")]
+    UnknownColumn(Excerpt, String),
+    /// The header has a name twice.
+    #[error("the header has \"{0}\" again")]
+    RepeatedColumn(&'static str),
+    /// The header lacks a name; the header.
+    #[error("the header has no column \"{0}\"; legal is {1}")]
+    MissingColumn(&'static str, String),
+    /// A line has more or fewer fields than the header.
+    #[error("the line has {0} fields; legal is {1}")]
+    Fields(usize, usize),
+    /// A field is not a number.
+    #[error("{0} is not a number; legal is {1}")]
+    NotANumber(Excerpt, Range),
+    /// A number is outside its legal range, or so large or small that there is no such double.
+    #[error("{value} is not legal; legal is {1}", value = .0.bare())]
+    OutOfRange(Excerpt, Range),
+    /// A number is in the range of its column, but the figure has no place for it.
+    #[error("{0} is not legal; legal is {1}")]
+    NotOfFigure(f64, String),
+    /// A time does not rise.
+    #[error("{value} follows {previous}; legal is a larger number on every line{}", trial_words(*.trial))]
+    NotRising {
+        /// The number.
+        value: f64,
+        /// The one before it.
+        previous: f64,
+        /// The trial, where there are trials.
+        trial: Option<u32>,
+    },
+    /// A quantity changes within a trial.
+    #[error("{value} follows {previous}; legal is the same number on every line{}", trial_words(*.trial))]
+    NotConstant {
+        /// The number.
+        value: f64,
+        /// The one before it.
+        previous: f64,
+        /// The trial, where there are trials.
+        trial: Option<u32>,
+    },
+    /// There are more lines of numbers than a picture can show.
+    #[error("the file has more than {0} lines of numbers; legal are {0} or fewer")]
+    TooLong(usize),
+    /// There are too few lines of numbers.
+    #[error("the file ends after {0} lines of numbers; legal is {1} or more")]
+    TooShort(usize, usize),
+}
+
+fn column_words(column: Option<(usize, &str)>) -> String {
+    match column {
+        None => String::new(),
+        Some((column, "")) => format!(", column {column}"),
+        Some((column, name)) => format!(", column {column} ({name})"),
+    }
 }
 
 fn trial_words(trial: Option<u32>) -> String {

@@ -5,9 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use bouncing_disk::csv_records::{self, NumberFault, RecordFault, fields, lines};
+use bouncing_disk::csv_records::{self, NumberFault, fields, lines};
 
-use super::error::MeasuredError;
+use super::error::{LineFault, MeasuredError};
 use super::layout::{Column, Layout, MOST_ROWS, Role, whole};
 use crate::provenance;
 use crate::visible::Excerpt;
@@ -25,7 +25,7 @@ pub(super) struct Rows {
 
 /// Reads all rows of a file.
 pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError> {
-    let told = |fault| in_file(layout.file, fault);
+    let told = |fault| MeasuredError::Form { file: layout.file, fault };
     let text = csv_records::text(bytes).map_err(told)?;
     // A table that an experiment wrote is read like others, unless its form may be another one.
     let origin = provenance::from_csv(text);
@@ -47,23 +47,21 @@ pub(super) fn rows(layout: &Layout, bytes: &[u8]) -> Result<Rows, MeasuredError>
         let row = header.row(line, &fields(own, ',').map_err(told)?)?;
         order.check(&header, line, &row)?;
         if rows.values.len() == MOST_ROWS {
-            return Err(MeasuredError::TooLong { file: layout.file, line, most: MOST_ROWS });
+            return Err(layout.fault(line, None, LineFault::TooLong(MOST_ROWS)));
         }
         rows.values.push(row);
         rows.lines.push(line);
     }
     if rows.values.len() < layout.least_rows {
-        let (rows, least) = (rows.values.len(), layout.least_rows);
-        return Err(MeasuredError::TooShort { file: layout.file, line, rows, least });
+        let fault = LineFault::TooShort(rows.values.len(), layout.least_rows);
+        return Err(layout.fault(line, None, fault));
     }
     Ok(rows)
 }
 
-/// A fault of the form, told with the file.
-fn in_file(file: &'static str, fault: RecordFault) -> MeasuredError {
-    match fault {
-        RecordFault::NotText { line, byte } => MeasuredError::NotText { file, line, byte },
-        RecordFault::OpenQuote { line, field } => MeasuredError::OpenQuote { file, line, column: field },
+impl Layout {
+    fn fault(&self, line: usize, column: Option<(usize, &'static str)>, fault: LineFault) -> MeasuredError {
+        MeasuredError::Line { file: self.file, line, column, fault }
     }
 }
 
@@ -76,59 +74,45 @@ struct Header<'a> {
 
 impl<'a> Header<'a> {
     fn read(layout: &'a Layout, line: usize, names: &[&str]) -> Result<Self, MeasuredError> {
-        let file = layout.file;
         if layout.columns.len() > 1 && names.len() == 1 {
             let separators = [(';', "semicolons"), ('\t', "tabs")];
             if let Some((_, found)) = separators.into_iter().find(|(sign, _)| names[0].contains(*sign)) {
-                return Err(MeasuredError::Separator { file, line, found, legal: layout.header() });
+                return Err(layout.fault(line, None, LineFault::Separator(found, layout.header())));
             }
         }
         let mut places: Vec<Option<usize>> = vec![None; layout.columns.len()];
         for (place, &name) in names.iter().enumerate() {
             let column = place + 1;
             let Some(index) = layout.columns.iter().position(|column| column.name == name) else {
-                let (value, legal) = (Excerpt::of(name), layout.header());
-                return Err(MeasuredError::UnknownColumn { file, line, column, value, legal });
+                let fault = LineFault::UnknownColumn(Excerpt::of(name), layout.header());
+                return Err(layout.fault(line, Some((column, "")), fault));
             };
             if places[index].replace(place).is_some() {
-                return Err(MeasuredError::RepeatedColumn {
-                    file,
-                    line,
-                    column,
-                    name: layout.columns[index].name,
-                });
+                let fault = LineFault::RepeatedColumn(layout.columns[index].name);
+                return Err(layout.fault(line, Some((column, "")), fault));
             }
         }
         let found = places.iter().zip(layout.columns).map(|(place, column)| {
-            place.ok_or_else(|| MeasuredError::MissingColumn {
-                file,
-                line,
-                name: column.name,
-                legal: layout.header(),
-            })
+            let missing = || LineFault::MissingColumn(column.name, layout.header());
+            place.ok_or_else(|| layout.fault(line, None, missing()))
         });
         Ok(Self { layout, places: found.collect::<Result<_, _>>()? })
     }
 
     fn row(&self, line: usize, values: &[&str]) -> Result<Vec<f64>, MeasuredError> {
-        let file = self.layout.file;
         let (count, columns) = (values.len(), self.places.len());
         if count != columns {
             let column = count.min(columns) + 1;
-            return Err(MeasuredError::Fields { file, line, column, fields: count, columns });
+            return Err(self.layout.fault(line, Some((column, "")), LineFault::Fields(count, columns)));
         }
         let number = |(place, column): (&usize, &Column)| {
-            let (text, name, legal) = (values[*place], column.name, column.range);
-            let (column, value) = (place + 1, || Excerpt::of(text));
-            match csv_records::number(text) {
-                Ok(number) if legal.holds(number) => Ok(number),
-                Ok(_) | Err(NumberFault::NoSuchDouble) => {
-                    Err(MeasuredError::OutOfRange { file, line, column, name, value: value(), legal })
-                }
-                Err(NumberFault::NotANumber) => {
-                    Err(MeasuredError::NotANumber { file, line, column, name, value: value(), legal })
-                }
-            }
+            let (text, legal) = (values[*place], column.range);
+            let fault = match csv_records::number(text) {
+                Ok(number) if legal.holds(number) => return Ok(number),
+                Ok(_) | Err(NumberFault::NoSuchDouble) => LineFault::OutOfRange(Excerpt::of(text), legal),
+                Err(NumberFault::NotANumber) => LineFault::NotANumber(Excerpt::of(text), legal),
+            };
+            Err(self.layout.fault(line, Some((place + 1, column.name)), fault))
         };
         self.places.iter().zip(self.layout.columns).map(number).collect()
     }
@@ -154,22 +138,23 @@ impl Order {
     }
 
     fn check(&mut self, header: &Header<'_>, line: usize, row: &[f64]) -> Result<(), MeasuredError> {
-        let file = header.layout.file;
         let trial = self.trial.and_then(|index| whole(row[index]));
         if let Some(last) = self.last.get(&trial) {
             let pair = |index: usize| {
-                let (column, name) = (header.places[index] + 1, header.layout.columns[index].name);
-                (column, name, row[index], last[index])
+                let column = (header.places[index] + 1, header.layout.columns[index].name);
+                (Some(column), row[index], last[index])
             };
-            if let Some((column, name, value, previous)) = self.rising.map(pair)
+            if let Some((column, value, previous)) = self.rising.map(pair)
                 && value <= previous
             {
-                return Err(MeasuredError::NotRising { file, line, column, name, value, previous, trial });
+                let fault = LineFault::NotRising { value, previous, trial };
+                return Err(header.layout.fault(line, column, fault));
             }
-            if let Some((column, name, value, previous)) = self.constant.map(pair)
+            if let Some((column, value, previous)) = self.constant.map(pair)
                 && value.total_cmp(&previous).is_ne()
             {
-                return Err(MeasuredError::NotConstant { file, line, column, name, value, previous, trial });
+                let fault = LineFault::NotConstant { value, previous, trial };
+                return Err(header.layout.fault(line, column, fault));
             }
         }
         self.last.insert(trial, row.to_vec());
@@ -345,7 +330,7 @@ mod tests {
         assert!(
             fault_of("1,\"0,3\",0.1,19").contains("line 3, column 2 (preload_n): \"0,3\" is not a number")
         );
-        let open = "demo.csv, line 4, column 2: a quotation mark is not closed on its line";
+        let open = "demo.csv, line 4, field 2: a quotation mark is not closed on its line";
         assert_eq!(fault_of("# of May\n1,\"0.3,0.1,19\n1,0.3,0.2,18"), open);
         assert_eq!(fault_of("\n1,\"0.3,0.1,19"), open);
     }

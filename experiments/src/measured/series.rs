@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::error::MeasuredError;
+use super::error::{LineFault, MeasuredError};
 use super::layout::{Layout, whole};
 use super::parse;
 
@@ -48,13 +48,13 @@ impl Series {
     /// [`Self::rows`], from 0.
     pub fn illegal(&self, row: usize, column: usize, legal: impl Into<String>) -> MeasuredError {
         let one = |list: &[usize], index: usize| list.get(index).copied().unwrap_or_default();
-        MeasuredError::NotOfFigure {
+        let name = self.layout.columns.get(column).map_or("", |column| column.name);
+        let value = self.rows.values.get(row).and_then(|row| row.get(column)).copied().unwrap_or(f64::NAN);
+        MeasuredError::Line {
             file: self.layout.file,
             line: one(&self.rows.lines, row),
-            column: one(&self.rows.columns, column),
-            name: self.layout.columns.get(column).map_or("", |column| column.name),
-            value: self.rows.values.get(row).and_then(|row| row.get(column)).copied().unwrap_or(f64::NAN),
-            legal: legal.into(),
+            column: Some((one(&self.rows.columns, column), name)),
+            fault: LineFault::NotOfFigure(value, legal.into()),
         }
     }
 

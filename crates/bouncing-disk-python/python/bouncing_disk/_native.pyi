@@ -1,5 +1,6 @@
 """The types of the compiled module; what its functions and classes do is in their docstrings."""
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex, TypeAlias, final
 
@@ -20,6 +21,7 @@ from bouncing_disk._results import (
     EventTable,
     BrakingFit,
     ExponentialFit,
+    InputSpread,
     LocalSensitivities,
     LowPeriodTraps,
     LyapunovSpectra,
@@ -75,6 +77,7 @@ __all__ = [
     "fit_exponential",
     "fit_parameters",
     "fit_transients",
+    "input_spreads",
     "iterate_orbits",
     "local_sensitivities",
     "low_period_traps",
@@ -87,6 +90,7 @@ __all__ = [
     "operating_point",
     "orbit_diagram",
     "periodic_orbits",
+    "read_speeds",
     "rotary_response",
     "set_threads",
     "simulate",
@@ -677,6 +681,20 @@ def fit_transients(
     from_rest: bool = False,
     progress: _Progress = None,
 ) -> TransientFit: ...
+def input_spreads(
+    motor: Motor,
+    *,
+    load_torques: npt.ArrayLike | None = None,
+    tolerance: _Float = 0.01,
+    perturbation_decades: _Float = 1.0,
+    draws: _Int = 39,
+    relative_error: _Float = 0.01,
+    members: _Int = 16,
+    most_impacts: _Int = 20000000,
+    relaunch_perturbation: _Float = 0.001,
+    seed: _Int = 1,
+    progress: _Progress = None,
+) -> list[InputSpread | None]: ...
 def iterate_orbits(
     *,
     axial_forcing: npt.ArrayLike,
@@ -741,6 +759,14 @@ def periodic_orbits(
     speeds: _Int = 96,
     progress: _Progress = None,
 ) -> list[PeriodicOrbit]: ...
+def read_speeds(
+    path: str | os.PathLike[str],
+    *,
+    time_column: str | None = None,
+    speed_column: str | None = None,
+    time_unit: str | None = None,
+    speed_unit: str | None = None,
+) -> list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]]: ...
 def set_threads(*, count: _Int | None = None) -> None: ...
 def simulate(
     system: System,

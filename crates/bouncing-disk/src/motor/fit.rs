@@ -107,8 +107,7 @@ impl ExponentialFit {
 ///
 /// [`TransientFit`](crate::TransientFit) compares it with the exponential, with intervals.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRampFit"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RampFit {
     /// Steady speed alpha_ss (rad/s).
     pub steady_speed: f64,
@@ -118,34 +117,13 @@ pub struct RampFit {
     pub residual: f64,
 }
 
-read_checked!(RampFit as UncheckedRampFit {
-    steady_speed: f64,
-    rise_time: f64,
-    residual: f64,
-});
-
 impl RampFit {
-    fn check(&self) -> Result<(), Error> {
-        finite("steady_speed", self.steady_speed)?;
-        positive("rise_time", self.rise_time)?;
-        not_negative("residual", self.residual)?;
-        Ok(())
-    }
-
     /// As [`ExponentialFit::new`], with the ramp instead of the exponential.
     ///
     /// # Errors
     /// As [`ExponentialFit::new`].
     pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
-        Self::new_observed(times, speeds, &Unobserved)
-    }
-
-    /// As [`ExponentialFit::new_observed`].
-    ///
-    /// # Errors
-    /// As [`ExponentialFit::new_observed`].
-    pub fn new_observed(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
-        observed(observer, |work| Self::counted(times, speeds, work))
+        observed(&Unobserved, |work| Self::counted(times, speeds, work))
     }
 
     /// [`Self::new`] as a part of a longer call.
@@ -392,10 +370,7 @@ mod tests {
                 let go_on = asked.fetch_add(1, Ordering::Relaxed) + 1 < calls;
                 if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
-            let exponential = ExponentialFit::new_observed(&times, &speeds, &observer);
-            let ramp = RampFit::new_observed(&times, &speeds, &|_| ControlFlow::Continue(()));
-            assert_eq!(ramp, RampFit::new(&times, &speeds));
-            (exponential, asked.into_inner())
+            (ExponentialFit::new_observed(&times, &speeds, &observer), asked.into_inner())
         };
         let (whole, asked) = fits(u64::MAX);
         assert_eq!(whole, ExponentialFit::new(&times, &speeds));
@@ -514,9 +489,6 @@ mod tests {
         let fit = ExponentialFit { steady_speed: -3.0, time_constant: 0.5, residual: 0.1 };
         let text = serde_json::to_string(&fit).expect("writes");
         assert_eq!(serde_json::from_str::<ExponentialFit>(&text).expect("legal"), fit);
-        let ramp = RampFit { steady_speed: -3.0, rise_time: 0.5, residual: 0.1 };
-        let ramp_text = serde_json::to_string(&ramp).expect("writes");
-        assert_eq!(serde_json::from_str::<RampFit>(&ramp_text).expect("legal"), ramp);
         for (good, bad, name) in [
             ("0.5", "0.0", "time_constant = 0"),
             ("0.5", "-1.0", "time_constant = -1"),
@@ -526,7 +498,5 @@ mod tests {
             let error = serde_json::from_str::<ExponentialFit>(&text.replace(good, bad)).expect_err(name);
             assert!(error.to_string().contains(name), "{error}");
         }
-        assert!(serde_json::from_str::<RampFit>(&ramp_text.replace("0.5", "0.0")).is_err());
-        assert!(serde_json::from_str::<RampFit>(&ramp_text.replace('}', r#","raise_time":1.0}"#)).is_err());
     }
 }

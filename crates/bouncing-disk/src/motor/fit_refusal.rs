@@ -154,6 +154,20 @@ pub enum FitRefusal {
         /// Angular deceleration in its last half (rad/s^2).
         last_half: f64,
     },
+    /// The times of a transient do not count from the switch-on.
+    #[cfg(feature = "fit")]
+    #[error(
+        "transient {transient} (counted from 0) rises as if it was switched on about {early:?} s before time zero, where the \
+         standard error of a right clock is {standard_error:?} s: let its times count from the switch-on"
+    )]
+    ShiftedClock {
+        /// Its place in the list.
+        transient: usize,
+        /// The time from the switch-on to time zero (s), to first order; below zero for a dead time.
+        early: f64,
+        /// Its standard error (s) if the clock is right.
+        standard_error: f64,
+    },
     /// The search for the best parameters found no end.
     #[cfg(feature = "fit")]
     #[error(

@@ -18,11 +18,9 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::elementary::cos;
 use bouncing_disk_core::numerics::circular::Concentration;
-use bouncing_disk_core::{
-    Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase, read_checked,
-};
+use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
 
-use crate::error::{Error, all_finite, moderate_not_negative, not_negative, phase_angle, within_limit};
+use crate::error::{Error, moderate_not_negative, within_limit};
 use crate::toss::chattering_cycle::LONG_FLIGHT;
 use crate::toss::multiple::MAX_EXAMINED;
 
@@ -37,8 +35,7 @@ const GOLDEN_STEP: f64 = 0.618_033_988_749_894_8;
 
 /// A normal impulse, and where in the cycle of the platform it acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedImpulse"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PhasedImpulse {
     /// Phase of the platform (rad).
     pub phase: f64,
@@ -46,19 +43,9 @@ pub struct PhasedImpulse {
     pub impulse: f64,
 }
 
-read_checked!(PhasedImpulse as UncheckedImpulse { phase: f64, impulse: f64 });
-
-impl PhasedImpulse {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        all_finite([("phase", self.phase), ("impulse", self.impulse)])
-    }
-}
-
 /// The normal impulses of an orbit, of impacts and of contact.
 #[derive(Debug, Clone, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedImpulses"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalImpulses {
     /// Of single impacts.
     pub impacts: Vec<PhasedImpulse>,
@@ -71,23 +58,7 @@ pub struct NormalImpulses {
     pub duration: f64,
 }
 
-read_checked!(NormalImpulses as UncheckedImpulses {
-    impacts: Vec<PhasedImpulse>,
-    landings: Vec<f64>,
-    contact: Vec<PhasedImpulse>,
-    duration: f64,
-});
-
 impl NormalImpulses {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        for landing in &self.landings {
-            phase_angle("phase of a landing", *landing)?;
-        }
-        not_negative("duration", self.duration)?;
-        Ok(())
-    }
-
     /// Of at least `impacts` impacts from one separation to a later one; none if the platform never falls
     /// away. Each separation gets a relative speed below `perturbation` (in units of g/omega, in [0, 1e100]),
     /// evenly spread; the last cycle, cut off, is left out unless it is the only one.

@@ -25,12 +25,12 @@ use self::bootstrap::{percentile, resampled_places};
 use self::determined::Directions;
 use self::estimate::{ParameterEstimate, UndeterminedDirection};
 use self::measured_transient::{MeasuredTransient, refused};
-use self::model::{Local, Model};
+use self::model::{Local, Model, mean_of};
 use self::parameter::{FitParameter, FitRange};
 use self::search::{Evaluations, least_squares};
 use self::settings::ParameterFitSettings;
 use self::weights::Weights;
-use self::windows::Windows;
+use self::windows::{INTERVALS, Windows};
 use crate::error::{Error, check, within_limit};
 use crate::motor::data_sheet::Motor;
 use crate::motor::fit_refusal::FitRefusal;
@@ -45,6 +45,9 @@ const NEAR: f64 = 0.3;
 
 /// The normal quantile that one of 10,000 exceeds.
 const RARE: f64 = 3.719_016_485_455_709;
+
+/// A clock that is off by more than so many of its standard errors is one.
+const SIGNIFICANT: f64 = 3.0;
 
 /// How near the end of a range a parameter is taken to lie at it, as a share of half the range.
 const AT_END: f64 = 1.0e-6;
@@ -132,8 +135,8 @@ impl ParameterFit {
     ///
     /// # Errors
     /// [`Error::FitRefused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
-    /// a parameter at the end of its range, a search that found no end, a model that does not describe the
-    /// transients. [`Error::NeverLeaves`] for a motor whose rotor never leaves the stator at the preload of a
+    /// times that do not count from the switch-on, a parameter at the end of its range, a search that found no end, a model
+    /// that does not describe the transients. [`Error::NeverLeaves`] for a motor whose rotor never leaves the stator at the preload of a
     /// transient; [`Error::OutOfRange`] for illegal settings, no transient, no range, two of one parameter,
     /// and a range that is illegal or does not hold the data sheet's value.
     pub fn new(
@@ -181,6 +184,7 @@ impl ParameterFit {
         evaluations: usize,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
+        check_clocks(model, state, watch)?;
         let Linearised { places, local, weights, directions } = state;
         let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
         let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
@@ -251,9 +255,40 @@ fn checked<'a>(
         if peak_acceleration <= 1.0 {
             return Err(Error::NeverLeaves { peak_acceleration });
         }
-        windows.push(Windows::of(transient, settings.windows, transient.error_variance()?));
+        windows.push(Windows::of(transient, settings.windows, transient.error_variance()?, 0.0));
     }
     Ok(Model { nominal: *nominal, transients, ranges, settings, windows })
+}
+
+/// Refuses transients whose times do not count from the switch-on. To first order a clock that is off leaves of the means a
+/// part in proportion to the acceleration, of which the fitted parameters have taken what they can.
+fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Result<(), Error> {
+    let Linearised { places, local, weights, directions } = state;
+    let step = |windows: &Windows| windows.duration / INTERVALS as f64;
+    let all = || model.windows.iter().zip(model.transients);
+    // Variances of errors are not looked at here.
+    let windows =
+        all().map(|(own, transient)| Windows::of(transient, model.settings.windows, 0.0, step(own)));
+    let moved =
+        Model { windows: windows.collect(), ..*model }.members(std::slice::from_ref(places), watch)?;
+    let gained = mean_of(&moved[0]) - mean_of(&local.members);
+    let rest = weights.apply(&(model.measured() - &local.smooth));
+    let response = directions.response();
+    let mut first = 0;
+    for (transient, windows) in model.windows.iter().enumerate() {
+        let mut along = DVector::zeros(gained.len());
+        let own = first..first + windows.count();
+        own.for_each(|index| along[index] = gained[index] / step(windows));
+        first += windows.count();
+        let along = weights.apply(&along);
+        let open = &along - &directions.derivatives * (&response * &along);
+        let standard_error = sample_widening(model) / open.norm();
+        let early = open.dot(&rest) / open.norm_squared();
+        if early.abs() > SIGNIFICANT * standard_error {
+            return refused(FitRefusal::ShiftedClock { transient, early, standard_error });
+        }
+    }
+    Ok(())
 }
 
 /// What the intervals are multiplied by because of a misfit that was allowed.

@@ -126,14 +126,6 @@ impl SpeedCurve {
         ExponentialFit::new(&self.times, &self.speeds)
     }
 
-    /// [`Self::fit`] with an observer.
-    ///
-    /// # Errors
-    /// Those of [`ExponentialFit::new_observed`].
-    pub fn fit_observed(&self, observer: &dyn Observer) -> Result<ExponentialFit, Error> {
-        ExponentialFit::new_observed(&self.times, &self.speeds, observer)
-    }
-
     /// [`transient`](crate::transient()) as a part of a longer call.
     pub(crate) fn alone(
         system: &System,

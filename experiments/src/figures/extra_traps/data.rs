@@ -88,7 +88,7 @@ impl ExtraTrapsData {
         format!(
             "Preloads that trap a motor in a short cycle of flights and rest. (a) The restitution of Table III, {}: the integer part of \
              Γ = Aω²/(πg), {from} to {to}, against its fraction. (b) Γ against the restitution. Full colours: the cycle survives the \
-             perturbation of its relaunches, and the motor hardly turns; pale: the unperturbed motor has a cycle of so many flights \
+             perturbation of its relaunches, and the motor has the speed of the cycle; pale: the unperturbed motor has a cycle of so many flights \
              longer than half a period, which the perturbation ends; white: its cycle is longer. The preload enters by Γ alone: of the preloads \
              of Fig. 11, {} are trapped.",
             self.motor.parameters().restitution,

@@ -183,7 +183,7 @@ fn holes(data: &Fig11Data) -> Claim {
             "{} of {} motors are on a low-period cycle, {} of them of a single flight: it lasts about Γ periods, and where the \
              fraction of Γ is {} it ends near τ = π, where the stator recedes as fast as the rotor \
              falls. Such a rotor lands softly, rides up with the stator through a half cycle in which cos τ takes both \
-             signs equally, and hardly turns: {} rad/s; all on a low-period cycle {} rad/s, all others {} rad/s",
+             signs equally, and turns slowly: {} rad/s; all on a low-period cycle {} rad/s, all others {} rad/s",
             holes.low_period,
             holes.motors,
             holes.one_flight,

@@ -155,7 +155,7 @@ mod tests {
         }
     }
 
-    /// A motor in a hole counts against the trend, and against "no sharp fall" where it lies outside.
+    /// A motor that turns much more slowly counts against the trend, and against "no sharp fall" where it lies outside.
     #[test]
     fn a_motor_in_a_hole_counts_against_the_statement() {
         let mut points: Vec<Point> = (0..30)

@@ -94,9 +94,11 @@ fn stall(data: &Table3Data) -> Claim {
         "α̇_ss/t_c of the default motor is the acceleration by the torque that stalls it",
         agrees(gravity) && agrees(printed),
         format!(
-            "with gravity it {}; with g as printed it {}. The balance of the normal impulse is within {:.1} and {:.1} standard errors of the load found",
+            "with gravity it {} (over the inputs: {}); with g as printed it {} (over the inputs: {}). The balance of the normal impulse is within {:.1} and {:.1} standard errors of the load found",
             gravity.words(),
+            data.speeds[1].stall_over_inputs_rad_per_s2.words(),
             printed.words(),
+            data.speeds[0].stall_over_inputs_rad_per_s2.words(),
             gravity.balance_deviation(),
             printed.balance_deviation()
         ),

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::TransientSettings;
+use bouncing_disk::{Estimate, InputSpread, InputTolerance, Motor, OperatingSettings, TransientSettings};
 
-use super::data::{Drop, Following, Input, Table3Data};
+use super::data::{Drop, Following, Input, OverInputs, Speed, Table3Data};
 use crate::catalogue;
 use crate::claim::Cases;
 use crate::experiment::{ExperimentError, Quality};
@@ -30,6 +30,7 @@ pub(super) fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
         Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
     };
     let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
+    let speeds = [speed(&as_printed, quality)?, speed(&as_frequency, quality)?];
     Ok(Table3Data {
         inputs: inputs(&cases)?,
         printed_inputs: paper::printed_inputs(),
@@ -38,10 +39,41 @@ pub(super) fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
         gravity_m_per_s2: section.gravity_m_per_s2,
         preloads_n: cases.map(|case| mass * case.preload_acceleration_m_per_s2),
         varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
-        derived: derived(&cases, &stalls, mass)?,
+        derived: derived(&cases, &stalls, &speeds, mass)?,
         stalls,
+        speeds,
         drop: ball_drop(&section)?,
         ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
+    })
+}
+
+/// The steady speed of a motor, and the spreads over its inputs.
+fn speed(case: &MotorCase, quality: Quality) -> Result<Speed, ExperimentError> {
+    let motor = Motor::paper_70_khz()
+        .with(|sheet| sheet.preload_acceleration = Some(case.preload_acceleration_m_per_s2))?;
+    let settings = OperatingSettings { members: quality.choose(4, 16), ..OperatingSettings::default() };
+    let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
+    let over_inputs = |spread: Option<InputSpread>, unit: f64| {
+        let quantity = || "spread over the inputs".to_owned();
+        let InputSpread { mean, standard_deviation, from_to, draws, trapped, .. } =
+            spread.ok_or_else(|| ExperimentError::NoData { quantity: quantity() })?;
+        Ok::<_, ExperimentError>(OverInputs {
+            tolerance: tolerance.preload,
+            mean: mean.value / unit,
+            deviation: standard_deviation.value / unit,
+            from_to: from_to.map(|end| end / unit),
+            draws,
+            trapped,
+        })
+    };
+    let Estimate { value, standard_error } = motor.no_load_speed(&settings)?;
+    let speeds = motor.speed_spreads(&[0.0], &settings, &tolerance)?;
+    let inertia = motor.mass() * case.gyration_radius_m * case.gyration_radius_m;
+    Ok(Speed {
+        speed_rad_per_s: value,
+        standard_error_rad_per_s: standard_error,
+        over_inputs_rad_per_s: over_inputs(speeds.into_iter().next().flatten(), 1.0)?,
+        stall_over_inputs_rad_per_s2: over_inputs(motor.stall_spread(&settings, &tolerance)?, inertia)?,
     })
 }
 
@@ -101,9 +133,13 @@ fn inputs(cases: &[MotorCase; 2]) -> Result<Vec<Input>, ExperimentError> {
     INPUTS.into_iter().map(input).collect()
 }
 
+/// Where the ends of a spread come from.
+const WITHIN: &str = "preload and amplitude within 1 %";
+
 fn derived(
     cases: &[MotorCase; 2],
     stalls: &[Stall; 2],
+    speeds: &[Speed; 2],
     mass: f64,
 ) -> Result<Vec<Following>, ExperimentError> {
     let [printed, frequency] = cases;
@@ -178,6 +214,41 @@ fn derived(
             "rad/s²",
             "the paper's estimate of it",
             stalls.map(|stall| stall.estimate_rad_per_s2.mean),
+        ),
+        row(
+            "least stall",
+            "least stall",
+            "rad/s²",
+            WITHIN,
+            speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[0]),
+        ),
+        row(
+            "largest stall",
+            "largest stall",
+            "rad/s²",
+            WITHIN,
+            speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[1]),
+        ),
+        row(
+            "steady speed",
+            r"$\dot{\alpha}_{ss}$",
+            "rad/s",
+            "mean over time, without load",
+            speeds.map(|of| of.speed_rad_per_s),
+        ),
+        row(
+            "least speed",
+            "least speed",
+            "rad/s",
+            WITHIN,
+            speeds.map(|of| of.over_inputs_rad_per_s.from_to[0]),
+        ),
+        row(
+            "largest speed",
+            "largest speed",
+            "rad/s",
+            WITHIN,
+            speeds.map(|of| of.over_inputs_rad_per_s.from_to[1]),
         ),
     ])
 }

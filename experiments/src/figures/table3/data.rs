@@ -23,9 +23,46 @@ pub struct Table3Data {
     pub(super) derived: Vec<Following>,
     /// The load that stalls the motor, for the two readings.
     pub(super) stalls: [Stall; 2],
+    /// The speed without load, and how far it and that load lie apart over the tolerances of the inputs.
+    pub(super) speeds: [Speed; 2],
     pub(super) drop: Drop,
     /// a_g of a solid ball of the rotor's diameter.
     pub(super) ball_gyration_radius_mm: f64,
+}
+
+/// The steady speed of a motor without load, and what the tolerances of its inputs make of it and of the stall load.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Speed {
+    pub(super) speed_rad_per_s: f64,
+    pub(super) standard_error_rad_per_s: f64,
+    pub(super) over_inputs_rad_per_s: OverInputs,
+    pub(super) stall_over_inputs_rad_per_s2: OverInputs,
+}
+
+/// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation within a decade.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct OverInputs {
+    pub(super) tolerance: f64,
+    pub(super) mean: f64,
+    pub(super) deviation: f64,
+    /// The least and the largest.
+    pub(super) from_to: [f64; 2],
+    pub(super) draws: usize,
+    pub(super) trapped: usize,
+}
+
+impl OverInputs {
+    pub(super) fn words(&self) -> String {
+        format!(
+            "{:.2} to {:.2}, mean {:.2}, over {} motors whose preload and amplitude lie within {} %, {} of them in a trap",
+            self.from_to[0],
+            self.from_to[1],
+            self.mean,
+            self.draws,
+            100.0 * self.tolerance,
+            self.trapped
+        )
+    }
 }
 
 /// An input of a simulation, for both readings.

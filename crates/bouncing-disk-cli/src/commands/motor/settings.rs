@@ -53,7 +53,7 @@ pub(super) struct SpreadArgs {
     /// Motors that are drawn within it
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = InputTolerance::default().draws)]
     draws: usize,
-    /// Leaves the spread out, which costs two to ten times the rest
+    /// Leaves the spread out, which costs up to ten times the rest
     #[arg(long)]
     no_spread: bool,
 }

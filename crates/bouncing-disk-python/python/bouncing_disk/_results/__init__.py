@@ -16,6 +16,7 @@ from bouncing_disk._results._dynamics import (
 from bouncing_disk._results._invariant import CrisisLives, LyapunovSpectra, Manifold
 from bouncing_disk._results._motors import (
     BestPhaseLag,
+    InputSpread,
     LowPeriodTraps,
     MotorMap,
     MotorReport,
@@ -65,6 +66,7 @@ __all__ = [
     "EventTable",
     "BrakingFit",
     "ExponentialFit",
+    "InputSpread",
     "IntervalEstimate",
     "LocalSensitivities",
     "LowPeriodTraps",

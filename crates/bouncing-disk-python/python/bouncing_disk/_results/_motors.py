@@ -195,6 +195,37 @@ class StallLoad:
 
 
 @dataclass(frozen=True)
+class InputSpread:
+    """How far a speed (rad/s) or a stall load (N m) lies apart over the tolerances of a motor's inputs.
+
+    Attributes
+    ----------
+    mean, mean_error : float
+        The mean over the draws and its standard error.
+    standard_deviation, standard_deviation_error : float
+        The standard deviation over the draws, without what statistical errors add, and its standard error.
+    from_to : (float, float)
+        The least and the largest draw: a further one lies between them with the chance (n - 1)/(n + 1) of n draws.
+    draws, without : int
+        Draws that have the number, and that have none.
+    unsettled : int
+        Draws of which the start-up leaves more than the standard deviation.
+    trapped : int
+        Draws that are in a low-period trap.
+    """
+
+    mean: float
+    mean_error: float
+    standard_deviation: float
+    standard_deviation_error: float
+    from_to: tuple[float, float]
+    draws: int
+    without: int
+    unsettled: int
+    trapped: int
+
+
+@dataclass(frozen=True)
 class BestPhaseLag:
     """The phase lag at which a motor turns fastest.
 

@@ -110,6 +110,8 @@ pub(crate) struct Operations {
     pub(crate) speeds: Vec<Vec<f64>>,
     /// Those of rotors from far above: the difference bounds what is left of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
+    /// How long each member was followed, in units of the shortest run.
+    pub(crate) length: f64,
 }
 
 /// The steady operation of motors that share one vertical motion. The errors are relative to the largest speed of those
@@ -120,6 +122,17 @@ pub(crate) fn operate(
     observer: &dyn Observer,
 ) -> Result<Operations, Error> {
     settings.check()?;
+    operate_for(None, motors, settings, observer)
+}
+
+/// [`operate`] with members that are followed for just this length, however well the speeds are known then; of settings that may
+/// have fewer members than are legal.
+pub(crate) fn operate_for(
+    length: Option<f64>,
+    motors: &[LoadedMotor],
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Operations, Error> {
     let rotors = motors.len().saturating_mul(settings.members);
     within_limit("rotors of all members", rotors, MAX_OPERATED_ROTORS)?;
     let systems: Vec<System> = motors.iter().map(|motor| motor.system).collect();
@@ -134,12 +147,21 @@ pub(crate) fn operate(
         carried.push(LoadedMotor { system: unloaded, load_torque: 0.0, ..motors[0] });
     }
 
-    let mut results =
-        Operations { operations: Vec::new(), speeds: Vec::new(), speeds_from_above: Vec::new() };
+    let mut results = Operations {
+        operations: Vec::new(),
+        speeds: Vec::new(),
+        speeds_from_above: Vec::new(),
+        length: length.unwrap_or(1.0),
+    };
     let mut known = if asked > 0 {
         let watch = Watch::begin(observer, 0, settings.most_impacts)?;
-        let mut run = Run::new(carried, asked, settings)?;
-        run.compute(settings, &watch)?;
+        let mut run = Run::new(length.unwrap_or(1.0), carried, asked, settings)?;
+        let first = run.duration;
+        match length {
+            Some(_) => run.extend(FIRST_WINDOWS, &watch)?,
+            None => run.compute(settings, &watch)?,
+        }
+        results.length *= run.duration / first * run.windows() as f64 / FIRST_WINDOWS as f64;
         watch.end();
         run.results()?
     } else {
@@ -177,7 +199,12 @@ struct Run {
 }
 
 impl Run {
-    fn new(motors: Vec<LoadedMotor>, asked: usize, settings: &OperatingSettings) -> Result<Self, Error> {
+    fn new(
+        length: f64,
+        motors: Vec<LoadedMotor>,
+        asked: usize,
+        settings: &OperatingSettings,
+    ) -> Result<Self, Error> {
         let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
         let members = (0..settings.members)
             .map(|index| Ok((Member::new(&systems, asked, index, settings)?, Vec::new())))
@@ -185,10 +212,10 @@ impl Run {
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest rotor.
         let rise = systems.iter().filter(|system| system.friction() > 0.0);
         let rise = rise.map(|system| system.twist_speed() / system.friction()).fold(0.0, f64::max);
-        let duration = (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
+        let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
         // Even where the rise takes for ever the first round spends no more than it may.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
-        let least_impacts = LEAST_IMPACTS.min(most_impacts);
+        let least_impacts = ((length * LEAST_IMPACTS as f64) as u64).min(most_impacts);
         let shortfalls = vec![None; asked];
         Ok(Self { motors, asked, members, duration, least_impacts, most_impacts, shortfalls, wanted: 0.0 })
     }

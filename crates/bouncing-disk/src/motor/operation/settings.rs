@@ -14,7 +14,7 @@ const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 pub struct OperatingSettings {
     /// The standard error of the mean speed that is asked for, relative to the speed without load, in [1e-6, 0.5]; of
     /// motors on one vertical motion, to the largest of theirs that were asked for without load, or the first one's; of
-    /// a motor that hardly turns, relative to a hundredth of the platform's largest angular speed, or of what friction changes in
+    /// a motor whose speed is less, relative to a hundredth of the platform's largest angular speed, or of what friction changes in
     /// a radian of phase. Default 0.01.
     pub relative_error: f64,
     /// Vertical motions that are averaged over, in [4, 4096]. Default 16.

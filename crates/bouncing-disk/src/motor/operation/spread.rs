@@ -8,25 +8,25 @@ use std::f64::consts::LN_10;
 
 use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
+use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
-use super::ensemble::{LoadedMotor, operate};
-use super::point::{Estimate, Operation, Shortfall};
+use super::ensemble::{LoadedMotor, Operations, operate, operate_for};
+use super::point::Estimate;
 use super::settings::OperatingSettings;
-use super::stall_load::stall_load;
+use super::stall_load::stall_share;
 use crate::error::{Error, check, finite, within_limit};
 use crate::motor::data_sheet::Motor;
-use crate::motor::interval_estimate::student_quantile;
 
-/// A draw is computed with so many times the error that is asked for, so that it costs an eighth of a point.
-const LOOSENESS: f64 = 2.828_427_124_746_190_3;
+/// Members of a draw, each followed as long as one of the motor itself: the fewest that have a scatter. It is pooled over all
+/// draws, and what is stopped by no error of its own has one without bias.
+const MEMBERS_OF_DRAW: usize = 2;
 
-/// And with at most this part of the impacts that are allowed: one in a trap that settles slowly costs no more than others.
-const SHARE_OF_IMPACTS: u64 = 64;
+/// Loads of a draw between none and the largest mean torque of friction.
+const STALL_STEPS: usize = 16;
 
-/// Members of a draw: the scatter of all draws' members together gives the statistical error.
-const MEMBERS_OF_DRAW: usize = 4;
+/// Loads of the motor itself, as shares of that torque: a run in which it is steady under these is long enough for its stall.
+const STEADY_UNDER: [f64; 3] = [-0.5, 0.0, 0.5];
 
 /// The streams of random numbers of the draws lie behind those of any members.
 const FIRST_STREAM: u64 = 1 << 32;
@@ -82,11 +82,11 @@ impl InputTolerance {
         })?;
         let decades = self.perturbation_decades * (random.unit() - 0.5);
         let settings = OperatingSettings {
-            relative_error: (LOOSENESS * settings.relative_error).min(0.5),
             members: MEMBERS_OF_DRAW,
-            most_impacts: (settings.most_impacts / SHARE_OF_IMPACTS).max(1),
+            most_impacts: settings.most_impacts / (settings.members / MEMBERS_OF_DRAW) as u64,
             relaunch_perturbation: (settings.relaunch_perturbation * exp(LN_10 * decades)).min(1.0),
             seed,
+            ..*settings
         };
         Ok((motor, settings))
     }
@@ -108,32 +108,52 @@ pub struct InputSpread {
     pub from_to: [f64; 2],
     /// Draws that have the number.
     pub draws: usize,
-    /// Draws that have none: the load overpowers the motor; of stall loads, the motor does not turn, or not steadily.
+    /// Draws that have none: the load overpowers the motor.
     pub without: usize,
-    /// Draws, of those that have the number, which was not settled when their impacts were spent: taken as it was.
+    /// Draws of which the start-up leaves more than the standard deviation: taken as they were.
     pub unsettled: usize,
     /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::TrapVerdict)).
     pub trapped: usize,
 }
 
+/// A number of a motor that was drawn.
+#[derive(Debug, Clone, Copy)]
+struct Drawn {
+    value: f64,
+    /// The variance of its statistical error.
+    variance: f64,
+    /// What is left of the start-up, at most.
+    start_up: f64,
+}
+
+impl Drawn {
+    /// The mean of the members, and of their rotors from above.
+    fn of(members: &[f64], above: &[f64]) -> Self {
+        let (value, deviation) = (mean(members), standard_deviation(members));
+        Self {
+            value,
+            variance: deviation * deviation / members.len() as f64,
+            start_up: (mean(above) - value).abs(),
+        }
+    }
+}
+
 impl InputSpread {
-    /// Of the estimates of independent draws; `None` of fewer than four.
-    fn of(draws: &[Option<Estimate>], unsettled: usize, trapped: usize) -> Result<Option<Self>, Error> {
-        let known: Vec<Estimate> = draws.iter().copied().flatten().collect();
+    /// Of independent draws; `None` of fewer than four.
+    fn of(draws: &[Option<Drawn>], trapped: usize) -> Result<Option<Self>, Error> {
+        let known: Vec<Drawn> = draws.iter().copied().flatten().collect();
         if known.len() < 4 {
             return Ok(None);
         }
         let values: Vec<f64> = known.iter().map(|draw| draw.value).collect();
         let centre = Estimate::of(&values)?;
         let count = known.len() as f64;
-        // An error as it is stated is an interval of Student's over 1.96: its square is more than the variance.
-        let widening = student_quantile(MEMBERS_OF_DRAW as f64 - 1.0) / NORMAL_975;
         // The mean of these is the variance over the inputs, without bias.
         let excess: Vec<f64> = known
             .iter()
             .map(|draw| {
-                let (off, error) = (draw.value - centre.value, draw.standard_error / widening);
-                off * off * (count / (count - 1.0)) - error * error
+                let off = draw.value - centre.value;
+                off * off * (count / (count - 1.0)) - draw.variance
             })
             .collect();
         let variance = mean(&excess).max(0.0);
@@ -155,7 +175,7 @@ impl InputSpread {
             from_to: [at(least), at(largest)],
             draws: known.len(),
             without: draws.len() - known.len(),
-            unsettled,
+            unsettled: known.iter().filter(|draw| draw.start_up > most).count(),
             trapped,
         }))
     }
@@ -164,8 +184,8 @@ impl InputSpread {
 impl Motor {
     /// How far the mean speed (rad/s) lies apart under each of these load torques (N m) over the tolerances of the inputs:
     /// what stands beside the errors of [`Self::torque_speed_curve`] with the same settings. `None` where fewer than four
-    /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve, or a quarter
-    /// where the start-up is most of it: all cost two to ten curves.
+    /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve of 16 members:
+    /// all cost some six curves.
     ///
     /// ```
     /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
@@ -206,26 +226,22 @@ impl Motor {
         for &torque in load_torques {
             finite("load_torque", torque)?;
         }
-        let mut draws = vec![Vec::new(); load_torques.len()];
-        let mut unsettled = vec![0; load_torques.len()];
-        let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
+        let loaded = |motor: &Self| {
             let own = LoadedMotor::of(motor);
-            let motors =
-                load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, _>>()?;
-            for (index, operation) in operate(&motors, settings, watch)?.operations.iter().enumerate() {
-                draws[index].push(operation.point().map(|point| point.speed));
-                let drifts = matches!(operation, Operation::Unsettled(_, Shortfall::Drift { .. }));
-                unsettled[index] += usize::from(drifts);
+            load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, Error>>()
+        };
+        let mut draws = vec![Vec::new(); load_torques.len()];
+        let trapped = self.draw(settings, tolerance, observer, &loaded(self)?, &loaded, |_, found| {
+            for (load, draws) in draws.iter_mut().enumerate() {
+                let (members, above) = (&found.speeds[load], &found.speeds_from_above[load]);
+                draws.push((!members.is_empty()).then(|| Drawn::of(members, above)));
             }
-            Ok(())
         })?;
-        let each = draws.iter().zip(unsettled);
-        each.map(|(draws, unsettled)| InputSpread::of(draws, unsettled, trapped)).collect()
+        draws.iter().map(|draws| InputSpread::of(draws, trapped)).collect()
     }
 
     /// How far the stall load (N m) lies apart over the tolerances of the inputs: what stands beside the error of
-    /// [`Self::stall_load`] with the same settings, and costs two to ten of it. `None` where fewer than four draws have a
-    /// stall load.
+    /// [`Self::stall_load`] with the same settings, and costs up to nine of it. The stall load of a draw may be below zero.
     ///
     /// # Errors
     /// Those of [`Self::speed_spreads`].
@@ -248,33 +264,46 @@ impl Motor {
         tolerance: &InputTolerance,
         observer: &dyn Observer,
     ) -> Result<Option<InputSpread>, Error> {
+        let shares: Vec<f64> = (1..2 * STALL_STEPS).map(|k| k as f64 / STALL_STEPS as f64 - 1.0).collect();
+        let loaded = |motor: &Self, shares: &[f64]| {
+            let (own, largest) = (LoadedMotor::of(motor), motor.largest_torque());
+            shares.iter().map(|share| own.with_load(share * largest)).collect::<Result<Vec<_>, Error>>()
+        };
+        let (first, each) = (loaded(self, &STEADY_UNDER)?, |motor: &Self| loaded(motor, &shares));
         let mut draws = Vec::new();
-        let trapped = self.draw(settings, tolerance, observer, |motor, settings, watch| {
-            draws.push(match stall_load(&LoadedMotor::of(motor), settings, watch) {
-                Ok(stall) => Some(stall.torque),
-                Err(Error::DoesNotTurn { .. } | Error::NotSettled { .. }) => None,
-                Err(error) => return Err(error),
-            });
-            Ok(())
+        let trapped = self.draw(settings, tolerance, observer, &first, &each, |motor, found| {
+            let crossings = |speeds: &[Vec<f64>]| -> Vec<f64> {
+                let of_member =
+                    |member| motor.largest_torque() * stall_share(&shares, |load| speeds[load][member]).0;
+                (0..MEMBERS_OF_DRAW).map(of_member).collect()
+            };
+            let mut draw = Drawn::of(&crossings(&found.speeds), &crossings(&found.speeds_from_above));
+            let means: Vec<f64> = found.speeds.iter().map(|members| mean(members)).collect();
+            let unresolved = motor.largest_torque() * stall_share(&shares, |load| means[load]).1;
+            draw.variance += unresolved * unresolved;
+            draws.push(Some(draw));
         })?;
-        InputSpread::of(&draws, 0, trapped)
+        InputSpread::of(&draws, trapped)
     }
 
-    /// Has something done with each motor that is drawn, and counts those in a trap.
+    /// Operates each motor that is drawn under loads, as long as this one has to be under the first ones, and counts those in
+    /// a trap.
     fn draw(
         &self,
         settings: &OperatingSettings,
         tolerance: &InputTolerance,
         observer: &dyn Observer,
-        mut each: impl FnMut(&Self, &OperatingSettings, &dyn Observer) -> Result<(), Error>,
+        first: &[LoadedMotor],
+        loaded: &dyn Fn(&Self) -> Result<Vec<LoadedMotor>, Error>,
+        mut each: impl FnMut(&Self, &Operations),
     ) -> Result<usize, Error> {
-        settings.check()?;
         tolerance.check()?;
         let (total, mut trapped) = (tolerance.draws as u64, 0);
+        let watch = |done: u64| move |_: Progress| observer.observe(Progress { done, total });
+        let length = operate(first, settings, &watch(0))?.length;
         for index in 0..tolerance.draws {
             let (motor, settings) = tolerance.drawn(self, settings, index)?;
-            let done = index as u64;
-            each(&motor, &settings, &|_: Progress| observer.observe(Progress { done, total }))?;
+            each(&motor, &operate_for(Some(length), &loaded(&motor)?, &settings, &watch(index as u64))?);
             trapped += usize::from(motor.trap_verdict()?.is_trap);
         }
         // Whatever it says, there is nothing left to stop.

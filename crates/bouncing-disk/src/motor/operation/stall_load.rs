@@ -112,7 +112,7 @@ pub(crate) fn stall_load(
         .collect();
     let mut share = Estimate::of(&crossings)?;
     if above - below == 1 {
-        let unresolved = unresolved(&speeds, below) * (fine[above] - fine[below]);
+        let unresolved = unresolved(|k| speeds[k].value, speeds.len(), below) * (fine[above] - fine[below]);
         share.standard_error = hypot(share.standard_error, unresolved);
     }
     if share.value <= share.standard_error.max(LEAST) {
@@ -123,13 +123,29 @@ pub(crate) fn stall_load(
 
 /// The error of the straight line between two neighbouring loads, as a share of their distance: from next to none, where the
 /// speeds beside them go on in the line, to that of an even distribution between them, where a locked motor jumps.
-fn unresolved(speeds: &[Estimate], below: usize) -> f64 {
-    let value = |index: usize| speeds[index].value;
-    let bends =
-        [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < speeds.len());
+fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
+    let bends = [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < loads);
     let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
     let jump = (value(below + 1) - value(below)).abs();
     (bend.fold(0.0, f64::max) / jump).min(1.0) / EVEN
+}
+
+/// The load between the shares of the largest torque at which speeds vanish that fall over them, and the error of the straight
+/// line there; where they do not vanish, in the middle of what is left up to the largest torque.
+pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64, f64) {
+    let above = (0..shares.len()).find(|&k| speed(k) <= 0.0);
+    match above {
+        Some(above @ 1..) => {
+            let (from, to) = (shares[above - 1], shares[above]);
+            let part = speed(above - 1) / (speed(above - 1) - speed(above));
+            (from + part * (to - from), unresolved(&speed, shares.len(), above - 1) * (to - from))
+        }
+        _ => {
+            let (end, limit) =
+                if above.is_some() { (shares[0], -1.0) } else { (shares[shares.len() - 1], 1.0) };
+            (0.5 * (end + limit), (limit - end).abs() / EVEN)
+        }
+    }
 }
 
 /// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would

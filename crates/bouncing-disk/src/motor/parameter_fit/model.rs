@@ -96,9 +96,7 @@ impl Model<'_> {
             let phase = Phase::new(TAU * (member as f64 + 0.5) / members as f64)?;
             let mut means = Vec::with_capacity(candidates.len() * windows.count());
             for group in systems[preload].chunk_by(is_shared) {
-                for curve in
-                    with_instructions(group, phase, &settings, (InstructionSet::best(), false), &mut work)?
-                {
+                for curve in with_instructions(group, phase, &settings, InstructionSet::best(), &mut work)? {
                     means.extend(windows.of_curve(&curve.speeds));
                 }
             }

@@ -114,6 +114,25 @@ fn intervals_of_two_parameters_hold_the_truth_in_most_of_a_hundred() {
     assert!(covered.iter().all(|&count| count >= 85), "{covered:?}");
 }
 
+/// A record that began before the switch-on or after it would have another friction: one clock of three tells.
+#[test]
+fn a_clock_that_is_off_is_refused() {
+    for off in [-0.05, 0.05] {
+        let mut transients = at_all_preloads(0.8, 31);
+        let run = &transients[1].runs.runs()[0];
+        let times = run.times.iter().map(|time| time + off).collect();
+        transients[1] = measured(PRELOADS[1], times, run.speeds.clone(), Some(0.2));
+        let error = fit(&transients, &[FRICTION, TWIST]).expect_err("off");
+        let Error::FitRefused { reason: FitRefusal::ShiftedClock { transient: 1, early, standard_error } } =
+            error
+        else {
+            panic!("{error}")
+        };
+        // To first order.
+        assert!((0.5..2.0).contains(&(-early / off)) && standard_error < 0.01, "{error}");
+    }
+}
+
 #[test]
 fn friction_and_twist_are_told_apart_by_three_preloads() {
     let fit = fit(&at_all_preloads(0.8, 7), &[FRICTION, TWIST]).expect("fitted");

@@ -23,8 +23,9 @@ pub(super) struct Windows {
 }
 
 impl Windows {
-    /// Windows whose ends are the duration, half of it, a fourth, and so on, at most `most` of them.
-    pub(super) fn of(transient: &MeasuredTransient, most: usize, error_variance: f64) -> Self {
+    /// Windows whose ends are the duration, half of it, a fourth, and so on, at most `most` of them. A computed curve is taken
+    /// `late` seconds after the instants that were measured.
+    pub(super) fn of(transient: &MeasuredTransient, most: usize, error_variance: f64, late: f64) -> Self {
         let (runs, duration) = (transient.runs.runs(), transient.duration());
         let mut ends: Vec<f64> = Vec::with_capacity(most);
         let mut end = duration;
@@ -55,7 +56,7 @@ impl Windows {
                 error_variances[window] += share * share * inside.len() as f64 * error_variance;
                 for index in inside {
                     measured[window] += share * run.speeds[index];
-                    interpolate(run.times[index] / duration, share, &mut weights[window]);
+                    interpolate((run.times[index] + late) / duration, share, &mut weights[window]);
                 }
             }
         }
@@ -124,7 +125,7 @@ mod tests {
             (0..40).map(|i| 1.6 + 0.01 * f64::from(i)).collect(),
         ] {
             let measured = transient(times, |time| 3.0 * time);
-            let windows = Windows::of(&measured, 6, 1.0);
+            let windows = Windows::of(&measured, 6, 1.0, 0.0);
             let duration = measured.duration();
             let computed: Vec<f64> = windows.of_curve(&middles(duration, |time| 3.0 * time)).collect();
             for (own, other) in computed.iter().zip(&windows.measured) {
@@ -140,7 +141,7 @@ mod tests {
     #[test]
     fn windows_double_and_those_without_points_are_one_with_the_next() {
         let even = transient((1..=64).map(f64::from).collect(), |_| 1.0);
-        let windows = Windows::of(&even, 6, 2.0);
+        let windows = Windows::of(&even, 6, 2.0, 0.0);
         assert_eq!(windows.count(), 6);
         // 2, 2, 4, 8, 16 and 32 points of variance 2.
         let variances = [1.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
@@ -148,10 +149,10 @@ mod tests {
             windows.error_variances.iter().zip(variances).all(|(own, other)| (own - other).abs() < 1e-15)
         );
         let late = transient((60..=70).map(f64::from).collect(), |_| 1.0);
-        assert_eq!(Windows::of(&late, 6, 1.0).count(), 1);
+        assert_eq!(Windows::of(&late, 6, 1.0, 0.0).count(), 1);
         // The last half holds one point: it belongs to the window before.
         let early = transient((1..=20).chain([100]).map(f64::from).collect(), |_| 1.0);
-        let windows = Windows::of(&early, 6, 21.0);
+        let windows = Windows::of(&early, 6, 21.0, 0.0);
         assert!(windows.measured.iter().all(|mean| (mean - 1.0).abs() < 1e-14));
         assert_eq!(windows.count(), 4);
     }

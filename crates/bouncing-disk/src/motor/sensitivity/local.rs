@@ -1,21 +1,22 @@
 //! Local sensitivities: by which power of a parameter the steady speed or the stall torque changes (Fig. 13).
 
-use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::numerics::statistics::mean;
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::{Observer, Progress, Unobserved, read_checked};
 
 use super::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
+use crate::motor::interval_estimate::student_quantile;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::crossing;
 
 /// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m
-/// g a_e of the load: one of them is chosen.
-const STEPS: [f64; 5] = [0.16, 0.08, 0.04, 0.02, 0.01];
+/// g a_e of the load: with those up and down as many rotors as a row has.
+const STEPS: [f64; 4] = [0.16, 0.12, 0.08, 0.04];
 
 /// Loads around the stall load at which the speeds of each motor are known, as shares of mu m g a_e: the
 /// stall load of each member is read off a straight line through them.
@@ -67,13 +68,11 @@ impl SensitivitySettings {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum SensitivityMethod {
-    /// By a central difference of rotors on the same vertical motions.
+    /// By central differences of rotors on the same vertical motions.
     SharedMotion {
-        /// The step that was chosen.
-        step: f64,
         /// The standard error that the members give.
         scatter: f64,
-        /// The estimated error of the difference quotient.
+        /// What the cubic through the differences surely leaves out of the slope: zero where the scatter explains it.
         curvature: f64,
     },
     /// By a straight line through motors with different vertical motions, drawn over the range of the
@@ -231,49 +230,56 @@ fn by_differences(
     if own.value.abs() <= 4.0 * own.standard_error {
         return Err(standing);
     }
-    let quotient = |values: &[Vec<f64>], pair: usize, step: f64| {
-        let divisors: Vec<f64> = values[0].iter().map(|value| own.value.signum() * value).collect();
-        let ends = values[1 + 2 * pair].iter().zip(&values[2 + 2 * pair]);
-        let differences: Vec<f64> =
-            ends.map(|(up, down)| own.value.signum() * (up - down) / (2.0 * step)).collect();
-        Estimate::of_ratio(&differences, &divisors)
+    // Of the odd polynomials of two and three terms through the differences, per member.
+    let [cubic, quintic] = [slope_weights(2), slope_weights(3)];
+    let left_out = std::array::from_fn(|step| cubic[step] - quintic[step]);
+    let slope = |values: &[Vec<f64>], first: usize, weights: &[f64; STEPS.len()]| {
+        let pairs = || values[first..].chunks_exact(2).zip(weights);
+        let of_member = |member: usize| {
+            pairs().map(|(pair, weight)| 0.5 * weight * (pair[0][member] - pair[1][member])).sum::<f64>()
+        };
+        let signed = |value: f64| own.value.signum() * value;
+        let slopes: Vec<f64> = (0..values[0].len()).map(|member| signed(of_member(member))).collect();
+        let divisors: Vec<f64> = values[0].iter().map(|&value| signed(value)).collect();
+        Estimate::of_ratio(&slopes, &divisors).ok_or(standing)
     };
     let mut results = Vec::with_capacity(parameters.len());
     for (index, &parameter) in parameters.iter().enumerate() {
-        let quotients = STEPS
-            .iter()
-            .enumerate()
-            .map(|(k, &step)| {
-                let of = |values| quotient(values, index * STEPS.len() + k, step);
-                Some(of(&middle)?.bounded_by(of(&above)?))
-            })
-            .collect::<Option<Vec<Estimate>>>();
-        results.push(balanced(parameter, &quotients.ok_or(standing)?));
+        let first = 1 + 2 * STEPS.len() * index;
+        let derivative = slope(&middle, first, &cubic)?.bounded_by(slope(&above, first, &cubic)?);
+        let missing = slope(&middle, first, &left_out)?;
+        let scatter = derivative.standard_error;
+        let curvature = (missing.value.abs() - NORMAL_975 * missing.standard_error).max(0.0);
+        results.push(LocalSensitivity {
+            parameter,
+            derivative: Estimate { standard_error: hypot(scatter, curvature), ..derivative },
+            method: SensitivityMethod::SharedMotion { scatter, curvature },
+        });
     }
     Ok(results)
 }
 
-/// The step with the smallest error, of the scatter over the members and of the curvature together: the error
-/// of a difference quotient is as the square of the step, so that a half of the step leaves a quarter of it.
-fn balanced(parameter: SensitivityParameter, quotients: &[Estimate]) -> LocalSensitivity {
-    let curvature = |index: usize| {
-        let gap = |wide: usize| (quotients[wide].value - quotients[wide + 1].value).abs() * 4.0 / 3.0;
-        if index + 1 < quotients.len() { gap(index) } else { 0.25 * gap(index - 1) }
+/// The weights with which values at the steps give the slope at zero of the odd polynomial of so many terms that fits them with
+/// the least squares: its terms are made orthogonal one by one.
+fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
+    let dot = |one: &[f64; STEPS.len()], other: &[f64; STEPS.len()]| {
+        one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>()
     };
-    let error = |index: usize| {
-        let (scatter, curvature) = (quotients[index].standard_error, curvature(index));
-        (scatter * scatter + curvature * curvature).sqrt()
-    };
-    let best = (0..quotients.len()).min_by(|&one, &other| error(one).total_cmp(&error(other))).unwrap_or(0);
-    LocalSensitivity {
-        parameter,
-        derivative: Estimate { value: quotients[best].value, standard_error: error(best) },
-        method: SensitivityMethod::SharedMotion {
-            step: STEPS[best],
-            scatter: quotients[best].standard_error,
-            curvature: curvature(best),
-        },
+    let mut basis: Vec<([f64; STEPS.len()], f64)> = Vec::with_capacity(terms);
+    let (mut powers, mut weights) = (STEPS, [0.0; STEPS.len()]);
+    for term in 0..terms {
+        let (mut values, mut slope) = (powers, if term == 0 { 1.0 } else { 0.0 });
+        for (other, other_slope) in &basis {
+            let share = dot(&powers, other) / dot(other, other);
+            values.iter_mut().zip(other).for_each(|(value, other)| *value -= share * other);
+            slope -= share * other_slope;
+        }
+        let part = slope / dot(&values, &values);
+        weights.iter_mut().zip(values).for_each(|(weight, value)| *weight += part * value);
+        basis.push((values, slope));
+        powers.iter_mut().zip(STEPS).for_each(|(power, step)| *power *= step * step);
     }
+    weights
 }
 
 /// The quantity of each motor and member, all on the same vertical motions: in the middle of rotors from far below and far above
@@ -387,7 +393,9 @@ impl Line {
         Self {
             centre: y - slope * x,
             slope,
-            slope_error: (variance / square).sqrt(),
+            // Half of Student's interval over 1.96, as of all estimates.
+            slope_error: (variance / square).sqrt() * student_quantile(values.len() as f64 - 2.0)
+                / NORMAL_975,
             scatter: variance.sqrt(),
         }
     }

@@ -1,7 +1,7 @@
 //! The speed transients of many rotors on one vertical motion.
 
 use bouncing_disk_core::{
-    Impact, InstructionSet, LaneRunner, Observer, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
+    Impact, InstructionSet, LaneRunner, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
 };
 
 use super::rotor_set::{CarryAll, Turned};
@@ -49,23 +49,8 @@ pub fn shared_transients(
     phase: Phase,
     settings: &TransientSettings,
 ) -> Result<Vec<SpeedCurve>, Error> {
-    shared_transients_observed(systems, phase, settings, &Unobserved)
-}
-
-/// [`shared_transients`] with an observer; the items are the intervals of the curves.
-///
-/// # Errors
-/// Those of [`shared_transients`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-/// the observer breaks.
-pub fn shared_transients_observed(
-    systems: &[System],
-    phase: Phase,
-    settings: &TransientSettings,
-    observer: &dyn Observer,
-) -> Result<Vec<SpeedCurve>, Error> {
-    let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
-    let curves =
-        with_instructions(systems, phase, settings, (InstructionSet::best(), true), &mut watch.work())?;
+    let watch = Watch::begin(&Unobserved, 0, settings.intervals as u64)?;
+    let curves = with_instructions(systems, phase, settings, InstructionSet::best(), &mut watch.work())?;
     watch.end();
     Ok(curves)
 }
@@ -75,7 +60,7 @@ pub(crate) fn with_instructions(
     systems: &[System],
     phase: Phase,
     settings: &TransientSettings,
-    (set, is_whole_call): (InstructionSet, bool),
+    set: InstructionSet,
     work: &mut WorkCount<'_>,
 ) -> Result<Vec<SpeedCurve>, Error> {
     let first = shared_by(systems)?;
@@ -89,7 +74,7 @@ pub(crate) fn with_instructions(
         return systems.iter().map(|system| SpeedCurve::alone(system, phase, settings, work)).collect();
     };
     let mut run = SharedRun::new(systems, phase, settings, vertical, set)?;
-    run.compute(is_whole_call, work)?;
+    run.compute(work)?;
     run.finished()
 }
 
@@ -162,17 +147,13 @@ impl SharedRun {
         self.interval.reached >= self.duration
     }
 
-    fn compute(&mut self, is_whole_call: bool, work: &mut WorkCount<'_>) -> Result<(), Error> {
+    fn compute(&mut self, work: &mut WorkCount<'_>) -> Result<(), Error> {
         let rotors = self.carried.len() as u64;
         // A start on a platform that falls away is a flight.
         if self.carried.iter().all(|one| one.rotor.launch().is_none()) {
             self.rest(|_, _| {})?;
         }
         while !self.is_done() {
-            // In a longer call its items are not the intervals of a curve.
-            if is_whole_call {
-                work.watch().set_done(self.interval.index as u64);
-            }
             match self.vertical.advance()? {
                 Some(OrbitEvent::Impact(impact)) => {
                     self.hit(&impact);

@@ -8,20 +8,18 @@ fn quick() -> OperatingSettings {
 #[test]
 fn the_spread_of_known_draws_is_found() {
     let normal = |random: &mut SplitMix64| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
-    let students = student_quantile(MEMBERS_OF_DRAW as f64 - 1.0) / NORMAL_975;
     let (mut held, mut inside, mut trials) = (0, 0, 0);
     for true_spread in [0.0, 0.5, 2.0] {
         for seed in 0..100 {
             let mut random = SplitMix64::new(SplitMix64::seed_of_stream(seed, 1));
-            let draws: Vec<Option<Estimate>> = (0..39)
+            let draws: Vec<Option<Drawn>> = (0..39)
                 .map(|_| {
-                    // Errors of four members, as they are stated: known to two fifths, and Student's.
-                    let value = 10.0 + true_spread * normal(&mut random) + normal(&mut random);
-                    let square = (0..3).map(|_| normal(&mut random)).map(|one| one * one).sum::<f64>();
-                    Some(Estimate { value, standard_error: students * (square / 3.0).sqrt() })
+                    let own = 10.0 + true_spread * normal(&mut random);
+                    let members = [0; MEMBERS_OF_DRAW].map(|_| own + normal(&mut random));
+                    Some(Drawn::of(&members, &members))
                 })
                 .collect();
-            let spread = InputSpread::of(&draws, 0, 0).expect("finite").expect("many");
+            let spread = InputSpread::of(&draws, 0).expect("finite").expect("many");
             let Estimate { value, standard_error } = spread.standard_deviation;
             held += u32::from((value - true_spread).abs() <= 2.0 * standard_error);
             let further = 10.0 + true_spread * normal(&mut random);
@@ -30,7 +28,7 @@ fn the_spread_of_known_draws_is_found() {
         }
     }
     assert!(held * 10 >= trials * 9 && inside * 10 >= trials * 9, "{held} {inside} {trials}");
-    assert_eq!(InputSpread::of(&[None; 30], 0, 3).expect("finite"), None);
+    assert_eq!(InputSpread::of(&[None; 30], 3).expect("finite"), None);
 }
 
 /// Motors that are exactly known have no spread, whatever their statistical errors.

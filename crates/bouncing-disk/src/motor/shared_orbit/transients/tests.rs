@@ -36,8 +36,7 @@ fn varied(base: &System, count: u32) -> Vec<System> {
 fn assert_as_alone(systems: &[System], phase: Phase, settings: &TransientSettings) {
     for set in InstructionSet::available() {
         let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
-        let curves =
-            with_instructions(systems, phase, settings, (set, false), &mut watch.work()).expect("no failure");
+        let curves = with_instructions(systems, phase, settings, set, &mut watch.work()).expect("no failure");
         assert_eq!(curves.len(), systems.len());
         for (system, curve) in systems.iter().zip(&curves) {
             let alone = transient(system, phase, settings).expect("no failure");
@@ -155,17 +154,17 @@ fn more_curves_than_there_is_room_for_are_refused() {
 }
 
 #[test]
-fn an_observer_is_told_of_intervals_and_may_stop() {
+fn a_longer_call_may_stop() {
     let systems = varied(&motor(1e-8, 0.0), 16);
     let settings = TransientSettings { duration: 20.0, intervals: 50, ..TransientSettings::default() };
-    let stop_at = |done: u64| {
-        move |progress: Progress| {
-            assert_eq!(progress.total, 50);
-            if progress.done < done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        }
+    let asked = std::sync::atomic::AtomicBool::new(false);
+    // It goes on at first, and is asked again under way.
+    let stop = |_: Progress| {
+        let goes_on = !asked.swap(true, std::sync::atomic::Ordering::Relaxed);
+        if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
-    let whole = shared_transients_observed(&systems, zero(), &settings, &stop_at(51)).expect("not stopped");
-    assert_eq!(whole, shared_transients(&systems, zero(), &settings).expect("no failure"));
-    let stopped = shared_transients_observed(&systems, zero(), &settings, &stop_at(1));
+    let watch = Watch::begin(&stop, 0, 1).expect("goes on");
+    let set = InstructionSet::best();
+    let stopped = with_instructions(&systems, zero(), &settings, set, &mut watch.work());
     assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))));
 }
