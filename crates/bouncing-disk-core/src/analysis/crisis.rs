@@ -94,7 +94,7 @@ pub struct Crisis {
 }
 
 /// What a disk does after it came to rest beyond a crisis, where it separates always in the same state: at each of 16
-/// forcings from the crisis to the upper end of its bracket.
+/// forcings from the crisis to the upper end of its bracket, beyond a tangency to a sixteenth of that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LifeAfterRest {
@@ -268,6 +268,9 @@ const LONG_ROUND: u64 = 200;
 /// Forcings next to a crisis at which a disk is followed after a rest.
 const FORCINGS_AFTER_REST: u32 = 16;
 
+/// How far beyond a tangency these lie, over the distance to the upper end of the bracket.
+const NEXT_TO: f64 = 1.0 / 16.0;
+
 impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
     ///
@@ -347,13 +350,16 @@ impl CrisisSearch {
             }
             Err(_) => (0.5 * (bracket.0 + bracket.1), 0.5 * (bracket.1 - bracket.0)),
         };
+        // A tangency says where "just beyond" is.
+        let next = if tangency.is_ok() { NEXT_TO } else { 1.0 };
+        let beyond = forcing + next * (bracket.1 - forcing);
         Ok(Ok(Crisis {
             restitution: self.restitution,
             forcing,
             forcing_error,
             bracket,
             attractor: end.attractor[0],
-            after_rest: self.after_rest(&end, forcing)?,
+            after_rest: self.after_rest(&end, forcing, beyond)?,
             tangency: tangency.map(|own| own.tangency),
         }))
     }
@@ -372,12 +378,13 @@ impl CrisisSearch {
         Ok(pairs.collect())
     }
 
-    fn after_rest(&self, end: &End, crisis: f64) -> Result<LifeAfterRest, Error> {
-        let (limit, high) = (self.each() as u64, end.bracket.1);
+    /// What follows after a rest at forcings from `low` to `high`.
+    fn after_rest(&self, end: &End, low: f64, high: f64) -> Result<LifeAfterRest, Error> {
+        let limit = self.each() as u64;
         let (mut short, mut least, mut most) = (0, u64::MAX, 0);
         for forcing in 0..FORCINGS_AFTER_REST {
             let share = f64::from(forcing) / f64::from(FORCINGS_AFTER_REST);
-            let lived = self.relaunched(high - share * (high - crisis), limit)?;
+            let lived = self.relaunched(high - share * (high - low), limit)?;
             let long = lived == limit || lived > LONG_ROUND && lived as f64 > LONG * end.life;
             short += u32::from(!long);
             (least, most) = (least.min(lived), most.max(lived));
