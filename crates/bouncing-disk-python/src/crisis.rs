@@ -71,10 +71,14 @@ impl Crisis {
     }
 
     /// Whether the disk soon rests again after it came to rest, and so for ever: the attractor is lost. Otherwise it
-    /// lives on after a rest, which has become a part of the attractor.
+    /// lives on after a rest, which has become a part of the attractor. None where it depends on the forcing.
     #[getter]
-    fn is_boundary_crisis(&self) -> bool {
-        matches!(self.0.after_rest, LifeAfterRest::Short { .. })
+    fn is_boundary_crisis(&self) -> Option<bool> {
+        match self.0.after_rest {
+            LifeAfterRest::Short { .. } => Some(true),
+            LifeAfterRest::Long { .. } => Some(false),
+            LifeAfterRest::Varied { .. } => None,
+        }
     }
 
     /// Why no tangency is known that is the reason; None where one is.

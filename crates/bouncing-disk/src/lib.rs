@@ -21,7 +21,7 @@
 //! | without units | [`DimensionlessSystem`], [`ForcingParameters`], [`Scales`] |
 //! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
 //! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
-//! | the spin on a periodic orbit | [`rotary_response`], [`RotaryOutcome`], [`collision_multipliers`], [`rotary_round`]; over forcing, lag or load: [`rotary_branch`] |
+//! | the spin on a periodic orbit | [`rotary_response`], [`RotaryOutcome`], [`rotary_round`] |
 //! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
 //! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
 //! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
@@ -177,13 +177,7 @@ pub use toss::multiple::{
     MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss, multi_toss_observed,
 };
 pub use toss::period_one::period_one_rotary_speed;
-pub use toss::rotary_branch::{
-    RotaryBranch, RotaryParameter, RotaryPiece, rotary_branch, rotary_branch_observed,
-};
-pub use toss::rotary_response::{
-    CollisionMultipliers, RotaryOutcome, RotaryResponse, RotaryRound, collision_multipliers, rotary_response,
-    rotary_round,
-};
+pub use toss::rotary_response::{RotaryOutcome, RotaryResponse, RotaryRound, rotary_response, rotary_round};
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the example of the README.

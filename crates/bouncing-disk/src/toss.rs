@@ -6,6 +6,5 @@ pub(crate) mod design;
 pub(crate) mod efficiency;
 pub(crate) mod multiple;
 pub(crate) mod period_one;
-pub(crate) mod rotary_branch;
 pub(crate) mod rotary_response;
 pub(crate) mod single;

@@ -293,21 +293,5 @@ fn the_spin_on_a_periodic_orbit() {
         ],
     );
     check(&RotaryOutcome::Runaway { change: -0.1 }, &[]);
-    check(
-        &collision_multipliers(&system, &orbit).expect("an orbit"),
-        &[("/rotary", json!(0.5), "rotary multiplier")],
-    );
     check(&rotary_round(&system, &orbit, 30.0).expect("a round"), &[]);
-    let branch = rotary_branch(&system, &orbit, RotaryParameter::PhaseLag, (0.0, TAU)).expect("a branch");
-    check(
-        &branch,
-        &[
-            ("/pieces/0/high", json!(-1.0), "high end"),
-            (
-                "/pieces",
-                json!([{"low": 0.0, "high": 1.0, "sliding": [null]}, {"low": 2.0, "high": 3.0, "sliding": ["Forward"]}]),
-                "gap",
-            ),
-        ],
-    );
 }

@@ -80,28 +80,6 @@ impl Axis {
         self.cells
     }
 
-    /// The same axis with each cell cut into `factor` equal ones. An odd factor keeps the centres of the old
-    /// cells, to the last bit: cell i becomes the cells from `factor` i on, and its centre is that of the middle
-    /// one.
-    ///
-    /// ```
-    /// # use bouncing_disk_core::Axis;
-    /// let axis = Axis::new(0.0, 0.7, 10)?;
-    /// let finer = axis.refined(3)?;
-    /// assert_eq!(finer.centre(3 * 4 + 1).to_bits(), axis.centre(4).to_bits());
-    /// # Ok::<(), bouncing_disk_core::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for an even factor or one above 999, or where there would be more than 100 000 cells.
-    pub fn refined(&self, factor: u32) -> Result<Self, Error> {
-        if factor.is_multiple_of(2) || factor > 999 {
-            let (value, legal) = (factor.into(), "odd, in [1, 999]");
-            return Err(Error::OutOfRange { field: "factor of a refinement", value, legal });
-        }
-        Self::new(self.low, self.high, self.cells.saturating_mul(factor as usize))
-    }
-
     /// Centre of cell `index`; of the last cell for an index beyond it.
     #[must_use]
     pub fn centre(&self, index: usize) -> f64 {
@@ -146,14 +124,6 @@ impl Grid {
         within("lowest normalised speed", speed.low(), 0.0, Self::MAX_SPEED, "[0, 1e100]")?;
         within("highest normalised speed", speed.high(), 0.0, Self::MAX_SPEED, "[0, 1e100]")?;
         Ok(Self { phase, speed })
-    }
-
-    /// The same grid with each cell cut into `factor` x `factor` equal ones: see [`Axis::refined`].
-    ///
-    /// # Errors
-    /// Those of [`Axis::refined`].
-    pub fn refined(&self, factor: u32) -> Result<Self, Error> {
-        Self::new(self.phase.refined(factor)?, self.speed.refined(factor)?)
     }
 
     /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: of whole periods nothing is left to round.

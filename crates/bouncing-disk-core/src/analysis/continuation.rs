@@ -2,7 +2,7 @@
 //! on the way (docs/numerics/dynamics.md, "Branches").
 
 use crate::analysis::closing::{Closing, ContinuationParameter};
-use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
+use crate::analysis::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::error::{Error, finite, within};
 use crate::map::impact_map::ImpactMap;
 use crate::observer::{Observer, Unobserved, Watch};
@@ -155,10 +155,10 @@ impl BranchPoint {
         Multipliers::of_invariants(self.trace, self.determinant)
     }
 
-    /// Whether the orbit attracts: both multipliers are inside of the unit circle.
+    /// Whether the orbit attracts, where rounding leaves no doubt of it ([`Stability::Stable`]).
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.trace.abs() < 1.0 + self.determinant && self.determinant < 1.0
+        self.orbit.stability() == Stability::Stable
     }
 }
 

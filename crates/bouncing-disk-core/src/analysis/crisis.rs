@@ -78,12 +78,12 @@ pub struct Crisis {
     pub restitution: f64,
     /// Gamma of the tangency; without one the middle of the bracket.
     pub forcing: f64,
-    /// The error of that: what the last flights along the saddle changed and the rounding, or half of the
-    /// bracket.
+    /// The error of that: half of the bracket, or its part below the tangency, which bounds the crisis from above to
+    /// what the last flights along the saddle changed and the rounding.
     pub forcing_error: f64,
-    /// The values of Gamma between which the crisis lies by the lives of orbits: at the second some came to
-    /// rest; at the first, and below it, more impacts were followed without a rest than chance allows for in
-    /// 95 of 100 searches.
+    /// The values of Gamma between which the crisis lies by the lives of orbits: at the second one came to rest,
+    /// which is certain; if it lay below the first, a rest would have been seen between them in 95 of 100 searches, as
+    /// long as lives go on rising as steeply at most as those that were measured.
     pub bracket: (f64, f64),
     /// An impact on the attractor next to the lower end of the bracket.
     pub attractor: ImpactState,
@@ -93,22 +93,28 @@ pub struct Crisis {
     pub tangency: Result<Tangency, NoTangency>,
 }
 
-/// What a disk does after it came to rest beyond a crisis: it separates always in the same state.
+/// What a disk does after it came to rest beyond a crisis, where it separates always in the same state: at each of 16
+/// forcings from the crisis to the upper end of its bracket, beyond a tangency to a sixteenth of that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LifeAfterRest {
-    /// It rests again after so many impacts, far fewer than lives on the attractor have, and so for ever: a
-    /// boundary crisis, in which the attractor is lost. It is 0 where the platform never falls away.
+    /// At every one it rests again after so many impacts at most, far fewer than lives on the attractor have, and so
+    /// for ever: a boundary crisis, in which the attractor is lost. It is 0 where the platform never falls away.
     Short {
         /// Impacts from one rest to the next.
         impacts: u64,
     },
-    /// It lives on for a hundredth of their mean life and 200 impacts at least, as orbits on the attractor do, or does not
-    /// rest again within the impacts that were followed: rest has become a part of the attractor, or another
-    /// attractor follows after it.
+    /// At every one it lives on for a hundredth of their mean life and 200 impacts at least, as orbits on the attractor
+    /// do, or does not rest again within the impacts that were followed: rest has become a part of the attractor, or
+    /// another attractor follows after it.
     Long {
-        /// Impacts that were followed without a rest.
+        /// Impacts that were followed without a rest, at least.
         impacts: u64,
+    },
+    /// It depends on the forcing.
+    Varied {
+        /// Forcings of these 16 at which it rests again soon.
+        short: u32,
     },
 }
 
@@ -259,6 +265,12 @@ pub enum NoCrisis {
 const LONG: f64 = 0.01;
 const LONG_ROUND: u64 = 200;
 
+/// Forcings next to a crisis at which a disk is followed after a rest.
+const FORCINGS_AFTER_REST: u32 = 16;
+
+/// How far beyond a tangency these lie, over the distance to the upper end of the bracket.
+const NEXT_TO: f64 = 1.0 / 16.0;
+
 impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
     ///
@@ -332,16 +344,22 @@ impl CrisisSearch {
             return Ok(Err(NoCrisis::OtherReason { bracket, reason: *reason }));
         }
         let (forcing, forcing_error) = match &tangency {
-            Ok(own) => (own.forcing, (own.forcing - bracket.0).max(own.error)),
+            Ok(own) => {
+                let above = own.error.min(bracket.1 - own.forcing);
+                (own.forcing, (own.forcing - bracket.0).max(above))
+            }
             Err(_) => (0.5 * (bracket.0 + bracket.1), 0.5 * (bracket.1 - bracket.0)),
         };
+        // A tangency says where "just beyond" is.
+        let next = if tangency.is_ok() { NEXT_TO } else { 1.0 };
+        let beyond = forcing + next * (bracket.1 - forcing);
         Ok(Ok(Crisis {
             restitution: self.restitution,
             forcing,
             forcing_error,
             bracket,
             attractor: end.attractor[0],
-            after_rest: self.after_rest(&end)?,
+            after_rest: self.after_rest(&end, forcing, beyond)?,
             tangency: tangency.map(|own| own.tangency),
         }))
     }
@@ -360,14 +378,21 @@ impl CrisisSearch {
         Ok(pairs.collect())
     }
 
-    fn after_rest(&self, end: &End) -> Result<LifeAfterRest, Error> {
+    /// What follows after a rest at forcings from `low` to `high`.
+    fn after_rest(&self, end: &End, low: f64, high: f64) -> Result<LifeAfterRest, Error> {
         let limit = self.each() as u64;
-        let lived = self.relaunched(end, limit)?;
-        let long = lived == limit || lived > LONG_ROUND && lived as f64 > LONG * end.life;
-        Ok(if long {
-            LifeAfterRest::Long { impacts: lived }
-        } else {
-            LifeAfterRest::Short { impacts: lived }
+        let (mut short, mut least, mut most) = (0, u64::MAX, 0);
+        for forcing in 0..FORCINGS_AFTER_REST {
+            let share = f64::from(forcing) / f64::from(FORCINGS_AFTER_REST);
+            let lived = self.relaunched(high - share * (high - low), limit)?;
+            let long = lived == limit || lived > LONG_ROUND && lived as f64 > LONG * end.life;
+            short += u32::from(!long);
+            (least, most) = (least.min(lived), most.max(lived));
+        }
+        Ok(match short {
+            FORCINGS_AFTER_REST => LifeAfterRest::Short { impacts: most },
+            0 => LifeAfterRest::Long { impacts: least },
+            short => LifeAfterRest::Varied { short },
         })
     }
 }

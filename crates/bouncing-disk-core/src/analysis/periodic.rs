@@ -155,8 +155,8 @@ read_checked!(PeriodicOrbit as UncheckedOrbit {
     trace_error: f64,
 });
 
-/// Whether a periodic orbit attracts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Whether a periodic orbit attracts, the most stable first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stability {
     /// Both multipliers lie inside the unit circle by more than their uncertainty: the orbit attracts.
     Stable,
@@ -227,8 +227,7 @@ impl PeriodicOrbit {
     /// ```
     #[must_use]
     pub fn stability(&self) -> Stability {
-        let trace = self.monodromy.x_axis.x + self.monodromy.y_axis.y;
-        let inside = 1.0 + self.monodromy.determinant() - trace.abs();
+        let inside = 1.0 + self.monodromy.determinant() - self.trace().abs();
         if inside > self.trace_error {
             Stability::Stable
         } else if inside < -self.trace_error {
@@ -250,10 +249,24 @@ impl PeriodicOrbit {
         Multipliers::of(self.monodromy)
     }
 
+    /// How far the multipliers may be off: as far as [`Self::trace_error`] moves the roots of m^2 - T m + D, at a double
+    /// root like its square root.
+    #[must_use]
+    pub fn multiplier_error(&self) -> f64 {
+        let (trace, determinant) = (self.trace(), self.monodromy.determinant());
+        let radicand = (0.25 * trace * trace - determinant).abs();
+        let change = 0.5 * self.trace_error * (trace.abs() + 0.5 * self.trace_error);
+        0.5 * self.trace_error + (change / radicand.sqrt()).min(change.sqrt())
+    }
+
+    fn trace(&self) -> f64 {
+        self.monodromy.x_axis.x + self.monodromy.y_axis.y
+    }
+
     /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero where the orbit doubles its period.
     #[must_use]
     pub fn flip_function(&self) -> f64 {
-        1.0 + (self.monodromy.x_axis.x + self.monodromy.y_axis.y) + self.monodromy.determinant()
+        1.0 + self.trace() + self.monodromy.determinant()
     }
 }
 

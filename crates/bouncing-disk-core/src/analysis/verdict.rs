@@ -33,7 +33,7 @@ const TOGETHER: usize = 1 << 14;
 pub enum Verdict {
     /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle by more than [their error](ImpactMap::multiplier_error), and no impact of it chatters
+    /// the unit circle by more than [their error](crate::PeriodicOrbit::multiplier_error), and no impact of it chatters
     /// to rest.
     Periodic {
         /// Impacts of one period of the orbit.
@@ -161,7 +161,7 @@ pub enum UndecidedReason {
         platform_periods: u64,
         /// Its Floquet multipliers.
         multipliers: Multipliers,
-        /// How far they may be off ([`ImpactMap::multiplier_error`]).
+        /// How far they may be off ([`PeriodicOrbit::multiplier_error`](crate::PeriodicOrbit::multiplier_error)).
         multiplier_error: f64,
         /// One of its impacts.
         state: ImpactState,
@@ -325,20 +325,7 @@ impl ImpactMap {
     /// # Errors
     /// Those of [`verdicts`].
     pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
-        self.verdict_observed(state, settings, &Unobserved)
-    }
-
-    /// [`Self::verdict`] with an observer; the item is the orbit.
-    ///
-    /// # Errors
-    /// Those of [`verdicts`]; [`Error::Stopped`] if the observer breaks.
-    pub fn verdict_observed(
-        &self,
-        state: ImpactState,
-        settings: VerdictSettings,
-        observer: &dyn Observer,
-    ) -> Result<Verdict, Error> {
-        let mut verdicts = verdicts_observed(&[(*self, state)], settings, observer)?;
+        let mut verdicts = verdicts(&[(*self, state)], settings)?;
         verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer,
+    ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer, Stability,
     TangentGrowth, Unobserved, Watch, WorkCount, read_checked,
 };
 
@@ -76,8 +76,7 @@ read_checked!(MultiTossSettings as UncheckedSettings {
 #[non_exhaustive]
 pub enum OrbitClass {
     /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
-    /// the vertical orbit, which attracts whatever the error of its multipliers
-    /// ([`ImpactMap::multiplier_error`]).
+    /// the vertical orbit, which attracts ([`Stability::Stable`]).
     Periodic {
         /// Impacts in one round.
         period: usize,
@@ -291,8 +290,7 @@ impl Window {
         let states: Vec<ImpactState> =
             round.iter().map(|collision| collision.state.vertical()).collect::<Result<_, _>>().ok()?;
         let orbit = system.map().refine(&states).ok()?;
-        let vertical = orbit.multipliers();
-        if vertical.spectral_radius() + system.map().multiplier_error(&orbit).ok()? >= 1.0 {
+        if orbit.stability() != Stability::Stable {
             return None;
         }
         let before = &self.collisions[last - period];
@@ -302,7 +300,7 @@ impl Window {
             class: OrbitClass::Periodic {
                 period,
                 platform_periods: orbit.platform_periods,
-                vertical,
+                vertical: orbit.multipliers(),
                 rotary: if round.iter().any(|collision| collision.capped) { 0.0 } else { 1.0 },
             },
             collisions: round.to_vec(),

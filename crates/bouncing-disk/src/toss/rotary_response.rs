@@ -1,9 +1,9 @@
-//! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: the steady spin, and the
-//! Floquet multipliers of the next-collision map (docs/numerics/dynamics.md, "The spin on a periodic orbit").
+//! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: the steady spin, and its
+//! multiplier (docs/numerics/dynamics.md, "The spin on a periodic orbit").
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{Multipliers, PeriodicOrbit, read_checked};
+use bouncing_disk_core::{PeriodicOrbit, read_checked};
 
 use crate::error::{Error, all_finite, check};
 use crate::motion::impact::{available_impulse, axial_impulse};
@@ -107,35 +107,6 @@ impl RotaryResponse {
     }
 }
 
-/// The Floquet multipliers of the next-collision map around a periodic orbit. Its derivative is block
-/// triangular: those of the impact map, and one of the spin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMultipliers"))]
-pub struct CollisionMultipliers {
-    /// Those of the vertical motion.
-    pub vertical: Multipliers,
-    /// That of the spin: 0 or 1, or `None` where the load exceeds friction and no spin repeats itself.
-    pub rotary: Option<f64>,
-}
-
-read_checked!(CollisionMultipliers as UncheckedMultipliers { vertical: Multipliers, rotary: Option<f64> });
-
-impl CollisionMultipliers {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let legal = self.rotary.is_none_or(|rotary| [0.0_f64, 1.0].contains(&rotary));
-        check(legal, "rotary multiplier", self.rotary.unwrap_or_default(), "0 or 1")?;
-        Ok(())
-    }
-
-    /// Whether the orbit attracts, its spin included.
-    #[must_use]
-    pub fn is_stable(&self) -> bool {
-        self.vertical.spectral_radius() < 1.0 && self.rotary == Some(0.0)
-    }
-}
-
 /// One period of a periodic orbit with some spin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -172,22 +143,6 @@ pub fn rotary_response(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> R
     Ok(SpinMap::of(system, orbit)?.outcome())
 }
 
-/// The Floquet multipliers of the next-collision map (phase, axial and tangential velocity) around a periodic
-/// orbit of the vertical motion of `system`.
-///
-/// # Errors
-/// Those of [`rotary_response`].
-pub fn collision_multipliers(
-    system: &DimensionlessSystem,
-    orbit: &PeriodicOrbit,
-) -> Result<CollisionMultipliers, Error> {
-    let rotary = rotary_response(system, orbit)?.multiplier();
-    let trace = orbit.monodromy.x_axis.x + orbit.monodromy.y_axis.y;
-    let squared = system.restitution() * system.restitution();
-    let determinant = orbit.states.iter().fold(1.0, |product, _| product * squared);
-    Ok(CollisionMultipliers { vertical: Multipliers::of_invariants(trace, determinant), rotary })
-}
-
 /// One period of `orbit` for a disk that has this angular speed (in units of g a_e/(a_g^2 omega)) before its
 /// first impact.
 ///
@@ -211,24 +166,22 @@ pub fn rotary_round(
 
 /// The rotary half of the next-collision map around one orbit: what does not depend on the spin.
 #[derive(Debug, Clone)]
-pub(crate) struct SpinMap {
-    /// Cosine and sine of each impact phase.
-    pub(crate) pairs: Vec<(f64, f64)>,
+struct SpinMap {
     /// The flight after each impact (rad).
-    pub(crate) durations: Vec<f64>,
+    durations: Vec<f64>,
     /// What friction can give in each impact.
-    pub(crate) available: Vec<f64>,
+    available: Vec<f64>,
     /// The platform's angular speed at each impact.
-    pub(crate) platform_speeds: Vec<f64>,
-    pub(crate) friction: f64,
-    pub(crate) load: f64,
+    platform_speeds: Vec<f64>,
+    friction: f64,
+    load: f64,
     /// Impacts by falling `available`: those that may stick first.
     order: Vec<usize>,
 }
 
 impl SpinMap {
     /// The map for an orbit, which has to be one.
-    pub(crate) fn of(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<Self, Error> {
+    fn of(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<Self, Error> {
         let states = &orbit.states;
         check(!states.is_empty(), "impacts of a periodic orbit", 0.0, "at least 1")?;
         let mut durations = Vec::with_capacity(states.len());
@@ -250,26 +203,17 @@ impl SpinMap {
             .collect();
         let mut order: Vec<usize> = (0..states.len()).collect();
         order.sort_by(|a, b| available[*b].total_cmp(&available[*a]));
-        let pairs = states.iter().map(|state| (state.phase().cos(), state.phase().sin())).collect();
         let platform_speeds =
             states.iter().map(|state| system.platform_angular_speed(state.phase())).collect();
-        Ok(Self { pairs, durations, available, platform_speeds, friction, load: system.load(), order })
+        Ok(Self { durations, available, platform_speeds, friction, load: system.load(), order })
     }
 
-    /// The same orbit under another twist or load.
-    pub(crate) fn turn(&mut self, system: &DimensionlessSystem) {
-        for (speed, (cosine, sine)) in self.platform_speeds.iter_mut().zip(&self.pairs) {
-            *speed = system.angular_speed_at((*sine, *cosine));
-        }
-        self.load = system.load();
-    }
-
-    pub(crate) fn len(&self) -> usize {
+    fn len(&self) -> usize {
         self.durations.len()
     }
 
     /// What the load takes away in the flight after an impact.
-    pub(crate) fn lost(&self, index: usize) -> f64 {
+    fn lost(&self, index: usize) -> f64 {
         self.load * self.durations[index]
     }
 
@@ -302,9 +246,9 @@ impl SpinMap {
 
     /// An impact that ends the slip in the steady spin, for a load below friction. There is one; if rounding
     /// says of all that they do not, the one that nearly does.
-    fn sticking(&self, hint: Option<usize>) -> usize {
+    fn sticking(&self) -> usize {
         let mut best = (f64::INFINITY, self.order[0]);
-        for index in hint.into_iter().chain(self.order.iter().copied()) {
+        for index in self.order.iter().copied() {
             let excess = self.excess(index);
             if excess <= 0.0 {
                 return index;
@@ -316,10 +260,10 @@ impl SpinMap {
         best.1
     }
 
-    /// The steady spin, for a load below friction; an impact that sticks may be guessed.
-    pub(crate) fn steady(&self, hint: Option<usize>) -> RotaryResponse {
+    /// The steady spin, for a load below friction.
+    fn steady(&self) -> RotaryResponse {
         let count = self.len();
-        let stuck = self.sticking(hint);
+        let stuck = self.sticking();
         let mut response = RotaryResponse {
             angular_speeds: vec![0.0; count],
             slips: vec![0.0; count],
@@ -360,7 +304,7 @@ impl SpinMap {
         if load.abs() >= friction {
             return RotaryOutcome::Kept { limit: (friction > 0.0).then(|| self.kept_limit()) };
         }
-        RotaryOutcome::Steady(self.steady(None))
+        RotaryOutcome::Steady(self.steady())
     }
 
     /// The end of the spins before the first impact for which all impacts slide against the load.
@@ -377,4 +321,4 @@ impl SpinMap {
 }
 
 #[cfg(test)]
-pub(in crate::toss) mod tests;
+mod tests;

@@ -5,11 +5,9 @@ use core::ops::{ControlFlow, Range};
 use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
-use crate::analysis::basin::{
-    ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
-};
+use crate::analysis::basin::{ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED};
 use crate::analysis::sweep::{SweepEvent, sweep_observed};
-use crate::error::{Error, room_for};
+use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::observer::{Observer, Progress, Unobserved};
 
@@ -300,66 +298,6 @@ impl Attractors {
         }
         labels.truncate(cells.end);
         labels.drain(..cells.start);
-        Basins::of_labels(labels, width)
-    }
-
-    /// The basins on the grid [refined](Grid::refined) by an odd `factor`, with the labels that `coarse` has on
-    /// `grid`: the starts of its cells are starts of the finer grid, to the last bit, and are not computed again.
-    /// With the same settings the result is that of [`Self::basins`] on the finer grid.
-    ///
-    /// ```
-    /// # use bouncing_disk_core::{AttractorSearch, Axis, BasinSettings, Grid, ImpactMap, Vibration};
-    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    /// let found = map.attractors(&AttractorSearch::default())?;
-    /// let (grid, settings) = (Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 3.0, 20)?)?, BasinSettings::default());
-    /// let coarse = found.basins(grid, settings)?;
-    /// let fine = found.refined_basins(&coarse, grid, 3, settings)?;
-    /// assert_eq!(fine, found.basins(grid.refined(3)?, settings)?);
-    /// # Ok::<(), bouncing_disk_core::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Unfitting`] if `coarse` has not the cells of `grid`; those of [`Grid::refined`] and of
-    /// [`Self::basins`].
-    pub fn refined_basins(
-        &self,
-        coarse: &Basins,
-        grid: Grid,
-        factor: u32,
-        settings: BasinSettings,
-    ) -> Result<Basins, Error> {
-        let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
-        for (what, found, expected) in
-            [("columns of basins", coarse.columns(), columns), ("rows of basins", coarse.rows(), rows)]
-        {
-            if found != expected {
-                let (found, expected) = (found as u64, expected as u64);
-                return Err(Error::Unfitting { what, found, expected });
-            }
-        }
-        let fine = grid.refined(factor)?;
-        let (width, height) = (fine.phase().cells(), fine.speed().cells());
-        let mut labels = room_for("cells of a grid", width as u64 * height as u64, MAX_CELLS)?;
-        labels.resize(width * height, UNDECIDED);
-        let (factor, middle) = (factor as usize, factor as usize / 2);
-        let kept = |row: usize, column: usize| row % factor == middle && column % factor == middle;
-        for row in 0..rows {
-            for (column, label) in coarse.row(row).iter().enumerate() {
-                labels[(row * factor + middle) * width + column * factor + middle] = *label;
-            }
-        }
-        let labelling = Labels::new(self, settings);
-        let (total, at_once) = (height as u64, (AT_ONCE / width).max(1));
-        for first in (0..height).step_by(at_once) {
-            let rows = first..(first + at_once).min(height);
-            let cells = rows.flat_map(|row| (0..width).map(move |column| (row, column)));
-            let open: Vec<_> = cells
-                .filter(|(row, column)| !kept(*row, *column))
-                .map(|(row, column)| row * width + column)
-                .collect();
-            let part = Rows { observer: &Unobserved, done: first as u64, total };
-            labelling.label_cells(&fine, &mut labels, &open, &part)?;
-        }
         Basins::of_labels(labels, width)
     }
 }

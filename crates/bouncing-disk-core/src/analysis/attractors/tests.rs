@@ -221,54 +221,6 @@ fn labels_of_starts_are_those_of_known_orbits() {
     }
 }
 
-#[test]
-fn a_finer_grid_keeps_the_labels_of_the_coarse_one() {
-    for (forcing, max_impacts) in [(0.5, 2_000), (0.55, 400)] {
-        let own = found(forcing, 0.5, 300);
-        let settings = BasinSettings { max_impacts, ..BasinSettings::default() };
-        let grid =
-            Grid::new(Axis::new(0.1, 0.8, 17).expect("legal"), Axis::new(0.3, 3.1, 13).expect("legal"))
-                .expect("legal");
-        let coarse = own.basins(grid, settings).expect("no failure");
-        for factor in [1, 3, 5] {
-            let fine = own.refined_basins(&coarse, grid, factor, settings).expect("no failure");
-            let finer = grid.refined(factor).expect("odd");
-            assert_eq!(fine, own.basins(finer, settings).expect("no failure"), "{factor}");
-        }
-        // It does keep them: what was wrong stays wrong.
-        let wrong = crate::Basins::of_labels(vec![200; 17 * 13], 17).expect("legal");
-        let kept = own.refined_basins(&wrong, grid, 3, settings).expect("no failure");
-        assert_eq!(kept.share(200).count(), 17 * 13);
-        assert_eq!(kept.row(1)[1], 200);
-    }
-    let own = found(0.45, 0.5, 10);
-    let grid = Grid::new(Axis::new(0.0, 1.0, 4).expect("legal"), Axis::new(0.0, 2.0, 3).expect("legal"))
-        .expect("legal");
-    let settings = BasinSettings::default();
-    let coarse = own.basins(grid, settings).expect("no failure");
-    for factor in [0, 2, 1_000, 1_001] {
-        let refused = own.refined_basins(&coarse, grid, factor, settings);
-        assert!(matches!(refused, Err(Error::OutOfRange { .. })), "{factor}: {refused:?}");
-    }
-    let other = Grid::new(*grid.phase(), Axis::new(0.0, 2.0, 4).expect("legal")).expect("legal");
-    let refused = own.refined_basins(&coarse, other, 3, settings);
-    assert!(matches!(refused, Err(Error::Unfitting { found: 3, expected: 4, .. })), "{refused:?}");
-}
-
-#[test]
-fn centres_of_refined_axes_are_those_of_the_old_ones_to_the_last_bit() {
-    for (low, high, cells) in [(0.0, 0.7, 10), (-1e300, 3e17, 77), (1e-310, 3e-310, 7), (0.1, 0.3, 1)] {
-        let axis = Axis::new(low, high, cells).expect("legal");
-        for factor in [1, 3, 7, 99] {
-            let finer = axis.refined(factor).expect("legal");
-            for index in 0..cells {
-                let middle = finer.centre(index * factor as usize + factor as usize / 2);
-                assert_eq!(middle.to_bits(), axis.centre(index).to_bits(), "{axis:?} {factor} {index}");
-            }
-        }
-    }
-}
-
 /// The bits do not depend on the threads.
 #[cfg(feature = "parallel")]
 #[test]

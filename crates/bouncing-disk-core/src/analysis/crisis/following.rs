@@ -11,6 +11,7 @@ use crate::analysis::periodic::{PeriodicOrbit, phase_difference};
 use crate::analysis::sweep::{SweepEvent, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
+use crate::flight::launch::Launch;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::elementary::{exp, ln, sin_cos};
 use crate::numerics::random::SplitMix64;
@@ -51,8 +52,8 @@ const KEPT: usize = 24;
 /// has an exponent of a few ln n/n: five of these are not chaos.
 const EXPONENT_IMPACTS: usize = 4_000;
 
-/// Distances beyond the bracket, in its widths, at which lives are compared.
-const FAR: f64 = 64.0;
+/// Distances beyond the lower end, over the nearest one, at which lives are compared.
+const DISTANCES: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 
 /// How far lives oscillate about their power law, as a factor.
 const OSCILLATION: f64 = 2.0;
@@ -60,8 +61,8 @@ const OSCILLATION: f64 = 2.0;
 /// The least ratio of lives that a margin is taken from.
 const LEAST_SEEN: f64 = 1.1;
 
-/// The mean number of rests of which none is seen by chance in five of a hundred cases.
-const UNSEEN: f64 = 3.0;
+/// The share of searches that miss a rest at a lower end by chance.
+const MISSED: f64 = 0.05;
 
 /// The longest move of an impact (rad, and relative speed) in one step along a branch of saddles.
 const LONGEST_MOVE: f64 = 0.2;
@@ -88,9 +89,9 @@ pub(super) struct End {
     pub(super) bracket: (f64, f64),
     /// Impacts on the attractor, next to its lower end.
     pub(super) attractor: Vec<ImpactState>,
-    /// Orbits from there that come to rest at the upper end of the bracket, then those farther beyond.
+    /// Orbits from there that come to rest at its upper end or next to it, then those farther beyond.
     pub(super) lost: Vec<Lost>,
-    /// The mean life there.
+    /// The mean life where 8 of them do.
     pub(super) life: f64,
 }
 
@@ -113,7 +114,7 @@ impl CrisisSearch {
         let (each, all) = (self.each(), self.each() as f64 * f64::from(self.samples));
         let longest = LONGEST_STEP * (self.high - reached[0].forcing);
         let mut step = longest;
-        let (mut shortest_life, mut halvings) = (usize::MAX, MORE_HALVINGS);
+        let (mut shortest_life, mut halvings, mut lower_ends) = (usize::MAX, MORE_HALVINGS, 0);
         while let Some(here) = reached.last() {
             let next = here.forcing + step;
             let (forcing, most) =
@@ -139,10 +140,17 @@ impl CrisisSearch {
                 continue;
             }
             // The lower end with all impacts: so far it had a quarter of them.
+            lower_ends += 1;
             let lived = self.follow(here.forcing, &here.states, each, watch)?;
             if lived.iter().all(|own| own.0 == each) {
                 let below = Herd { forcing: here.forcing, states: ends(lived) };
-                return self.end(below, forcing, watch);
+                match self.end(below, forcing, lower_ends, watch)? {
+                    // Another attractor beside that of the others has ended: these are followed further.
+                    Err((_, Some(survivors))) if survivors.forcing < self.high => reached = vec![survivors],
+                    found => return Ok(found.map_err(|(reason, _)| reason)),
+                }
+                (step, halvings, lower_ends) = (longest, MORE_HALVINGS, 0);
+                continue;
             }
             shortest_life = lived.iter().fold(shortest_life, |least, own| least.min(own.0));
             let lost = here.forcing;
@@ -152,50 +160,87 @@ impl CrisisSearch {
         Ok(Err(NoCrisis::RestsBefore { forcing: self.low, life: shortest_life as u64 }))
     }
 
-    /// The bracket and what is beyond it, of orbits that live on `below` and come to rest at `forcing`.
-    fn end(&self, below: Herd, forcing: f64, watch: &Watch<'_>) -> Result<Result<End, NoCrisis>, Error> {
-        let map = self.map(below.forcing)?;
-        let starts: Vec<_> = below.states.iter().take(16).map(|&state| (map, state)).collect();
-        let exponents: Vec<_> =
-            lyapunov_exponents(&starts, 0, EXPONENT_IMPACTS)?.into_iter().flatten().collect();
-        let exponent = exponents.iter().sum::<f64>() / exponents.len().max(1) as f64;
-        let impacts = EXPONENT_IMPACTS as f64;
-        if exponent.is_nan() || exponent <= 5.0 * ln(impacts) / impacts {
-            return Ok(Err(NoCrisis::NotChaotic { forcing: below.forcing, exponent }));
-        }
-        let (each, mut width) = (self.each(), forcing - below.forcing);
-        // As far up as rests are not chance.
-        let (near, lived) = loop {
-            let lived = self.follow(below.forcing + width, &below.states, each, watch)?;
-            let near = life_of(&lived, each, width);
-            if near.ended >= FEWEST_RESTS || width > self.high - self.low {
-                break (near, lived);
+    /// The bracket and what is beyond it, of orbits that live on `below` and come to rest at `forcing`; or why it is
+    /// no crisis, with the orbits that live on where a periodic one beside them ends. `below` is the last of so many
+    /// `lower_ends`, of which the others had rests.
+    #[expect(clippy::type_complexity, reason = "a refusal with those that it does not concern")]
+    fn end(
+        &self,
+        below: Herd,
+        forcing: f64,
+        lower_ends: u32,
+        watch: &Watch<'_>,
+    ) -> Result<Result<End, (NoCrisis, Option<Herd>)>, Error> {
+        let (each, mut width, mut chaotic) = (self.each(), forcing - below.forcing, false);
+        let power = |near: &MeanLife, far: &MeanLife| {
+            let apart = ln(far.beyond / near.beyond);
+            let error = (1.0 / near.ended as f64 + 1.0 / far.ended as f64).sqrt() / apart;
+            (ln(near.impacts / far.impacts) / apart, error)
+        };
+        // As far up as rests are not chance, and lives shrink.
+        let (lives, lost, steepest) = loop {
+            let (mut lives, mut lost) = (Vec::new(), Vec::new());
+            for share in DISTANCES {
+                let (beyond, width) = (below.forcing + share * width, share * width);
+                let lived = self.follow(beyond, &below.states, each, watch)?;
+                lives.push(life_of(&lived, each, width));
+                lost.extend(self.lost(&below.states, beyond, &lived));
+                if !chaotic && !lost.is_empty() {
+                    let exponent = self.exponent(below.forcing, &lost)?;
+                    let impacts = EXPONENT_IMPACTS as f64;
+                    if exponent.is_nan() || exponent <= 5.0 * ln(impacts) / impacts {
+                        let left: Vec<_> =
+                            lived.iter().filter(|own| own.0 == each).map(|own| own.1).collect();
+                        let states = left.iter().copied().cycle().take(below.states.len()).collect();
+                        let survivors = (!left.is_empty()).then_some(Herd { forcing: beyond, states });
+                        let reason = NoCrisis::NotChaotic { forcing: below.forcing, exponent };
+                        return Ok(Err((reason, survivors)));
+                    }
+                    chaotic = true;
+                }
+                if lives.iter().any(|life| life.ended < FEWEST_RESTS) {
+                    break;
+                }
+            }
+            let (near, far) = (lives[0], lives[lives.len() - 1]);
+            let (mean, error) = power(&near, &far);
+            if lives.len() == DISTANCES.len() && far.ended >= FEWEST_RESTS && mean > 2.0 * error {
+                break (lives, lost, mean + 2.0 * error);
+            }
+            if width > self.high - self.low {
+                let (near, far) = (near.impacts, far.impacts);
+                let reason = NoCrisis::LivesDoNotShrink { forcing: below.forcing, near, far };
+                return Ok(Err((reason, None)));
             }
             width *= 4.0;
         };
-        let forcing = below.forcing + width;
-        let lost_far = self.follow(below.forcing + FAR * width, &below.states, each, watch)?;
-        let far = life_of(&lost_far, each, FAR * width);
-        // The exponent of lives, and its error.
-        let power = ln(near.impacts / far.impacts) / ln(FAR);
-        let error = (1.0 / near.ended.max(1) as f64 + 1.0 / far.ended.max(1) as f64).sqrt() / ln(FAR);
-        if power.is_nan() || power <= 2.0 * error || near.ended < FEWEST_RESTS {
-            let (near, far) = (near.impacts, far.impacts);
-            return Ok(Err(NoCrisis::LivesDoNotShrink { forcing: below.forcing, near, far }));
-        }
-        // If the crisis lay lower by the margin, a rest would have been seen at the lower end.
+        // Lives rise in steps as gaps close one after the other: as steeply as anywhere.
+        let powers = lives.windows(2).map(|pair| power(&pair[0], &pair[1]));
+        let steepest = powers.fold(steepest, |most, (power, error)| most.max(power + 2.0 * error));
+        // If the crisis lay lower by the margin, a rest would have been seen at the lower end, and at the others before.
+        let unseen = ln(f64::from(lower_ends) / MISSED);
         let all = each as f64 * below.states.len() as f64;
-        let margin = [near, far].iter().fold(f64::MAX, |least, life| {
-            let seen = all / (UNSEEN * OSCILLATION * life.impacts * (1.0 + 2.0 * life.relative_error));
-            least.min(life.beyond / (exp(ln(seen.max(LEAST_SEEN)) / (power + 2.0 * error)) - 1.0))
+        let margin = lives.iter().fold(f64::MAX, |least, life| {
+            let seen = all / (unseen * OSCILLATION * life.impacts * (1.0 + 2.0 * life.relative_error));
+            least.min(life.beyond / (exp(ln(seen.max(LEAST_SEEN)) / steepest) - 1.0))
         });
-        let mut lost = Vec::new();
-        for (forcing, lived) in [(forcing, &lived), (below.forcing + FAR * width, &lost_far)] {
-            let ended = below.states.iter().zip(lived).filter(|(_, own)| own.0 < each);
-            lost.extend(ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }));
-        }
         let bracket = (below.forcing - margin, forcing);
-        Ok(Ok(End { bracket, lost, attractor: below.states, life: near.impacts }))
+        Ok(Ok(End { bracket, lost, attractor: below.states, life: lives[0].impacts }))
+    }
+
+    /// Those that come to rest.
+    fn lost(&self, starts: &[ImpactState], forcing: f64, lived: &[(usize, ImpactState)]) -> Vec<Lost> {
+        let ended = starts.iter().zip(lived).filter(|(_, own)| own.0 < self.each());
+        ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }).collect()
+    }
+
+    /// The mean of the largest exponents of some of these orbits at a forcing at which they live on.
+    fn exponent(&self, forcing: f64, lost: &[Lost]) -> Result<f64, Error> {
+        let map = self.map(forcing)?;
+        let starts: Vec<_> = lost.iter().take(16).map(|own| (map, own.start)).collect();
+        let exponents: Vec<_> =
+            lyapunov_exponents(&starts, 0, EXPONENT_IMPACTS)?.into_iter().flatten().collect();
+        Ok(exponents.iter().sum::<f64>() / exponents.len() as f64)
     }
 
     /// Orbits on the attractor at the lower end of the range, or from where it is born.
@@ -331,19 +376,16 @@ impl CrisisSearch {
         Ok(None)
     }
 
-    /// How many impacts a disk has from its first separation after a rest to the next rest, at most so many.
-    pub(super) fn relaunched(&self, end: &End, most: u64) -> Result<u64, Error> {
-        let map = self.map(end.bracket.1)?;
-        let mut orbit = map.orbit(end.lost[0].start, ChatterPolicy::Complete);
-        let mut impacts = None;
-        while impacts.is_none_or(|impacts| impacts < most) {
-            match (orbit.advance()?, impacts) {
-                (Some(OrbitEvent::Impact(_)), lived) => impacts = lived.map(|lived| lived + 1),
-                (Some(OrbitEvent::Attachment(_)), None) => impacts = Some(0),
-                (Some(OrbitEvent::Attachment(_)) | None, _) => break,
-            }
+    /// How many impacts a disk has from its separation after a rest to the next rest, at most so many.
+    pub(super) fn relaunched(&self, forcing: f64, most: u64) -> Result<u64, Error> {
+        let map = self.map(forcing)?;
+        let Some(phase) = map.vibration().separation_phase() else { return Ok(0) };
+        let mut orbit = map.orbit_from_launch(Launch::new(phase, 0.0)?, ChatterPolicy::Complete);
+        let mut impacts = 0;
+        while impacts < most && matches!(orbit.advance()?, Some(OrbitEvent::Impact(_))) {
+            impacts += 1;
         }
-        Ok(impacts.unwrap_or(0))
+        Ok(impacts)
     }
 }
 

@@ -185,15 +185,22 @@ pub(super) fn errors(map: &ImpactMap, states: &[ImpactState], monodromy: DMat2) 
     let determinant = map.determinant_after(n);
     let rounding =
         4.0 * f64::EPSILON * (n as f64 + 2.0) * size + (monodromy.determinant() - determinant).abs() / size;
-    if next_to_margin(monodromy, determinant) == (false, false) {
-        return (0.5 * SAME, rounding + SAME * size);
+    let isolated = next_to_margin(monodromy, determinant) == (false, false);
+    match measured_errors(map, states, rounding, isolated) {
+        Some((position, change)) if !isolated => (position, rounding + change),
+        Some((_, change)) => (0.5 * SAME, rounding + change.min(SAME * size)),
+        None => (0.5 * SAME, if isolated { rounding + SAME * size } else { f64::MAX }),
     }
-    errors_on_the_margin(map, states, rounding)
-        .map_or((0.5 * SAME, f64::MAX), |(position, change)| (position, rounding + change))
 }
 
-/// The same next to a margin, where the trace of the sequence is known to `rounding`.
-fn errors_on_the_margin(map: &ImpactMap, states: &[ImpactState], rounding: f64) -> Option<(f64, f64)> {
+/// The errors by what moves an orbit: the parameters, and of an `isolated` one, which is not polished, what its
+/// equations leave. The trace of the sequence is known to `rounding`.
+fn measured_errors(
+    map: &ImpactMap,
+    states: &[ImpactState],
+    rounding: f64,
+    isolated: bool,
+) -> Option<(f64, f64)> {
     let own = Equations::of(map, states)?;
     let distance_from_fold = |trace: f64| (1.0 - trace + own.determinant).abs();
     let trace = own.trace(&own.at)?;
@@ -203,7 +210,10 @@ fn errors_on_the_margin(map: &ImpactMap, states: &[ImpactState], rounding: f64) 
         distance = distance_from_fold(own.trace(&aside)?);
     }
     let equations = own.closing.equations(&aside)?;
-    let length = own.length(&own.moved_by_parameters(&equations, &aside)?);
+    let mut length = own.length(&own.moved_by_parameters(&equations, &aside)?);
+    if isolated {
+        length += own.length(&solved(&equations, equations.right.clone()));
+    }
     // Whatever is pushed in no particular way moves along the weak direction.
     let moved = solved(&equations, (0..states.len()).map(|i| DVec2::new(1.0 + i as f64, 1.0)).collect());
     let most = own.length(&moved);

@@ -224,7 +224,7 @@ fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
     assert!(seen % TOGETHER == 0 && seen <= 2 * TOGETHER && total == count as u64, "{seen} {total}");
     assert!((seen as u64..count as u64).contains(&done), "{done}");
     assert_eq!(verdicts(&[], short()), Ok(Vec::new()));
-    let stopped = map(0.5, 0.5).verdict_observed(state(1.0, 1.0), short(), &StopAfter::calls(1));
+    let stopped = verdicts_observed(&[(map(0.5, 0.5), state(1.0, 1.0))], short(), &StopAfter::calls(1));
     assert!(matches!(stopped, Err(Error::Stopped { done: 0, total: 1 })), "{stopped:?}");
 }
 

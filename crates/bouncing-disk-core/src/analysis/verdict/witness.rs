@@ -3,10 +3,11 @@
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
-use super::proof::{Proof, Stability, prove};
+use super::proof::{Proof, prove};
 use super::returns::Returns;
 use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
 use crate::analysis::lyapunov::{LyapunovEstimate, TangentGrowth};
+use crate::analysis::periodic::Stability;
 use crate::analysis::sweep::{SweepEvent, SweepImpact};
 use crate::map::impact_map::{Attachment, ImpactMap, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
@@ -139,7 +140,7 @@ impl Witness {
         }
         self.grow(from, impact, counts);
         if let Some(period) = self.returns.see(state, impact.turns, &self.settings) {
-            self.verdict = self.periodic(period, Stability::Neutral);
+            self.verdict = self.periodic(period, Stability::Marginal);
             if self.verdict.is_none() {
                 self.returns.reject();
             }
@@ -219,11 +220,11 @@ impl Witness {
     /// less stable than `least`.
     fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
         let proof = prove(&self.map, self.state, period, &self.settings)?;
-        let Proof { orbit, distance, multiplier_error, stability } = proof;
+        let Proof { orbit, distance, stability } = proof;
         let (impacts, platform_periods) = (orbit.period() as u64, orbit.platform_periods);
         let (multipliers, state, rests) = (orbit.multipliers(), *orbit.states.first()?, self.rests());
         let after = self.before + self.impacts;
-        if stability == Stability::Attracts {
+        if stability == Stability::Stable {
             let verdict =
                 Verdict::Periodic { impacts, platform_periods, multipliers, state, distance, after, rests };
             return Some(verdict);
@@ -232,7 +233,7 @@ impl Witness {
             impacts,
             platform_periods,
             multipliers,
-            multiplier_error,
+            multiplier_error: orbit.multiplier_error(),
             state,
         };
         (stability <= least).then_some(Verdict::Undecided { reason, rests })
@@ -251,7 +252,7 @@ impl Witness {
         // What is approached slowly has not returned to within the tolerance; what repels may be stayed at.
         let nearest = self.returns.nearest();
         let nearest = nearest.filter(|(distance, _)| !estimate.grows() || *distance <= ON_AN_ORBIT);
-        if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Repels)) {
+        if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Unstable)) {
             return verdict;
         }
         let needed = self.map.transient_impacts();
