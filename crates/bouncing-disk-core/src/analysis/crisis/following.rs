@@ -163,7 +163,6 @@ impl CrisisSearch {
     /// The bracket and what is beyond it, of orbits that live on `below` and come to rest at `forcing`; or why it is
     /// no crisis, with the orbits that live on where a periodic one beside them ends. `below` is the last of so many
     /// `lower_ends`, of which the others had rests.
-    #[expect(clippy::type_complexity, reason = "a refusal with those that it does not concern")]
     fn end(
         &self,
         below: Herd,
