@@ -67,11 +67,10 @@ pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// An ensemble of transients of one motor.
 ///
-/// One that is read has members, and a fit for each. Their fits mean nothing where the duration is too short or the
+/// The fits of its members mean nothing where the duration is too short or the
 /// sampling too coarse: [`TransientFit`](crate::TransientFit) of the curves says so, and fits their mean.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEnsemble"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientEnsemble {
     /// The curve of each member.
     pub curves: Vec<SpeedCurve>,
@@ -85,23 +84,6 @@ pub struct TransientEnsemble {
     pub time_constant: Spread,
     /// Stall acceleration alpha_ss/t_c (rad/s^2).
     pub stall_acceleration: Spread,
-}
-
-read_checked!(TransientEnsemble as UncheckedEnsemble {
-    curves: Vec<SpeedCurve>,
-    fits: Vec<ExponentialFit>,
-    steady_speed: Spread,
-    time_constant: Spread,
-    stall_acceleration: Spread,
-});
-
-impl TransientEnsemble {
-    fn check(&self) -> Result<(), Error> {
-        let (members, fits) = (self.curves.len(), self.fits.len());
-        check(members > 0, "members", members as f64, "[1, 1000000]")?;
-        check(fits == members, "number of fits", fits as f64, "the number of curves")?;
-        Ok(())
-    }
 }
 
 /// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by what the
@@ -482,26 +464,5 @@ mod tests {
             assert!((spread.deviation / size - 1.0).abs() < 1e-15, "{spread:?}");
         }
         assert!(Spread::of(&[f64::MAX, -f64::MAX]).is_err(), "no double holds the deviation");
-    }
-
-    #[cfg(feature = "serde")]
-    #[test]
-    fn an_ensemble_that_is_read_is_whole() {
-        let settings = TransientSettings { duration: 0.01, intervals: 3, ..TransientSettings::default() };
-        let own = ensemble(&motor(1e-8, 0.0), &settings, 2).expect("no failure");
-        let value = serde_json::to_value(&own).expect("writes");
-        assert_eq!(serde_json::from_value::<TransientEnsemble>(value.clone()).expect("legal"), own);
-        let mut lacking = value.clone();
-        lacking["fits"].as_array_mut().expect("a list").pop();
-        assert!(serde_json::from_value::<TransientEnsemble>(lacking).is_err());
-        let mut empty = value.clone();
-        empty["curves"] = serde_json::json!([]);
-        assert!(serde_json::from_value::<TransientEnsemble>(empty).is_err());
-        let mut narrower = value.clone();
-        narrower["steady_speed"]["deviation"] = serde_json::json!(-1.0);
-        assert!(serde_json::from_value::<TransientEnsemble>(narrower).is_err());
-        let mut misspelt = value;
-        misspelt["steady_sped"] = serde_json::json!(1.0);
-        assert!(serde_json::from_value::<TransientEnsemble>(misspelt).is_err());
     }
 }

@@ -64,8 +64,8 @@ impl SensitivitySettings {
 
 /// How a sensitivity was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SensitivityMethod {
     /// By central differences of rotors on the same vertical motions.
@@ -89,8 +89,7 @@ pub enum SensitivityMethod {
 
 /// How a quantity depends on a parameter next to a motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LocalSensitivity {
     /// The parameter.
     pub parameter: SensitivityParameter,
