@@ -69,13 +69,16 @@ pub struct ExtraAttractorsData {
     names: Vec<String>,
 }
 
+/// The kind of an attractor, its share of the starts, and the 95 % interval of this share.
+type Found = (usize, f64, (f64, f64));
+
 /// The attractors over the forcing for one restitution.
 #[derive(Debug, Serialize, Deserialize)]
 struct Sweep {
     restitution: f64,
     axial_forcings: Vec<f64>,
-    /// At each Γ the kind of each attractor, its share of the starts, and the 95 % interval of this share.
-    found: Vec<Vec<(usize, f64, (f64, f64))>>,
+    /// The attractors at each Γ.
+    found: Vec<Vec<Found>>,
 }
 
 impl Experiment for ExtraAttractors {
@@ -152,7 +155,7 @@ fn period(attractor: &Attractor) -> Option<(u64, u64)> {
     }
 }
 
-fn found(attractor: &Attractor) -> (usize, f64, (f64, f64)) {
+fn found(attractor: &Attractor) -> Found {
     let kind = match (&attractor.kind, period(attractor)) {
         (AttractorKind::Rest(_), _) => 0,
         (_, Some((impacts, periods))) if periods.is_multiple_of(impacts) => {
