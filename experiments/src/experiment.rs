@@ -106,7 +106,7 @@ pub enum ExperimentError {
     },
     /// A user's measurements cannot be used.
     #[error(transparent)]
-    Measured(#[from] MeasuredError),
+    Measured(Box<MeasuredError>),
     /// An input file (a table of the paper) could not be read.
     #[error("cannot read {path}")]
     Input {
@@ -115,6 +115,12 @@ pub enum ExperimentError {
         /// What the system or the parser reported.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+impl From<MeasuredError> for ExperimentError {
+    fn from(error: MeasuredError) -> Self {
+        Self::Measured(Box::new(error))
+    }
 }
 
 impl From<StorageError> for ExperimentError {
