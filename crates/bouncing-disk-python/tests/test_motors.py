@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -79,7 +80,7 @@ def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
 
 
 def test_the_spread_over_inputs_is_more_than_an_error() -> None:
-    quick = {"relative_error": 0.05, "draws": 12}
+    quick: dict[str, Any] = {"relative_error": 0.05, "draws": 12}
     free, overpowered = bd.input_spreads(MOTOR, load_torques=[0.0, 2.0 * MOTOR.largest_torque], **quick)
     assert overpowered is None and free is not None and free.draws == 12 and free.without == 0
     assert free.from_to[0] < free.mean < free.from_to[1]

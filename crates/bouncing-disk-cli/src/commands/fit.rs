@@ -13,6 +13,7 @@ use serde::Serialize;
 use crate::arguments::{OWN, OutputArgs};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::output::lines::complain;
 use crate::output::report::{Report, provenance, ready, stored};
 use crate::output::table::{Quantities, Table};
 use crate::parameters::motor::{MotorArgs, MotorPreset};
@@ -212,6 +213,9 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     let sheet =
         MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false };
     let motor = sheet.motor(context.quiet)?;
+    if !context.quiet {
+        motor.warnings_on(&speeds).iter().for_each(|warning| complain!("warning: {warning}"));
+    }
     let ranges: Vec<FitRange> = args.parameter.iter().map(|fitted| fitted.0).collect();
     let settings = ParameterFitSettings {
         seed: args.seed,

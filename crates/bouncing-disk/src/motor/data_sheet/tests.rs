@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::mem::discriminant;
 
+use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::{
     ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration, lyapunov_exponents,
 };
@@ -13,10 +14,11 @@ use super::*;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 use crate::motor::ensemble::ensemble;
+use crate::motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::motor::transient::TransientSettings;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 
-/// The motor of the issue's traps: 40 kHz, 0.5 um, 20 g, 5 N, 12 rad/s, 30 degrees.
+/// A motor with many traps: 40 kHz, 0.5 um, 20 g, 5 N, 12 rad/s, 30 degrees.
 fn designers() -> MotorParameters {
     MotorParameters {
         drive_frequency: 40e3,
@@ -122,7 +124,7 @@ fn force_speed_and_torque_become_those_of_the_system() {
     // F/m, to which no weight is added.
     assert!((motor.preload_acceleration() - 250.0).abs() < 1e-12);
     assert!((motor.preload_force() - 5.0).abs() < 1e-15);
-    // The largest torque of the issue: 5 N, 0.1, 1.25 mm.
+    // The largest torque: 5 N, 0.1, 1.25 mm.
     assert!((motor.largest_torque() - 6.25e-4).abs() < 1e-18);
     assert!((disk.load_acceleration() * motor.inertia() - 2e-4).abs() < 1e-18);
     assert!((motor.load_torque() - 2e-4).abs() < 1e-20);
@@ -530,4 +532,37 @@ proptest! {
         prop_assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor));
         prop_assert_eq!(motor.parameters(), sheet);
     }
+}
+
+#[test]
+fn a_measurement_in_another_unit_is_found_by_the_drive() {
+    let motor = Motor::paper_70_khz();
+    let rise = |times_in: f64, speeds_in: f64| {
+        let times: Vec<f64> = (0..100).map(|k| 0.05 * f64::from(k) * times_in).collect();
+        let speeds =
+            times.iter().map(|time| 21.5 * speeds_in * (1.0 - exp(-time / (0.85 * times_in)))).collect();
+        let speeds = MeasuredSpeeds::new(vec![MeasuredRun { member: 0, times, speeds }]).expect("legal");
+        motor.warnings_on(&speeds).iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(rise(1.0, 1.0), [""; 0]);
+    let [time] = &rise(1e3, 1.0)[..] else { panic!("one") };
+    assert!(
+        time.contains("rise time of 600 s") && time.ends_with("0.972 s: is it in another unit?"),
+        "{time}"
+    );
+    let [speed] = &rise(1.0, 1e-3)[..] else { panic!("one") };
+    assert!(speed.starts_with("a measured speed of 0.02"), "{speed}");
+    // A stator that does not twist gives no scale.
+    let still = motor.with(|sheet| sheet.peak_angular_speed = Some(0.0)).expect("legal");
+    assert_eq!(
+        still.warnings_on(
+            &MeasuredSpeeds::new(vec![MeasuredRun {
+                member: 0,
+                times: vec![0.0, 1.0, 2.0],
+                speeds: vec![0.0, 5.0, 6.0]
+            }])
+            .expect("legal")
+        ),
+        []
+    );
 }

@@ -5,9 +5,13 @@ use std::fmt::{self, Display, Formatter};
 use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::fields::{FIELDS, Field};
+use crate::motor::measured_speeds::MeasuredSpeeds;
 
 /// A value this many times outside of what such motors have is far outside.
 const FAR: f64 = 1.0e3;
+
+/// A measurement this many times above or below what the drive gives is in another unit.
+const OTHER_SCALE: f64 = 100.0;
 
 /// A bound on the change of the preload above this is told.
 const LARGEST_CHANGE: f64 = 0.01;
@@ -61,6 +65,15 @@ pub enum MotorWarning {
         /// The bound on the relative change ([`Motor::preload_change_bound`]).
         bound: f64,
     },
+    /// A measured speed or rise time is a factor 100 from what the drive gives ([`Motor::warnings_on`]).
+    OtherScale {
+        /// The fastest speed, or the time in which it is half reached.
+        measured: f64,
+        /// The stator's largest speed omega Phi, or the shortest time in which friction gives it.
+        drive: f64,
+        /// The unit of both: rad/s or s.
+        unit: &'static str,
+    },
 }
 
 impl Display for MotorWarning {
@@ -95,6 +108,16 @@ impl Display for MotorWarning {
                 "the preload may change by {} % while the rotor flies (a bound); the model keeps it constant",
                 rough(100.0 * bound)
             ),
+            Self::OtherScale { measured, drive, unit } => {
+                let quantity = if unit == "s" { "rise time" } else { "speed" };
+                write!(
+                    f,
+                    "a measured {quantity} of {} {unit} is a factor 100 from what the drive gives, {} {unit}: is it in \
+                     another unit?",
+                    n(measured),
+                    n(drive)
+                )
+            }
         }
     }
 }
@@ -129,6 +152,30 @@ impl Motor {
         }
         let changes = self.preload_change_bound().filter(|bound| *bound > LARGEST_CHANGE);
         warnings.extend(changes.map(|bound| MotorWarning::PreloadChanges { bound }));
+        warnings
+    }
+
+    /// Whether measured run-ups are a factor 100 faster or slower than the drive allows: the fastest speed against
+    /// omega Phi, and the time from the first row to half of it against the shortest rise
+    /// ([`System::rise_time`](crate::System::rise_time)).
+    #[must_use]
+    pub fn warnings_on(&self, speeds: &MeasuredSpeeds) -> Vec<MotorWarning> {
+        let system = self.system();
+        let mut warnings = Vec::new();
+        for run in speeds.runs() {
+            let fastest = run.speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
+            let half = run.speeds.iter().position(|speed| speed.abs() >= 0.5 * fastest);
+            let rise = half.map_or(0.0, |row| run.times[row] - run.times[0]);
+            for (measured, drive, unit) in
+                [(fastest, system.platform().peak_angular_speed(), "rad/s"), (rise, system.rise_time(), "s")]
+            {
+                // Nothing measured, and a stator that does not twist, are no unit.
+                let ratio = measured / drive;
+                if ratio > 0.0 && ratio.is_finite() && !(1.0 / OTHER_SCALE..=OTHER_SCALE).contains(&ratio) {
+                    warnings.push(MotorWarning::OtherScale { measured, drive, unit });
+                }
+            }
+        }
         warnings
     }
 }
