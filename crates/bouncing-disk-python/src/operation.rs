@@ -326,6 +326,7 @@ pub(crate) fn input_spreads<'py>(
         name("tolerance of the preload", &["tolerance"]),
         name("number of loads", &["load_torques"]).legal("[1, 1000000] torques"),
         name("load_torque", &["load_torques"]),
+        derived("load_acceleration", &["load_torques"]),
     ];
     let spreads = long_call::run_named(py, progress.0, &names, |observer| match &loads {
         Some(loads) => motor.speed_spreads_observed(loads, &settings, &tolerance, observer),
