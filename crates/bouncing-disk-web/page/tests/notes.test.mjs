@@ -171,10 +171,10 @@ async function stall(state) {
 }
 
 test("Figs. 10 and 12: no trap that a preload can meet", options, async () => {
-  for (const [figure, labels] of Object.entries({ fig10: ["(a)", "(b)", "(c)"], fig12: ["(d)"] })) {
-    const { state } = preset(figure);
-    for (const label of labels) assert.notEqual((await report(state(label))).trap?.caught, true, figure + label);
-  }
+  const fig10 = preset("fig10").state;
+  for (const label of ["(a)", "(b)", "(c)"]) assert.notEqual((await report(fig10(label))).trap?.caught, true, label);
+  // Of the short cycles that stand next to the printed amplitude none is wide enough to be shown.
+  assert.equal((await report(preset("fig12").state("(d)"))).trap, null);
 });
 
 test("Fig. 10: (a) does not rise on a straight line, and stops abruptly", options, async () => {
