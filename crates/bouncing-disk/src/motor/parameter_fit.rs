@@ -309,12 +309,13 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, E
 }
 
 /// What the intervals are multiplied by because so few members were computed: their scatter is known no
-/// better, and the weights have an error.
+/// better, the weights have an error, and scatter and weights come from the same members.
 fn sample_widening(model: &Model<'_>) -> f64 {
-    let (members, most) =
-        (model.settings.members, model.windows.iter().map(Windows::count).max().unwrap_or(1));
-    let most = most as f64;
-    small_sample_widening(members) * (1.0 + (most - 1.0) / (members as f64 - most - 4.0)).sqrt()
+    let windows = model.windows.iter().map(Windows::count).max().unwrap_or(1) as f64;
+    let members = model.settings.members as f64;
+    let weights = 1.0 + (windows - 1.0) / (members - windows - 4.0);
+    let shared = (members - 1.0) / (members - windows);
+    small_sample_widening(model.settings.members) * (weights * shared).sqrt()
 }
 
 /// A direction in the coordinates of the parameters.
