@@ -89,7 +89,7 @@ fn ninety_of_a_hundred_intervals_hold_the_truth() {
 /// Minutes. Two parameters at three preloads: what is refused is told beside what is missed.
 #[test]
 #[ignore = "takes minutes"]
-fn intervals_of_two_parameters_hold_the_truth_in_most_of_a_hundred() {
+fn ninety_of_a_hundred_intervals_of_two_parameters_hold_the_truth() {
     let truths = [TRUE_FRICTION, FitParameter::TwistAmplitude.of(&built())];
     let (mut covered, mut refused, mut undetermined, mut either) = ([0; 2], 0, 0, 0);
     for trial in 1..=100 {
@@ -111,7 +111,7 @@ fn intervals_of_two_parameters_hold_the_truth_in_most_of_a_hundred() {
         either += usize::from(holds[0] || holds[1]);
     }
     println!("covered {covered:?}, one of them {either}, refused {refused}, undetermined {undetermined}");
-    assert!(covered.iter().all(|&count| count >= 85), "{covered:?}");
+    assert!(covered.iter().all(|&count| count >= 90), "{covered:?}");
 }
 
 /// A record that began before the switch-on or after it would have another friction: one clock of three tells.
