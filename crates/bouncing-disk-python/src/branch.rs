@@ -3,7 +3,7 @@
 use bouncing_disk::Error;
 use bouncing_disk::core::{
     BifurcationKind, Branch as Core, BranchEnd, Continuation, ContinuationParameter, Error as CoreError,
-    ImpactState, doubling_cascade, feigenbaum_estimates,
+    ImpactState, feigenbaum_estimates,
 };
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -368,7 +368,8 @@ pub(crate) fn doubling_cascade<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let count = count.usize(py, "count")?;
     let cascade = long_call::run(py, progress.0, |observer| {
-        doubling_cascade(restitution.0, count, observer).map_err(|error: CoreError| Error::from(error))
+        bouncing_disk::core::doubling_cascade(restitution.0, count, observer)
+            .map_err(|error: CoreError| Error::from(error))
     })?;
     let estimates = feigenbaum_estimates(&cascade);
     let row = |of: fn(&bouncing_disk::core::CascadeDoubling) -> f64| {

@@ -1,6 +1,6 @@
 //! Low-period traps of motors.
 
-use bouncing_disk::{TrapVerdict, low_period_traps};
+use bouncing_disk::TrapVerdict;
 use pyo3::prelude::*;
 
 use crate::arguments::{ProgressCallable, row};
@@ -62,7 +62,7 @@ pub(crate) fn low_period_traps<'py>(
         .chain(OF_MOTOR.map(|own| derived(own.library(), &["preload_accelerations", "motor"])))
         .collect();
     let found = long_call::run_named(py, progress.0, &names, |observer| {
-        low_period_traps(&motor, &preloads, observer)
+        bouncing_disk::low_period_traps(&motor, &preloads, observer)
     })?;
     let row = |of: &dyn Fn(&TrapVerdict) -> f64| results::array(py, found.iter().map(of).collect());
     let counts = |of: &dyn Fn(&TrapVerdict) -> i64| results::array(py, found.iter().map(of).collect());
