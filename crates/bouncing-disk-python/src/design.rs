@@ -1,8 +1,6 @@
 //! The best hand motion.
 
-use bouncing_disk::{
-    DiskParameters, OverFriction, TossConstraints, TossDesign, TossObjective, best_toss_observed,
-};
+use bouncing_disk::{DiskParameters, OverFriction, TossConstraints, TossDesign, TossObjective};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -128,8 +126,9 @@ pub(crate) fn best_toss<'py>(
         objective,
         over_friction,
     };
-    let design: TossDesign =
-        long_call::run_named(py, progress.0, &NAMES, |observer| best_toss_observed(&constraints, observer))?;
+    let design: TossDesign = long_call::run_named(py, progress.0, &NAMES, |observer| {
+        bouncing_disk::best_toss(&constraints, observer)
+    })?;
     let fields = (
         design.hand.stroke,
         design.hand.amplitude_angle,

@@ -2,7 +2,7 @@
 
 use bouncing_disk_core::{
     Axis, BasinSettings, ChatterPolicy, Error, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit,
-    OrbitBatch, Vibration,
+    OrbitBatch, Unobserved, Vibration,
 };
 
 /// Orbits in lockstep.
@@ -32,8 +32,8 @@ impl Workloads {
         let set =
             if cfg!(target_arch = "wasm32") { InstructionSet::Simd128 } else { InstructionSet::Baseline };
         let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).ok()?, 0.5).ok()?;
-        let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).ok()??;
-        let radius = orbit.trapping_radius(&map, 64).ok()?;
+        let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8, &Unobserved).ok()??;
+        let radius = orbit.trapping_radius(&map, 64, &Unobserved).ok()?;
         Some(Self {
             orbits: OrbitBatch::with_instruction_set(states, set),
             map,
@@ -59,7 +59,12 @@ impl Workloads {
     pub fn cells(&self, side: usize) -> Result<f64, Error> {
         let axis = |high| Axis::new(0.0, high, side);
         let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
-        std::hint::black_box(self.map.basins(Grid::new(axis(1.0)?, axis(2.0)?)?, &self.known, settings)?);
+        std::hint::black_box(self.map.basins(
+            Grid::new(axis(1.0)?, axis(2.0)?)?,
+            &self.known,
+            settings,
+            &Unobserved,
+        )?);
         Ok(side as f64 * side as f64)
     }
 }

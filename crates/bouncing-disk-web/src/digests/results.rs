@@ -29,7 +29,7 @@ fn diagram(policy: ChatterPolicy) -> Result<Digest, Error> {
     let starts = starts(&forcings(200, 0.3, 0.002), 0.5)?;
     let orbits: Vec<_> = starts.iter().map(|(map, state)| map.orbit(*state, policy)).collect();
     let mut digest = Digest::new();
-    for column in orbit_diagram(&orbits, 1000, 50)? {
+    for column in orbit_diagram(&orbits, 1000, 50, &Unobserved)? {
         for state in &column {
             digest.number(state.phase().angle());
             digest.number(state.velocity());
@@ -42,11 +42,12 @@ fn basins() -> Result<Digest, Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     let start = ImpactState::from_normalised(1.2, 1.3)?;
     let mut digest = Digest::new();
-    let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7)? else { return Ok(digest) };
-    let radius = orbit.trapping_radius(&map, 64)?;
+    let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7, &Unobserved)? else { return Ok(digest) };
+    let radius = orbit.trapping_radius(&map, 64, &Unobserved)?;
     digest.number(radius);
     let grid = Grid::new(Axis::new(0.0, 1.0, 200)?, Axis::new(0.0, 3.0, 150)?)?;
-    let basins = map.basins(grid, &[KnownOrbit::new(orbit, radius)?], BasinSettings::default())?;
+    let basins =
+        map.basins(grid, &[KnownOrbit::new(orbit, radius)?], BasinSettings::default(), &Unobserved)?;
     digest.bytes(basins.labels());
     Ok(digest)
 }
@@ -54,7 +55,7 @@ fn basins() -> Result<Digest, Error> {
 fn judged() -> Result<Digest, Error> {
     let settings = VerdictSettings { impacts: 20_000, ..VerdictSettings::default() };
     let mut digest = Digest::new();
-    for verdict in verdicts(&starts(&forcings(100, 0.2, 0.005), 0.5)?, settings)? {
+    for verdict in verdicts(&starts(&forcings(100, 0.2, 0.005), 0.5)?, settings, &Unobserved)? {
         match verdict {
             Verdict::Periodic { impacts, platform_periods, .. } => {
                 digest.bytes(&[0]);
@@ -100,7 +101,7 @@ fn tosses() -> Result<Digest, Error> {
 
 fn motors() -> Result<Digest, Error> {
     let settings = TransientSettings { duration: 0.5, intervals: 50, ..TransientSettings::default() };
-    let runs = ensemble(&System::motor(), &settings, 16)?;
+    let runs = ensemble(&System::motor(), &settings, 16, &Unobserved)?;
     let mut digest = Digest::new();
     for curve in &runs.curves {
         for number in curve.times.iter().chain(&curve.speeds) {
@@ -115,7 +116,7 @@ fn motors() -> Result<Digest, Error> {
 
 fn spectra() -> Result<Digest, Error> {
     let mut digest = Digest::new();
-    for outcome in lyapunov_spectra(&starts(&forcings(60, 0.2, 0.01), 0.5)?, 1000, 5000)? {
+    for outcome in lyapunov_spectra(&starts(&forcings(60, 0.2, 0.01), 0.5)?, 1000, 5000, &Unobserved)? {
         match outcome {
             LyapunovOutcome::Exponents(found) => {
                 for number in [Some(found.largest), Some(found.standard_error), found.second, found.exact_sum]
@@ -134,10 +135,10 @@ fn spectra() -> Result<Digest, Error> {
 fn manifolds() -> Result<Digest, Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
     let mut digest = Digest::new();
-    let orbits = map.periodic_orbits(&OrbitSearch::new(1, 1)?)?.orbits;
+    let orbits = map.periodic_orbits(&OrbitSearch::new(1, 1)?, &Unobserved)?.orbits;
     for orbit in orbits.iter().filter(|orbit| orbit.multipliers().spectral_radius() > 1.0) {
         for kind in [ManifoldKind::Unstable, ManifoldKind::Stable] {
-            let manifold = map.manifold(orbit, kind, &ManifoldSettings::new(10.0, 20_000)?)?;
+            let manifold = map.manifold(orbit, kind, &ManifoldSettings::new(10.0, 20_000)?, &Unobserved)?;
             digest.number(manifold.multiplier);
             for state in manifold.pieces().flat_map(|piece| &piece.states) {
                 digest.number(state.phase().angle());
@@ -156,7 +157,7 @@ fn crisis() -> Result<Digest, Error> {
     for number in [crisis.forcing, crisis.forcing_error, tangency.share, tangency.curvature] {
         digest.number(number);
     }
-    for life in crisis.lives(&[1e-4, 1e-3], 50, 20_000)?.lives {
+    for life in crisis.lives(&[1e-4, 1e-3], 50, 20_000, &Unobserved)?.lives {
         digest.number(life.impacts);
     }
     Ok(digest)
@@ -190,23 +191,23 @@ fn operations() -> Result<Digest, Error> {
         SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.1e-8]),
     ];
     let mut digest = Digest::new();
-    for row in MotorSweep::new(motor, axes, settings)?.run()?.matrix(SweepQuantity::Speed) {
+    for row in MotorSweep::new(motor, axes, settings)?.run(&Unobserved)?.matrix(SweepQuantity::Speed) {
         for speed in row {
             digest.number(speed.unwrap_or(f64::NAN));
         }
     }
     let quantity = SensitivityQuantity::SteadySpeed;
     let near = SensitivitySettings { operating: settings, ..SensitivitySettings::default() };
-    for one in motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near)? {
+    for one in motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near, &Unobserved)? {
         digest.number(one.derivative.value);
     }
     let ranges =
         [(SensitivityParameter::Friction, [0.05, 0.2]), (SensitivityParameter::PhaseLag, [-0.2, 0.2])];
     let sampling = SamplingSettings { rows: 8, seed: 3 };
-    for one in motor.sobol_indices(quantity, &ranges, sampling, &settings)? {
+    for one in motor.sobol_indices(quantity, &ranges, sampling, &settings, &Unobserved)? {
         digest.number(one.total.value);
     }
-    for one in motor.elementary_effects(quantity, &ranges, sampling, &settings)? {
+    for one in motor.elementary_effects(quantity, &ranges, sampling, &settings, &Unobserved)? {
         digest.number(one.mean.value);
     }
     Ok(digest)
