@@ -1,7 +1,7 @@
 //! The chores of this repository.
 //!
-//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask bench` measures how fast
-//! the library is, `cargo xtask explorer` builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the licences.
+//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask bench` compares how
+//! fast two commits are, `cargo xtask explorer` builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the licences.
 
 mod bench;
 mod dependencies;
@@ -27,7 +27,7 @@ struct Arguments {
 enum Chore {
     /// Compute and draw the figures and tables of the paper.
     Figures(figures::Options),
-    /// Run the benches, compare the speed of two commits, or write docs/performance.md.
+    /// Compare the speed of two commits, running the benches of both in turn.
     Bench(bench::Options),
     /// Build the page that shows the model in a browser.
     Explorer(explorer::Options),

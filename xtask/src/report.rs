@@ -158,13 +158,4 @@ mod tests {
         let line = line("fig06", 1200, 4000, "orbits", Duration::from_secs(14));
         assert_eq!(line, "fig06    1200/4000 orbits, 85.7/s, 33 s left");
     }
-
-    #[test]
-    fn the_templates_are_valid() {
-        for template in
-            ["{prefix:<8} {spinner} {elapsed}", "[{bar:30}] {human_pos}/{human_len} {msg}, {per_sec}, {eta}"]
-        {
-            assert!(ProgressStyle::with_template(template).is_ok(), "{template}");
-        }
-    }
 }

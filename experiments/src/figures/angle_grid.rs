@@ -6,8 +6,8 @@ use bouncing_disk::core::elementary::{atan, cos};
 
 use super::toss_case::TossCase;
 use crate::experiment::ExperimentError;
-use crate::paper::{SectionThree, TableOne};
-use crate::printed::PrintedNumber;
+use crate::claims::paper::{SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
 
 /// Intervals beyond which a grid holds any three angles of three digits.
 pub(crate) const MOST_INTERVALS: u32 = 50;

@@ -12,7 +12,7 @@ use bouncing_disk_plot::{
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::{Progress, advancing, sharing};
 
 /// Γ of the two sweeps, and the restitution of the second.

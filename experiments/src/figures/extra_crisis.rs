@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::manifold_lines::lines;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// Γ between which the crisis is sought.

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::manifold_lines::lines;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::{Progress, advancing};
 
 /// Top of the window of speeds, that of Fig. 7.

@@ -11,7 +11,7 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig04Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 

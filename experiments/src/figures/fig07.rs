@@ -13,7 +13,7 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig07Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -82,7 +82,7 @@ impl Experiment for Fig07 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claim::{Class, Computed};
+    use crate::claims::{Class, Computed};
     use crate::progress::Silent;
 
     #[test]
@@ -97,11 +97,11 @@ mod tests {
         let panels =
             ["section4.chattering_is_easier", "section4.rest_chatters", "section4.basin_fills_plane"];
         for claim in Fig07::claims(&data) {
-            let holds = matches!(claim.computed(), Computed::Boolean(true));
+            let holds = matches!(claim.computed, Computed::Boolean(true));
             let own = panels
                 .iter()
-                .any(|key| matches!(claim.source(), crate::claim::Source::Entry(of) if of == key));
-            assert!(!(holds && claim.class() == Class::Paper) || own, "{}", claim.quantity());
+                .any(|key| matches!(&claim.source, crate::claims::Source::Entry(of) if of == key));
+            assert!(!(holds && claim.class == Class::Paper) || own, "{}", claim.quantity);
         }
     }
 }

@@ -12,7 +12,7 @@ use bouncing_disk_plot::Figure;
 
 use self::compute::MEMBER_INTERVALS;
 pub use self::data::Fig10Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
 use crate::measured::{Layout, Series};

@@ -9,7 +9,7 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig12Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::motor_case::RobustCycle;
 use crate::progress::Progress;

@@ -13,7 +13,7 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig13Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};

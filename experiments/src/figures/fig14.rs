@@ -9,7 +9,7 @@ use bouncing_disk_plot::Figure;
 use self::compute::{FRAMES_PER_S, SCATTER, SEED};
 pub use self::data::Fig14Data;
 use super::dough_record::{DIAMETERS, Growth};
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;

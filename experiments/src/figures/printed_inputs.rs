@@ -7,10 +7,10 @@
 
 use super::motor_case::MotorCase;
 use super::synthetic::Noise;
-use crate::catalogue::{self, CatalogueError};
-use crate::claim::Cases;
+use crate::claims::catalogue::{self, CatalogueError};
+use crate::claims::Cases;
 use crate::experiment::ExperimentError;
-use crate::paper;
+use crate::claims::paper;
 
 /// How many are drawn for a verdict.
 pub(crate) const DRAWN: usize = 200;

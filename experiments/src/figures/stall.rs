@@ -159,7 +159,7 @@ mod tests {
 
     use super::*;
     use crate::figures::synthetic::Noise;
-    use crate::paper;
+    use crate::claims::paper;
 
     const PERTURBATION: f64 = 1e-3;
 

@@ -8,7 +8,7 @@ mod draw;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};

@@ -9,7 +9,7 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Table2Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};

@@ -9,7 +9,7 @@ use bouncing_disk::TransientSettings;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
 
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::figures::stall;
 use crate::progress::Progress;

@@ -6,7 +6,7 @@ use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossP
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
-use crate::paper::TableOne;
+use crate::claims::paper::TableOne;
 
 /// The parameters of a single toss, in the paper's order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn the_dough_still_leaves_at_the_last_angle() {
-        let case = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let case = TossCase::from(&crate::claims::paper::table_one().expect("reads"));
         let last = case.at_angle(case.last_angle()).toss(InitialSpin::AbsoluteRest).expect("leaves");
         let early = std::f64::consts::FRAC_PI_2 - last.separation_phase;
         assert!((0.0..1e-5).contains(&early), "{early}");

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::paper::Uncertain;
+use crate::claims::paper::Uncertain;
 
 /// A result and its uncertainty. The effect of an input is half the difference of the results at both ends of its
 /// range.

@@ -101,24 +101,20 @@ mod tests {
 
     #[test]
     fn a_browser_gets_a_file_and_is_told_of_one_that_is_missing() {
-        let folder = std::env::temp_dir().join(format!("explorer-serve-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a folder");
-        std::fs::write(folder.join("index.html"), "page").expect("a file");
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("index.html"), "page").expect("a file");
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
         let address = listener.local_addr().expect("an address");
-        let asked = |request: &str| {
+        for (request, status) in
+            [("GET / ", "200 OK"), ("GET /none.js ", "404 Not Found"), ("POST / ", "400 Bad Request")]
+        {
             let mut browser = TcpStream::connect(address).expect("a connection");
-            browser.write_all(request.as_bytes()).expect("a request");
-            let (connection, _) = listener.accept().expect("a browser");
-            answer(connection, &folder).expect("an answer");
+            browser.write_all(format!("{request}HTTP/1.1\r\n\r\n").as_bytes()).expect("a request");
+            answer(listener.accept().expect("a browser").0, folder.path()).expect("an answer");
             let mut text = String::new();
             browser.read_to_string(&mut text).expect("text");
-            text
-        };
-        let found = asked("GET / HTTP/1.1\r\n\r\n");
-        assert!(found.starts_with("HTTP/1.1 200") && found.ends_with("\r\n\r\npage"), "{found}");
-        assert!(asked("GET /none.js HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 404"));
-        assert!(asked("POST / HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 400"));
-        std::fs::remove_dir_all(&folder).expect("removed");
+            assert!(text.starts_with(&format!("HTTP/1.1 {status}\r\n")), "{text}");
+            assert_eq!(text.ends_with("\r\n\r\npage"), status == "200 OK", "{text}");
+        }
     }
 }

@@ -8,7 +8,7 @@ use super::data::Fig01Data;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::hand_path::HandPath;
 use crate::figures::toss_case::TossCase;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// Phase lag of the motion shown. Table I has 0, for which the path of a point is a mere arc.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::figures::hand_path::HandPath;
-use crate::paper::TableOne;
+use crate::claims::paper::TableOne;
 
 /// The data of Fig. 1: the toss of Table I with another phase lag, and one instant of it.
 #[derive(Debug, Serialize, Deserialize)]

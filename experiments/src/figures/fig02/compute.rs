@@ -7,7 +7,7 @@ use bouncing_disk::{Platform, Stroke};
 use super::data::{Fig02Data, Trajectory};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::hand_path::HandPath;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// The shape of a path does not depend on its size: the contact radius is 1 m here, the stroke this many of it.

@@ -1,7 +1,7 @@
 //! What the paper says about a rotor on a spring.
 
 use super::data::Fig03Data;
-use crate::claim::{self, Claim};
+use crate::claims::{self as claim, Claim};
 
 /// A spring that is compressed by so many times the rotor's displacement is compressed by "much more" than it.
 const MUCH_GREATER: f64 = 100.0;

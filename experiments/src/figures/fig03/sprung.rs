@@ -15,7 +15,7 @@ use bouncing_disk::{Engine, EventKind, EventRecord, System, TOSS_START};
 use super::data::{Sprung, SprungFlight, SprungMotor};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
-use crate::paper;
+use crate::claims::paper;
 
 /// The change of the preload, from end to end of the travel, for which the deflection is given.
 const SHARE: f64 = 0.01;

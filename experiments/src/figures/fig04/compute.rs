@@ -7,7 +7,7 @@ use super::data::{self, Fig04Data};
 use super::sweep;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::toss_case::TossCase;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {

@@ -12,8 +12,8 @@ use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
 use crate::figures::toss_case::TossCase;
-use crate::paper::{SectionThree, TableOne};
-use crate::printed::PrintedNumber;
+use crate::claims::paper::{SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
 
 /// Numbers that the paper prints about tosses with θ = 0.
 const NUMBERS: usize = 7;

@@ -4,7 +4,7 @@ use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
 use crate::figures::toss_case::TossCase;
-use crate::paper::{SectionThree, TableOne};
+use crate::claims::paper::{SectionThree, TableOne};
 
 /// The data of Fig. 4.
 #[derive(Debug, Serialize, Deserialize)]

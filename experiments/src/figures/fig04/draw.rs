@@ -8,7 +8,7 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Family, Fig04Data, LagCurve, TossPoint};
-use crate::printed::PrintedNumber;
+use crate::claims::printed::PrintedNumber;
 
 const HEIGHT: f64 = 480.0;
 const LAST_LAG: f64 = 8.0;

@@ -260,7 +260,7 @@ mod tests {
 
     #[test]
     fn the_largest_ratio_is_one_as_long_as_friction_holds_the_dough_to_the_hands_fastest_moment() {
-        let table = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let table = TossCase::from(&crate::claims::paper::table_one().expect("reads"));
         let held = held_to_separation(&table);
         for initial in INITIAL_STATES {
             for share in [0.1, 0.5, 0.98] {

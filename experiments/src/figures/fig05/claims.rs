@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::compute::FIRST_PHASE_LAG;
 use super::data::{Column, Dependence, Fig05Data, Toss};
-use crate::claim::{self, Claim};
+use crate::claims::{self as claim, Claim};
 
 /// The share of the hand's speed that a dough in a firm grip may lack.
 const NEARLY_NOTHING: f64 = 0.01;

@@ -9,8 +9,8 @@ use super::data::{Column, Dependence, Fig05Data, GridPoint, Grip, Toss};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::angle_grid::{AngleGrid, launch_case, printed_angles, unreadable};
 use crate::figures::toss_case::TossCase;
-use crate::paper::{self, SectionThree, TableOne};
-use crate::printed::PrintedNumber;
+use crate::claims::paper::{self, SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
 use crate::progress::Progress;
 
 /// θ_1 of the caption.

@@ -3,7 +3,7 @@
 use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
-use crate::paper::{SectionThree, TableOne};
+use crate::claims::paper::{SectionThree, TableOne};
 
 /// The data of Fig. 5.
 #[derive(Debug, Serialize, Deserialize)]

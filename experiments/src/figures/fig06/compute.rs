@@ -15,7 +15,7 @@ use super::inputs::{Inputs, map, no_orbit};
 use super::slices::followed_slice;
 use super::{contact, dimension, explored, merging, period_one};
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper::{self, SectionFour};
+use crate::claims::paper::{self, SectionFour};
 use crate::progress::Progress;
 
 /// The range of Γ of the diagram.

@@ -13,7 +13,7 @@ use super::data::{Motion, Transfer};
 use super::inputs::{Inputs, Systems};
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
-use crate::paper;
+use crate::claims::paper;
 
 /// Impacts of a long motion.
 const LONG: usize = 4_000;

@@ -5,7 +5,7 @@ use bouncing_disk::{DimensionlessSystem, ForcingParameters};
 
 use super::data::Twist;
 use crate::experiment::ExperimentError;
-use crate::paper::SectionFour;
+use crate::claims::paper::SectionFour;
 
 /// The printed inputs of the diagrams.
 #[derive(Clone, Copy, Debug)]

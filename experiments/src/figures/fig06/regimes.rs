@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::data::{BestLag, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
-use crate::catalogue;
-use crate::claim::{self, Cases, Claim};
+use crate::claims::catalogue;
+use crate::claims::{self as claim, Cases, Claim};
 use crate::figures::circular::occupied_arc;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {

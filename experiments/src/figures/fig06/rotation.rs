@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::elementary::cos;
 
 use super::data::{Fig06Data, Slice};
-use crate::claim::{self, Cases, Claim};
+use crate::claims::{self as claim, Cases, Claim};
 use crate::figures::circular;
 pub(super) use crate::figures::samples::extent;
-use crate::judging::trend;
+use crate::claims::judging::trend;
 
 /// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow approach to the
 /// orbit next to a doubling.
@@ -182,7 +182,7 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         _ => "no period-1 orbit".to_owned(),
     };
     // What half a unit of the last digit of the printed lag does to the speed.
-    let printed = crate::catalogue::number("section4.semielliptical_phase_lag", 0);
+    let printed = crate::claims::catalogue::number("section4.semielliptical_phase_lag", 0);
     let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
     let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
     vec![

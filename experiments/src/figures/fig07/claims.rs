@@ -2,7 +2,7 @@
 
 use super::data::{Fig07Data, Panel, TopShares};
 use super::draw::forcing_text;
-use crate::claim::{self, Claim};
+use crate::claims::{self as claim, Claim};
 
 const ID: &str = "fig07";
 const SECTION: &str = "Sec. IV B";

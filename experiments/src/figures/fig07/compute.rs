@@ -7,7 +7,7 @@ use super::panels::{self, WINDOW_TOP};
 use super::scan;
 use super::windows::windows;
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use super::panels::{grid, map, start};
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper::SectionFour;
+use crate::claims::paper::SectionFour;
 
 /// Forcings from that of panel (a) to that of (b).
 const ALONG_WINDOW: u32 = 16;

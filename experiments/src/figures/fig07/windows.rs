@@ -9,7 +9,7 @@ use super::data::{CurvePoint, Windows};
 use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
 use super::panels::{grid, map, others};
 use crate::experiment::ExperimentError;
-use crate::paper::SectionFour;
+use crate::claims::paper::SectionFour;
 use crate::progress::{Progress, advancing};
 
 /// Top of the largest window.

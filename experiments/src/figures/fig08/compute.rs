@@ -4,7 +4,7 @@ use bouncing_disk::core::elementary::asin;
 
 use super::data::Fig08Data;
 use crate::experiment::ExperimentError;
-use crate::paper::{self, STEEL_DENSITY};
+use crate::claims::paper::{self, STEEL_DENSITY};
 use crate::progress::Progress;
 
 /// Carbon and stainless steels lie between these densities (kg/m³; handbook values, not in the paper).

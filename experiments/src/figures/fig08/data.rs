@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::paper::TableThree;
+use crate::claims::paper::TableThree;
 
 /// The data of Fig. 8.
 #[derive(Debug, Serialize, Deserialize)]

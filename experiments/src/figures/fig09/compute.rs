@@ -11,7 +11,7 @@ use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
 use crate::figures::regression::StraightLine;
 use crate::figures::synthetic::Noise;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.

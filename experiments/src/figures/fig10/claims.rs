@@ -1,8 +1,8 @@
 //! What the paper says about Fig. 10.
 
 use super::data::{Fig10Data, Transient};
-use crate::catalogue;
-use crate::claim::{Cases, Claim, all};
+use crate::claims::catalogue;
+use crate::claims::{Cases, Claim, all};
 use crate::figures::alike::{AlikeMotor, INTERVALS};
 use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, perturbation_claim};
 use crate::figures::samples;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{Cycle, PerturbationEffect, RobustCycle};
-use crate::paper::{SectionFive, TableThree};
+use crate::claims::paper::{SectionFive, TableThree};
 
 /// The data of Fig. 10.
 #[derive(Debug, Serialize, Deserialize)]

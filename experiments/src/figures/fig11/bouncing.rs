@@ -9,8 +9,8 @@ use bouncing_disk::core::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
 
 use super::data::{Coexisting, EndOfBouncing};
-use crate::catalogue;
-use crate::claim::Cases;
+use crate::claims::catalogue;
+use crate::claims::Cases;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::{MotorCase, core_error};
 use crate::figures::printed_inputs::DRAWN;

@@ -2,7 +2,7 @@
 
 use super::data::{Fig11Data, Trend};
 use super::trends::{EXPONENT_WITHIN, SHARP};
-use crate::claim::{Cases, Claim, all};
+use crate::claims::{Cases, Claim, all};
 
 const ID: &str = "fig11";
 

@@ -3,10 +3,10 @@
 use bouncing_disk::Spread;
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Cases;
+use crate::claims::Cases;
 use crate::figures::motor_case::{MotorCase, MotorStatistics};
 use crate::figures::stall::Stall;
-use crate::paper::Preloads;
+use crate::claims::paper::Preloads;
 
 /// The data of Fig. 11.
 #[derive(Debug, Serialize, Deserialize)]

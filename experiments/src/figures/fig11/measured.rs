@@ -32,7 +32,7 @@ pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<MeasuredMotors, 
         let near = |panel: &f64| (frequency_hz - panel).abs() <= SAME_FREQUENCY_WITHIN * panel;
         let panel_frequency_hz = frequencies.into_iter().find(near).ok_or_else(|| {
             let legal = frequencies.map(|frequency| frequency.to_string()).join(" or ");
-            series.illegal(row, 0, format!("within {} % of {legal}", 100.0 * SAME_FREQUENCY_WITHIN))
+            series.illegal(row, 0, &format!("within {} % of {legal}", 100.0 * SAME_FREQUENCY_WITHIN))
         })?;
         points.push(MeasuredMotor {
             panel_frequency_hz,

@@ -1,7 +1,7 @@
 //! The trends of Fig. 11 over the preloads.
 
 use super::data::{Curve, Holes, Point, Trend};
-use crate::claim::Cases;
+use crate::claims::Cases;
 use crate::figures::samples;
 
 /// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is

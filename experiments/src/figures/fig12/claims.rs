@@ -1,7 +1,7 @@
 //! What the paper says about Fig. 12.
 
 use super::data::{Fig12Data, Lines, LowPeriod};
-use crate::claim::{Cases, Claim, Verdict};
+use crate::claims::{Cases, Claim, Verdict};
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS};
 

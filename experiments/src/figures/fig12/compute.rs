@@ -15,7 +15,7 @@ use crate::figures::alike::alike;
 use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two flights.

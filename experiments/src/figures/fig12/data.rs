@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{MotorCase, RobustCycle};
-use crate::paper::ChatteringCases;
+use crate::claims::paper::ChatteringCases;
 
 /// The data of Fig. 12.
 #[derive(Debug, Serialize, Deserialize)]

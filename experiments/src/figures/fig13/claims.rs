@@ -2,7 +2,7 @@
 
 use super::data::{Fig13Data, Parameter};
 use super::{orbits, sensitivity};
-use crate::claim::Claim;
+use crate::claims::Claim;
 
 pub(super) fn claims(data: &Fig13Data) -> Vec<Claim> {
     let mut claims = vec![

@@ -9,14 +9,14 @@ use super::data::{
     AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep, SweepPoint,
 };
 use super::sweeps::{cosine_fit, trend_change};
-use crate::claim::Cases;
+use crate::claims::Cases;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
 use crate::figures::motor_case::MotorCase;
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::regression::StraightLine;
 use crate::figures::samples;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g).

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Cases;
+use crate::claims::Cases;
 use crate::figures::circular::Concentration;
 use crate::figures::motor_case::{MotorCase, MotorStatistics};
 

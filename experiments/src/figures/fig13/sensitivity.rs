@@ -6,7 +6,7 @@ use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::sweeps::{
     Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
 };
-use crate::claim::{Cases, Claim};
+use crate::claims::{Cases, Claim};
 use crate::figures::regression::StraightLine;
 use crate::figures::samples;
 
@@ -186,7 +186,7 @@ fn change_words(changes: &[(Parameter, f64)]) -> String {
 /// The same changes over the one range that the paper prints, that of the measured ε; the others are not printed.
 fn over_printed_range(data: &Fig13Data, changes: &[(Parameter, f64)]) -> Vec<(Parameter, f64)> {
     let (low, high) = range(data, Parameter::Restitution);
-    let printed = crate::catalogue::number("section5.estimated_restitution", 0);
+    let printed = crate::claims::catalogue::number("section5.estimated_restitution", 0);
     let width = 2.0 * printed.ok().and_then(|printed| printed.uncertainty).unwrap_or(f64::NAN);
     let share = |parameter| if parameter == Parameter::Restitution { width / (high - low) } else { 1.0 };
     changes.iter().map(|&(parameter, change)| (parameter, share(parameter) * change)).collect()

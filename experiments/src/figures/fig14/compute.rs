@@ -5,7 +5,7 @@ use crate::experiment::ExperimentError;
 use crate::figures::regression::StraightLine;
 use crate::figures::synthetic::Noise;
 use crate::figures::toss_case::TossCase;
-use crate::paper;
+use crate::claims::paper;
 use crate::progress::Progress;
 
 /// Frames per second of the synthetic record, and the standard deviation of its relative diameters: made up.

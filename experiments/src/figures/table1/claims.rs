@@ -1,7 +1,7 @@
 //! What the paper says about the single toss's inputs, compared with the data.
 
 use super::data::Table1Data;
-use crate::claim::{Cases, Claim};
+use crate::claims::{Cases, Claim};
 use crate::figures::uncertainty::Propagated;
 
 /// Two speeds that are the same differ by no more than this share: rounding.
@@ -46,12 +46,12 @@ pub(super) fn claims(data: &Table1Data) -> Vec<Claim> {
 /// A printed uncertainty that several inputs share in: the paper does not say how their effects add up.
 fn combined(key: &str, computed: &Propagated) -> Claim {
     let claim = Claim::printed(key, computed.sum);
-    let squares = Claim::printed(key, computed.root_sum_of_squares).verdict();
+    let squares = Claim::printed(key, computed.root_sum_of_squares).verdict;
     let note = format!(
         "plain sum of the effects; the root of the sum of their squares is {:.3}",
         computed.root_sum_of_squares
     );
-    if squares == claim.verdict() {
+    if squares == claim.verdict {
         return claim.note(note);
     }
     claim.fitted("how the effects of the inputs add up, as a plain sum").note(note)

@@ -7,13 +7,13 @@ use bouncing_disk::core::elementary::{acos, asin, hypot, tan};
 use bouncing_disk::{LaunchSpeeds, Platform, Stroke, System};
 
 use super::data::{Alike, Arc, AtSeparation, ComputedEntries, Row, Table1Data};
-use crate::catalogue;
+use crate::claims::catalogue;
 use crate::experiment::ExperimentError;
 use crate::figures::hand_path::HandPath;
 use crate::figures::printed_inputs::{DRAWN, agreement, draws};
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::{self, SectionThree, TableOne, Uncertain};
+use crate::claims::paper::{self, SectionThree, TableOne, Uncertain};
 
 /// Pieces of a period of the hand's path; its ends are among their ends.
 const PIECES: u32 = 400;

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Cases;
+use crate::claims::Cases;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::{SectionThree, TableOne, Uncertain};
+use crate::claims::paper::{SectionThree, TableOne, Uncertain};
 
 /// The data of Table I.
 #[derive(Debug, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! What the paper says in Table II, compared with the data.
 
 use super::data::Table2Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 
 pub(super) fn claims(data: &Table2Data) -> Vec<Claim> {
     let mut claims = Vec::new();

@@ -6,7 +6,7 @@ use super::data::{Combined, Effect, Table2Data};
 use crate::experiment::ExperimentError;
 use crate::figures::toss_case::TossCase;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::{self, SectionThree, TableOne, TableTwo, Uncertain};
+use crate::claims::paper::{self, SectionThree, TableOne, TableTwo, Uncertain};
 use crate::progress::Progress;
 
 /// Share of an uncertainty over which a slope is taken.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::paper::{SectionThree, TableOne};
+use crate::claims::paper::{SectionThree, TableOne};
 
 /// The data of Table II.
 #[derive(Debug, Serialize, Deserialize)]

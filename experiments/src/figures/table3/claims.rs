@@ -1,7 +1,7 @@
 //! What the paper says about the motor's inputs, compared with the data.
 
 use super::data::Table3Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::figures::stall::Stall;
 
 const ID: &str = "table3";

@@ -5,15 +5,15 @@ use std::f64::consts::PI;
 use bouncing_disk::{Estimate, InputSpread, InputTolerance, Motor, OperatingSettings, TransientSettings};
 
 use super::data::{Drop, Following, Input, OverInputs, Speed, Table3Data};
-use crate::catalogue;
-use crate::claim::Cases;
+use crate::claims::catalogue;
+use crate::claims::Cases;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
 use crate::figures::printed_inputs::DRAWN;
 use crate::figures::stall::Stall;
 use crate::figures::synthetic::Noise;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::{self, SectionFive, Uncertain};
+use crate::claims::paper::{self, SectionFive, Uncertain};
 
 /// Seed of the drops whose height and gravity round to the printed ones.
 pub(super) const DROP_SEED: u64 = 95;

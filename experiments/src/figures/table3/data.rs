@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Cases;
+use crate::claims::Cases;
 use crate::figures::stall::Stall;
 use crate::figures::uncertainty::Propagated;
-use crate::paper::BallDrop;
+use crate::claims::paper::BallDrop;
 
 /// The data of Table III.
 #[derive(Debug, Serialize, Deserialize)]

@@ -4,8 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::catalogue::{self, CatalogueError};
-use crate::experiment::ExperimentError;
+use super::catalogue::{self, CatalogueError};
 
 /// A value with its uncertainty, printed as `value ± uncertainty`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,7 +78,7 @@ impl FromCatalogue for Uncertain {
 /// # Errors
 ///
 /// When there is no such number.
-pub fn value(key: &str) -> Result<f64, ExperimentError> {
+pub fn value(key: &str) -> Result<f64, CatalogueError> {
     Ok(catalogue::number(key, 0)?.value)
 }
 
@@ -108,7 +107,7 @@ macro_rules! structs {
         /// # Errors
         ///
         /// When an entry is missing or of another kind.
-        pub fn $load() -> Result<$name, ExperimentError> {
+        pub fn $load() -> Result<$name, CatalogueError> {
             Ok($name {
                 $($field: <$kind>::from_catalogue(&[$(($key, power!($($power)?))),+])?,)*
             })

@@ -11,25 +11,24 @@ use serde::Deserialize;
 const DIGITS: usize = 4;
 
 /// A number that keeps more digits.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Kept {
-    /// Its name.
-    pub id: String,
+struct Kept {
+    id: String,
     /// What it is, with its unit.
-    pub meaning: String,
+    meaning: String,
     /// As the pages show it.
-    pub value: String,
+    value: String,
 }
 
 /// The numbers that keep more than four digits.
-pub fn kept() -> &'static [Kept] {
+fn kept() -> &'static [Kept] {
     static KEPT: OnceLock<Vec<Kept>> = OnceLock::new();
-    KEPT.get_or_init(|| serde_json::from_str(include_str!("../recomputed.json")).unwrap_or_default())
+    KEPT.get_or_init(|| serde_json::from_str(include_str!("../../recomputed.json")).unwrap_or_default())
 }
 
 /// The text with every longer number rounded. What stands in backquotes, links and names is no number.
-pub fn rounded(text: &str) -> String {
+pub(super) fn rounded(text: &str) -> String {
     let mut page = String::with_capacity(text.len());
     for (index, piece) in text.split('`').enumerate() {
         if index > 0 {
@@ -105,7 +104,7 @@ mod tests {
     #[test]
     fn what_keeps_more_digits_is_listed_once_and_stands_on_a_page() {
         const PAGES: [&str; 2] =
-            [include_str!("../../docs/results.md"), include_str!("../../docs/errata.md")];
+            [include_str!("../../../docs/results.md"), include_str!("../../../docs/errata.md")];
         assert!((1..60).contains(&kept().len()));
         for one in kept() {
             assert!(!one.id.is_empty() && !one.meaning.is_empty(), "{one:?}");

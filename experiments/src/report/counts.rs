@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::claim::{Claim, Class, Verdict};
+use crate::claims::{Claim, Class, Verdict};
 
 /// Numbers of claims by class and verdict, the causes of the differences, and the second verdicts of motors.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -20,10 +20,10 @@ impl Counts {
     pub fn of<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Self {
         let mut counts = Self::default();
         for claim in claims {
-            counts.claims[claim.class() as usize][claim.verdict() as usize] += 1;
-            if claim.class() == Class::Paper {
-                counts.causes.extend(claim.cause_of_difference());
-                if let Some(single) = claim.of_single_orbits() {
+            counts.claims[claim.class as usize][claim.verdict as usize] += 1;
+            if claim.class == Class::Paper {
+                counts.causes.extend(claim.cause);
+                if let Some(single) = claim.single_orbits {
                     counts.single_orbits[single.verdict as usize] += 1;
                 }
             }
@@ -31,58 +31,39 @@ impl Counts {
         counts
     }
 
-    /// Both together.
-    pub fn and(mut self, other: &Self) -> Self {
-        let own = self.claims.as_flattened_mut().iter_mut().chain(&mut self.single_orbits);
-        for (count, more) in own.zip(other.claims.as_flattened().iter().chain(&other.single_orbits)) {
-            *count += more;
-        }
-        self.causes.extend(&other.causes);
-        self
-    }
-
-    /// Claims of a class with a verdict.
-    pub fn count(&self, class: Class, verdict: Verdict) -> usize {
-        self.claims[class as usize][verdict as usize]
-    }
-
-    /// Claims of a class.
-    pub fn of_class(&self, class: Class) -> usize {
-        self.claims[class as usize].iter().sum()
+    /// Those of the paper by verdict, and behind them the others by class.
+    pub(super) fn row(&self) -> [usize; 8] {
+        let [paper, others @ ..] = self.claims;
+        let [fitted, input, identity, this_work] = others.map(|verdicts| verdicts.iter().sum());
+        let [reproduced, differs, depends, no_data] = paper;
+        [reproduced, differs, depends, no_data, fitted, input, identity, this_work]
     }
 
     /// What came out of the paper's own numbers and statements, in a sentence.
     pub fn headline(&self) -> String {
-        let [reproduced, differs, depends, no_data] =
-            Verdict::ALL.map(|verdict| self.count(Class::Paper, verdict));
+        let [reproduced, differs, depends, no_data, ..] = self.row();
         format!(
             "Of {} numbers and statements of the paper, {reproduced} are reproduced, {differs} differ (for {} causes), {depends} depend on \
              digits that it does not print, and for {no_data} its text has not what is needed to compute them.",
-            self.of_class(Class::Paper),
+            reproduced + differs + depends + no_data,
             self.causes.len(),
         )
     }
 
-    /// The second verdicts on what is said of motors, in a sentence.
-    fn motors(&self) -> String {
+    /// What is no evidence for or against the paper, in a sentence.
+    pub fn beside(&self) -> String {
+        let [.., fitted, inputs, identities, this_work] = self.row();
         let [reproduced, differs, depends, _] = self.single_orbits;
-        match reproduced + differs + depends {
+        let motors = match reproduced + differs + depends {
             0 => String::new(),
             motors => format!(
                 " Of {motors} statements about the motor that count by the mean of an ensemble, single orbits reproduce {reproduced} and contradict \
                  {differs}; for {depends} it depends on the orbit."
             ),
-        }
-    }
-
-    /// What is no evidence for or against the paper, in a sentence.
-    pub fn beside(&self) -> String {
-        let [fitted, inputs, identities, this_work] =
-            [Class::Fitted, Class::Input, Class::Identity, Class::ThisWork].map(|class| self.of_class(class));
+        };
         format!(
             "Beside these and not counted with them: {fitted} numbers that we fitted, {inputs} inputs and quotations, {identities} \
-             identities, {this_work} readings and findings of this work.{}",
-            self.motors()
+             identities, {this_work} readings and findings of this work.{motors}"
         )
     }
 }
@@ -102,12 +83,10 @@ mod tests {
             Claim::statement("fig06", "", "ours", true, ""),
         ];
         let counts = Counts::of(&claims);
-        assert_eq!(Verdict::ALL.map(|verdict| counts.count(Class::Paper, verdict)), [1, 1, 0, 0]);
-        assert_eq!(Class::ALL.map(|class| counts.of_class(class)), [2, 1, 0, 1, 2]);
+        assert_eq!(counts.row(), [1, 1, 0, 0, 1, 0, 1, 2]);
         assert!(counts.headline().starts_with(
             "Of 2 numbers and statements of the paper, 1 are reproduced, 1 differ (for 1 causes)"
         ));
         assert!(counts.beside().contains("1 numbers that we fitted"));
-        assert_eq!(counts.clone().and(&counts).of_class(Class::ThisWork), 4);
     }
 }

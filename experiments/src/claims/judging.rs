@@ -1,13 +1,31 @@
 //! The rules by which a number or a statement of the paper is judged: one for each kind.
 //!
-//! `docs/judging.md` has them for readers; a test compares the two. Every entry of the [catalogue](crate::catalogue) that the
+//! `docs/judging.md` has them for readers; a test compares the two. Every entry of the [catalogue](super::catalogue) that the
 //! paper asserts names its kind, and the kind alone turns [`Cases`] into a [`Verdict`].
 
 use std::iter::Sum;
 
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Verdict;
+/// The outcome of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Our value agrees within the tolerance, or the statement holds.
+    Reproduced,
+    /// It does not.
+    Differs,
+    /// It holds for some of the inputs that print like the paper's, and not for others.
+    DependsOnUnprintedDigits,
+    /// The paper's text does not contain what would be needed to compute it.
+    NotComputable,
+}
+
+impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Reproduced, Self::Differs, Self::DependsOnUnprintedDigits, Self::NotComputable];
+}
 
 /// The least share of single orbits, or of inputs that print alike, for which a statement counts as reproduced; one minus it is the
 /// largest for which it counts as differing.
@@ -228,7 +246,7 @@ mod tests {
 
     #[test]
     fn the_page_has_these_rules() {
-        const PAGE: &str = include_str!("../../docs/judging.md");
+        const PAGE: &str = include_str!("../../../docs/judging.md");
         for kind in Kind::ALL {
             let row = format!("| {} | {} |", kind.name(), kind.rule());
             assert!(PAGE.contains(&row), "{row}");

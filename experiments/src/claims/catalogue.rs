@@ -2,20 +2,19 @@
 //!
 //! An entry is named `file.name`. It says where it is printed, what it is, and which figure or table answers it. The
 //! claim that answers it takes all this from here ([`Claim::printed`], [`Claim::printed_statement`]), and so do the
-//! experiments that need a printed number as an input ([`crate::paper`]).
+//! experiments that need a printed number as an input ([`super::paper`]).
 //!
-//! [`Claim::printed`]: crate::claim::Claim::printed
-//! [`Claim::printed_statement`]: crate::claim::Claim::printed_statement
+//! [`Claim::printed`]: super::Claim::printed
+//! [`Claim::printed_statement`]: super::Claim::printed_statement
 
-use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
 
+use super::judging::Kind;
+use super::printed::PrintedNumber;
 use crate::json;
-use crate::judging::Kind;
-use crate::printed::PrintedNumber;
 
 /// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -38,23 +37,24 @@ impl Class {
     /// All of them, the paper's first.
     pub const ALL: [Self; 5] = [Self::Paper, Self::Fitted, Self::Input, Self::Identity, Self::ThisWork];
 
-    /// The name used in `claims.json`.
-    pub fn name(self) -> &'static str {
+    /// As one reads it.
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Fitted => "fitted",
             Self::Input => "input",
             Self::Identity => "identity",
-            Self::ThisWork => "this-work",
+            Self::ThisWork => "this work",
         }
     }
 }
 
 /// One printed number or statement.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PrintedEntry {
     /// `file.name`.
+    #[serde(skip)]
     pub key: String,
     /// The figure or table whose experiment answers it: `fig01` ... `fig14`, `table1` ... `table3`.
     pub figure: String,
@@ -69,6 +69,7 @@ pub struct PrintedEntry {
     /// Why nothing can be computed for it.
     pub reason: Option<String>,
     /// What it is: the paper's own, an input, or true by construction.
+    #[serde(default)]
     pub class: Class,
     /// By which rule it is judged, if it is the paper's own and can be computed.
     pub kind: Option<Kind>,
@@ -109,7 +110,7 @@ macro_rules! files {
         const FILES: &[(&str, &str, &str)] = &[$((
             $name,
             concat!($name, ".json"),
-            include_str!(concat!("../../data/paper/", $name, ".json")),
+            include_str!(concat!("../../../data/paper/", $name, ".json")),
         )),*];
     };
 }
@@ -125,70 +126,15 @@ struct File {
     _place: String,
     #[serde(rename = "title")]
     _title: String,
-    values: InOrder,
-}
-
-/// The members of an object in the order of the file.
-struct InOrder(Vec<(String, Stored)>);
-
-impl<'de> Deserialize<'de> for InOrder {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Members;
-        impl<'de> Visitor<'de> for Members {
-            type Value = InOrder;
-
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("an object of entries")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<InOrder, A::Error> {
-                let mut members: Vec<(String, Stored)> = Vec::new();
-                while let Some((name, stored)) = map.next_entry::<String, Stored>()? {
-                    if members.iter().any(|(known, _)| *known == name) {
-                        return Err(serde::de::Error::custom(format!("\"{name}\" stands twice")));
-                    }
-                    members.push((name, stored));
-                }
-                Ok(InOrder(members))
-            }
-        }
-        deserializer.deserialize_map(Members)
-    }
-}
-
-/// An entry as it is stored.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stored {
-    figure: String,
-    place: String,
-    quantity: String,
-    unit: String,
-    printed: Option<String>,
-    reason: Option<String>,
-    #[serde(default)]
-    class: Class,
-    kind: Option<Kind>,
+    /// In the order of the file.
+    values: IndexMap<String, PrintedEntry>,
 }
 
 fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, CatalogueError> {
     let content: File =
         json::read(text.as_bytes()).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
-    let entries = content.values.0.into_iter().map(|(entry, stored)| {
-        let Stored { figure, place, quantity, unit, printed, reason, class, kind } = stored;
-        PrintedEntry {
-            key: format!("{name}.{entry}"),
-            figure,
-            place,
-            quantity,
-            unit,
-            printed,
-            reason,
-            class,
-            kind,
-        }
-    });
-    Ok(entries.collect())
+    let entries = content.values.into_iter();
+    Ok(entries.map(|(entry, own)| PrintedEntry { key: format!("{name}.{entry}"), ..own }).collect())
 }
 
 /// All entries, file by file.
@@ -276,16 +222,16 @@ mod tests {
         }
     }
 
+    /// Of two entries with one name a map keeps the last alone.
     #[test]
-    fn a_name_that_stands_twice_is_refused_and_the_order_is_that_of_the_file() {
-        let entry = r#"{"figure": "fig01", "place": "p", "quantity": "q", "unit": ""}"#;
-        let file = |second| {
-            format!(r#"{{"place": "", "title": "", "values": {{"b": {entry}, "{second}": {entry}}}}}"#)
-        };
-        let read = |second| super::read("section9", "section9.json", &file(second));
-        let keys: Vec<_> = read("a").expect("two names").into_iter().map(|entry| entry.key).collect();
-        assert_eq!(keys, ["section9.b", "section9.a"]);
-        assert!(read("b").expect_err("twice").to_string().contains("\"b\" stands twice"));
+    fn no_name_stands_twice_and_the_order_is_that_of_the_files() {
+        let quantities = FILES.iter().flat_map(|(_, _, text)| {
+            text.lines().filter_map(|line| line.trim().strip_prefix("\"quantity\": "))
+        });
+        let quantities: Vec<String> = quantities
+            .map(|text| serde_json::from_str(text.trim_end_matches(',')).expect("a string"))
+            .collect();
+        assert!(quantities.iter().eq(all().iter().map(|entry| &entry.quantity)));
     }
 
     #[test]
