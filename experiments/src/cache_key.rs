@@ -65,13 +65,7 @@ pub enum Stale {
 
 impl CacheKey {
     /// A cache key of files made by this version with the user's measurements of the digest `measured`.
-    pub fn new(
-        id: &str,
-        quality: Quality,
-        measured: &str,
-        run_time_s: f64,
-        files: &[(&str, &[u8])],
-    ) -> Self {
+    pub fn new(id: &str, quality: Quality, measured: &str, run_time_s: f64, files: &[(&str, &[u8])]) -> Self {
         let files = files.iter().map(|(name, bytes)| ((*name).to_owned(), digest(bytes))).collect();
         let provenance = provenance::new(provenance::CACHE_KEY);
         Self { provenance, key: key(id, quality), measured: measured.to_owned(), quality, run_time_s, files }
@@ -84,10 +78,6 @@ impl CacheKey {
     }
 
     /// Reads the cache key of a figure.
-    ///
-    /// # Errors
-    ///
-    /// [`Stale::Newer`] where a newer program wrote it; [`Stale::Missing`] where it is none.
     pub fn read(id: &str, bytes: &[u8]) -> Result<Self, Stale> {
         let stored: Value = serde_json::from_slice(bytes).map_err(|_| Stale::Missing)?;
         provenance::refuse_newer(provenance::CACHE_KEY, stored.get("provenance"), &format!("{id}.cache-key"))
@@ -112,10 +102,6 @@ impl CacheKey {
 
     /// Compares the cache key with this version, with the digest of the measurements and with the files; `read` gives the
     /// content of a file.
-    ///
-    /// # Errors
-    ///
-    /// The first reason to make the figure again.
     pub fn check(
         &self,
         id: &str,

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{Provenance, StorageError};
+use bouncing_disk::{Format, Provenance, StorageError};
 use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -191,27 +191,15 @@ pub trait Experiment: Sync + Send + 'static {
     fn caption(data: &Self::Data) -> String;
 
     /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
-    ///
-    /// # Errors
-    ///
-    /// When the model fails.
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
 
     /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The computed
     /// numbers stay what they are; after an error the data are unchanged.
-    ///
-    /// # Errors
-    ///
-    /// When the fit to the measurements is not defined.
     fn overlay(_data: &mut Self::Data, _series: &Series) -> Result<(), ExperimentError> {
         Ok(())
     }
 
     /// Draws the data.
-    ///
-    /// # Errors
-    ///
-    /// When the data cannot be drawn.
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
     /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
@@ -335,10 +323,6 @@ struct Record {
 
 impl RegisteredExperiment {
     /// Runs the experiment. Measurements that cannot be used are left out, with a warning.
-    ///
-    /// # Errors
-    ///
-    /// When the model fails, a number is not finite, a claim has no data to be judged by, or the figure cannot be drawn.
     pub fn compute(
         &self,
         quality: Quality,
@@ -348,12 +332,24 @@ impl RegisteredExperiment {
         (self.compute)(quality, measurements, progress)
     }
 
+    /// What a file of this format says of its origin. Where the experiment has several seeds, the first is *the* seed, and all of
+    /// them are among the parameters by what is drawn with them.
+    pub fn provenance(&self, format: Format, quality: Quality) -> Result<Provenance, StorageError> {
+        let mut provenance = provenance::new(format).with("figure", self.id)?.with("quality", &quality)?;
+        if let Some((_, first)) = self.seeds.first() {
+            provenance = provenance.with_seed(*first);
+        }
+        if self.seeds.len() > 1 {
+            provenance = provenance.with("seeds", &self.seeds)?;
+        }
+        if let Some(policy) = self.chatter_policy {
+            provenance = provenance.with_chatter_policy(policy);
+        }
+        Ok(provenance)
+    }
+
     /// Runs the experiment and makes its files: `ID.json`, `ID.svg`, `ID.png`, and `ID.csv` where it is a table, each of
     /// which says where it comes from ([`provenance`]).
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Self::compute`].
     pub fn files(
         &self,
         quality: Quality,
@@ -362,7 +358,7 @@ impl RegisteredExperiment {
     ) -> Result<Vec<File>, ExperimentError> {
         let Made { data, caption, parameters, table, figure, warnings, .. } =
             self.compute(quality, measurements, progress)?;
-        let provenance = provenance::of(provenance::FIGURE, self, quality)?.with("values", &parameters)?;
+        let provenance = self.provenance(provenance::FIGURE, quality)?.with("values", &parameters)?;
         let id = self.id;
         let mut files = Vec::new();
         if let Some(table) = table {
@@ -377,10 +373,6 @@ impl RegisteredExperiment {
     }
 
     /// Reads the data that [`Self::files`] stored in `ID.json`, and the quality and origin of these.
-    ///
-    /// # Errors
-    ///
-    /// When they are of a newer format, or another version wrote them and they do not fit.
     pub fn read(&self, bytes: &[u8]) -> Result<(Made, Quality, Provenance), ExperimentError> {
         let record: Value = json::read(bytes).map_err(ExperimentError::Stored)?;
         // Before anything else: a newer one may have any other form.
@@ -394,6 +386,8 @@ impl RegisteredExperiment {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
     use crate::progress::Silent;
     use crate::testing::demo_entries;
@@ -419,9 +413,25 @@ mod tests {
     }
 
     #[test]
+    fn a_figure_says_what_was_computed() {
+        let entries = demo_entries();
+        let stored = json!(entries[0].provenance(provenance::FIGURE, Quality::Draft).expect("storable"));
+        assert_eq!(stored["program"], "bouncing-disk-experiments");
+        assert_eq!(stored["version"], env!("CARGO_PKG_VERSION"));
+        assert_eq!(stored["format_version"], provenance::FIGURE.version);
+        let seeds = json!([["points", 3], ["others", 4]]);
+        assert_eq!(stored["parameters"], json!({"figure": "demo", "quality": "draft", "seeds": seeds}));
+        assert_eq!((&stored["seed"], &stored["chatter_policy"]), (&json!(3), &json!("Complete")));
+        // Without seed or policy, too, both are there.
+        let none = json!(entries[1].provenance(provenance::CLAIM, Quality::Paper).expect("storable"));
+        assert!(none.as_object().is_some_and(|members| members.len() == 7) && none["seed"].is_null());
+    }
+
+    #[test]
     fn what_cannot_be_stored_or_read_is_named() {
         let entries = demo_entries();
-        let error = entries[1].files(Quality::Draft, &Measurements::none(), &Silent).expect_err("holds a NaN");
+        let error =
+            entries[1].files(Quality::Draft, &Measurements::none(), &Silent).expect_err("holds a NaN");
         let text = chain(&error);
         assert!(text.starts_with("the data cannot be stored: speed_m_per_s[1] is NaN"), "{text}");
         for (stored, expected) in [

@@ -113,10 +113,6 @@ fn push_lines<'a>(
 }
 
 /// Reads a value from all of `bytes`; the error says where in the value it is.
-///
-/// # Errors
-///
-/// When the bytes are no JSON, or of another form.
 pub fn read<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, serde_path_to_error::Error<Error>> {
     let mut reader = serde_json::Deserializer::from_slice(bytes);
     let value = serde_path_to_error::deserialize(&mut reader)?;
@@ -141,7 +137,8 @@ mod tests {
 
     #[test]
     fn the_place_of_a_number_that_is_not_finite_is_named() {
-        let branch = |attractor, exponent: Option<f64>| BTreeMap::from([("low", vec![(attractor, exponent)])]);
+        let branch =
+            |attractor, exponent: Option<f64>| BTreeMap::from([("low", vec![(attractor, exponent)])]);
         let orbit = |phase| Attractor::Orbit { phases: vec![0.1, phase] };
         assert!(to_value(&branch(orbit(0.2), None)).is_ok());
         let place_of = |error: Result<Value, FiniteError>| match error {

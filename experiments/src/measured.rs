@@ -237,10 +237,6 @@ impl Measurements {
 
     /// Reads the files of these layouts and looks what other files there are whose names end in `.csv`. A
     /// folder that does not exist holds none.
-    ///
-    /// # Errors
-    ///
-    /// When the folder exists and cannot be listed. A file that cannot be read is reported by [`Self::series`].
     pub fn read(folder: &Path, layouts: &[Layout]) -> io::Result<Self> {
         let entries = match fs::read_dir(folder) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::none()),
@@ -262,16 +258,10 @@ impl Measurements {
     }
 
     /// The measurements of a file; `None` when there is no such file.
-    ///
-    /// # Errors
-    ///
-    /// When the file cannot be read or is malformed.
     pub fn series(&self, layout: &Layout) -> Option<Result<Series, MeasuredError>> {
         self.files.get(layout.file).map(|content| match content {
             Ok(bytes) => Series::read(layout, bytes),
-            Err(source) => {
-                Err(MeasuredError::Unreadable { file: layout.file, source: Arc::clone(source) })
-            }
+            Err(source) => Err(MeasuredError::Unreadable { file: layout.file, source: Arc::clone(source) }),
         })
     }
 
@@ -314,10 +304,6 @@ pub struct Series {
 
 impl Series {
     /// Reads a file's content.
-    ///
-    /// # Errors
-    ///
-    /// The first fault, with its line and column.
     pub fn read(layout: &Layout, bytes: &[u8]) -> Result<Self, MeasuredError> {
         let malformed = |fault| MeasuredError::Form { file: layout.file, fault };
         let text = csv_records::text(bytes).map_err(malformed)?;
@@ -390,7 +376,8 @@ impl Series {
         for (role, legal) in [(Role::Rising, "a larger number"), (Role::Constant, "the same number")] {
             let Some(index) = self.layout.with_role(role) else { continue };
             let (value, previous) = (row[index], last[index]);
-            let holds = if role == Role::Rising { value > previous } else { value.total_cmp(&previous).is_eq() };
+            let holds =
+                if role == Role::Rising { value > previous } else { value.total_cmp(&previous).is_eq() };
             if !holds {
                 let trial = trial.map_or_else(String::new, |trial| format!(" of trial {trial}"));
                 let fault = format!("{value} follows {previous}; legal is {legal} on every line{trial}");
@@ -531,7 +518,10 @@ mod tests {
         assert_eq!([fault(""), fault("\u{feff}\r\n# nothing\n")], [empty.clone(), empty]);
         let long = |letter: &str| letter.repeat(5_000_000);
         for (text, expected) in [
-            ("trial,preload_n,t,speed_rad_per_s\n", format!("1, column 3: the header has \"t\"; legal is {legal}")),
+            (
+                "trial,preload_n,t,speed_rad_per_s\n",
+                format!("1, column 3: the header has \"t\"; legal is {legal}"),
+            ),
             (
                 "# mine\ntrial,time_s,speed_rad_per_s\n",
                 format!("2: the header has no column \"preload_n\"; legal is {legal}"),
@@ -552,15 +542,31 @@ mod tests {
         let range = "a number from 0 to 1e9, either 0 or 1e-30 or more";
         let of_trial = "on every line of trial 1";
         for (line, expected) in [
-            ("1,0.3,0.1,fast", format!("3, column 4 (speed_rad_per_s): \"fast\" is not a number; legal is {range}")),
+            (
+                "1,0.3,0.1,fast",
+                format!("3, column 4 (speed_rad_per_s): \"fast\" is not a number; legal is {range}"),
+            ),
             ("1,0.3,,19", format!("3, column 3 (time_s): \"\" is not a number; legal is {range}")),
-            ("1,0,0.1,19", "3, column 2 (preload_n): 0 is not legal; legal is a number from 1e-12 to 1e9".to_owned()),
-            ("1,\"0,3\",0.1,19", "3, column 2 (preload_n): \"0,3\" is not a number; legal is a number from 1e-12 to 1e9".to_owned()),
+            (
+                "1,0,0.1,19",
+                "3, column 2 (preload_n): 0 is not legal; legal is a number from 1e-12 to 1e9".to_owned(),
+            ),
+            (
+                "1,\"0,3\",0.1,19",
+                "3, column 2 (preload_n): \"0,3\" is not a number; legal is a number from 1e-12 to 1e9"
+                    .to_owned(),
+            ),
             ("\n1,\"0.3,0.1,19", "4, field 2: a quotation mark is not closed on its line".to_owned()),
             ("1,0.3,0.1", "3, column 4: the line has 3 fields; legal is 4".to_owned()),
             ("1,0.3,0.1,19,", "3, column 5: the line has 5 fields; legal is 4".to_owned()),
-            ("2,0.1,0,9\n1,0.3,0,19", format!("4, column 3 (time_s): 0 follows 0; legal is a larger number {of_trial}")),
-            ("1,0.2,0.1,19", format!("3, column 2 (preload_n): 0.2 follows 0.3; legal is the same number {of_trial}")),
+            (
+                "2,0.1,0,9\n1,0.3,0,19",
+                format!("4, column 3 (time_s): 0 follows 0; legal is a larger number {of_trial}"),
+            ),
+            (
+                "1,0.2,0.1,19",
+                format!("3, column 2 (preload_n): 0.2 follows 0.3; legal is the same number {of_trial}"),
+            ),
         ] {
             assert_eq!(fault_of(line), format!("demo.csv, line {expected}"));
         }
@@ -580,7 +586,9 @@ mod tests {
         let cut = format!("{}… (5000000 characters) is not legal", "9".repeat(SHOWN_NINES));
         assert!(fault_of(&format!("1,0.3,0.1,{}", long("9"))).contains(&cut));
         let text = fault_of(&format!("1,0.3,0.1,\u{1b}[2J{}", long("x")));
-        assert!(text.contains(r#""\u{1b}[2Jxxx"#) && text.contains("…\" (5000004 characters) is not a number"));
+        assert!(
+            text.contains(r#""\u{1b}[2Jxxx"#) && text.contains("…\" (5000004 characters) is not a number")
+        );
         let header = fault(format!("trial,\u{202e}{}\n", long("y")));
         assert!(header.contains(r#"the header has "\u{202e}yyy"#) && header.len() < 300 && text.len() < 300);
         let many = fault_of(&",".repeat(1_000_000));

@@ -46,10 +46,6 @@ pub struct OutputFolder {
 impl OutputFolder {
     /// Makes the folder if need be, makes sure that files can be written in it, and removes what killed runs
     /// have left.
-    ///
-    /// # Errors
-    ///
-    /// When it cannot be made or written in. Better now than after an hour of computing.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let path = path.into();
         fs::create_dir_all(&path).map_err(OutputError::of("make the output folder", &path))?;
@@ -76,10 +72,6 @@ impl OutputFolder {
     /// The lock is on the folder itself, where the system can lock one: nothing is left behind, and it ends with the
     /// process. Every writer opens the folder anew, so that threads of one process wait for each other, too: a thread that
     /// holds the lock must write by [`LockedFolder`].
-    ///
-    /// # Errors
-    ///
-    /// When the folder cannot be opened.
     pub fn lock(&self) -> Result<LockedFolder<'_>, OutputError> {
         let file = open(&self.path).map_err(OutputError::of("write in the output folder", &self.path))?;
         // A file system may have no locks; what others are writing there must stay.
@@ -95,28 +87,16 @@ impl OutputFolder {
     }
 
     /// Writes a file as a whole: it is complete or not there at all, whenever the program ends.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
         self.write_all(&[(name, bytes)])
     }
 
     /// Writes several files; none gets its name before all are on the disk.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses.
     pub fn write_all(&self, files: &[(&str, &[u8])]) -> Result<(), OutputError> {
         self.lock()?.write(files)
     }
 
     /// The content of a file, or `None` when there is none.
-    ///
-    /// # Errors
-    ///
-    /// When it exists and cannot be read.
     pub fn read(&self, name: &str) -> Result<Option<Vec<u8>>, OutputError> {
         let path = self.path.join(name);
         match regular_file::read(&path, LARGEST_FILE) {
@@ -128,11 +108,6 @@ impl OutputFolder {
 
     /// Writes all files of one figure and its cache key, with the digest of the measurements in them. Files of an
     /// earlier run that are no longer made are removed.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses. If a file cannot be written, as on a full disk, the files of an earlier run
-    /// are all still there; if one cannot get its name, there is no cache key.
     pub fn write_set(
         &self,
         id: &str,
@@ -160,20 +135,12 @@ impl OutputFolder {
     }
 
     /// The cache key of a figure.
-    ///
-    /// # Errors
-    ///
-    /// [`Stale::Missing`] when there is none or it cannot be read, [`Stale::Newer`] for that of a newer program.
     pub fn cache_key(&self, id: &str) -> Result<CacheKey, Stale> {
         let bytes = self.read(&cache_key_name(id)).ok().flatten().ok_or(Stale::Missing)?;
         CacheKey::read(id, &bytes)
     }
 
     /// Whether a figure is up to date; `measured` is the digest of the measurements there are for it.
-    ///
-    /// # Errors
-    ///
-    /// The first reason to make it again.
     pub fn check(&self, id: &str, quality: Quality, measured: &str) -> Result<(), Stale> {
         let cache_key = self.cache_key(id)?;
         cache_key.check(id, quality, measured, |name| self.read(name).ok().flatten())
@@ -202,10 +169,6 @@ pub struct LockedFolder<'a> {
 
 impl LockedFolder<'_> {
     /// Writes files as [`OutputFolder::write`] does; none gets its name before all are on the disk.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses.
     pub fn write(&self, files: &[(&str, &[u8])]) -> Result<(), OutputError> {
         self.publish(self.partials(files)?)
     }
@@ -284,7 +247,8 @@ mod tests {
         let folder = OutputFolder::create(scratch.path()).expect("writable");
         let check = || folder.check("demo", Quality::Draft, "");
         let write = |files: &[(&str, &[u8])]| {
-            let files: Vec<_> = files.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec())).collect();
+            let files: Vec<_> =
+                files.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec())).collect();
             folder.write_set("demo", Quality::Draft, "", 0.1, &files)
         };
         assert_eq!(check(), Err(Stale::Missing));

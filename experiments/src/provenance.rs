@@ -19,8 +19,6 @@ use std::path::Path;
 pub use bouncing_disk::{Format, Provenance, StorageError};
 use serde_json::Value;
 
-use crate::experiment::{Quality, RegisteredExperiment};
-
 /// The format of `ID.json`, `ID.csv`, `ID.svg` and `ID.png`.
 pub const FIGURE: Format = Format { name: "bouncing-disk figure", version: 1, oldest: 1 };
 /// The format of the claims in `claims.json`.
@@ -44,30 +42,6 @@ pub fn new(format: Format) -> Provenance {
     Provenance::new(format).written_by(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"))
 }
 
-/// Of a file of an experiment in a quality. Where it has several seeds, the first is *the* seed, and all of them are among
-/// the parameters by what is drawn with them.
-///
-/// # Errors
-///
-/// None that is known: names and texts can be stored.
-pub fn of(
-    format: Format,
-    entry: &RegisteredExperiment,
-    quality: Quality,
-) -> Result<Provenance, StorageError> {
-    let mut provenance = new(format).with("figure", entry.id)?.with("quality", &quality)?;
-    if let Some((_, first)) = entry.seeds.first() {
-        provenance = provenance.with_seed(*first);
-    }
-    if entry.seeds.len() > 1 {
-        provenance = provenance.with("seeds", &entry.seeds)?;
-    }
-    if let Some(policy) = entry.chatter_policy {
-        provenance = provenance.with_chatter_policy(policy);
-    }
-    Ok(provenance)
-}
-
 /// The text of JSON on one line; provenance holds names, texts and finite numbers only, so that it has one.
 pub(crate) fn text(provenance: &Provenance) -> String {
     serde_json::to_string(provenance).unwrap_or_default()
@@ -75,10 +49,6 @@ pub(crate) fn text(provenance: &Provenance) -> String {
 
 /// Refuses what was written in a newer format, by name. A file that says nothing of its origin, or whose origin is
 /// another program's, is judged by whoever reads the rest of it.
-///
-/// # Errors
-///
-/// [`StorageError::NewerFormat`].
 pub fn refuse_newer(format: Format, stored: Option<&Value>, file: &str) -> Result<(), StorageError> {
     match stored.map(|stored| Provenance::read(format, stored, Path::new(file))) {
         Some(Err(error @ StorageError::NewerFormat { .. })) => Err(error),
@@ -130,22 +100,6 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::testing::demo_entries;
-
-    #[test]
-    fn a_figure_says_what_was_computed() {
-        let entries = demo_entries();
-        let stored = json!(of(FIGURE, &entries[0], Quality::Draft).expect("storable"));
-        assert_eq!(stored["program"], "bouncing-disk-experiments");
-        assert_eq!(stored["version"], env!("CARGO_PKG_VERSION"));
-        assert_eq!(stored["format_version"], FIGURE.version);
-        let seeds = json!([["points", 3], ["others", 4]]);
-        assert_eq!(stored["parameters"], json!({"figure": "demo", "quality": "draft", "seeds": seeds}));
-        assert_eq!((&stored["seed"], &stored["chatter_policy"]), (&json!(3), &json!("Complete")));
-        // Without seed or policy, too, both are there.
-        let none = json!(of(CLAIM, &entries[1], Quality::Paper).expect("storable"));
-        assert!(none.as_object().is_some_and(|members| members.len() == 7) && none["seed"].is_null());
-    }
 
     /// A reader of others, which takes no wrong check sum, finds texts and pixels.
     #[test]
@@ -181,7 +135,10 @@ mod tests {
         assert_eq!(table.lines().skip(1).collect::<Vec<_>>(), ["a,b", "1,2"]);
         assert_eq!(from_csv("a,b\n1,2\n"), None);
         let drawing = in_svg(&provenance, "<svg>\n<rect/>\n</svg>\n");
-        assert!(drawing.starts_with("<svg>\n<metadata id=\"provenance\">{") && drawing.contains("&lt;of&gt; &amp; "));
+        assert!(
+            drawing.starts_with("<svg>\n<metadata id=\"provenance\">{")
+                && drawing.contains("&lt;of&gt; &amp; ")
+        );
         assert!(drawing.ends_with("}</metadata>\n<rect/>\n</svg>\n"), "{drawing}");
         let newer = json!(new(Format { version: 2, ..FIGURE }));
         let error = refuse_newer(FIGURE, Some(&newer), "fig06.json").expect_err("newer").to_string();
@@ -189,7 +146,9 @@ mod tests {
             error.starts_with("\"fig06.json\" has version 2 of the format \"bouncing-disk figure\""),
             "{error}"
         );
-        for stored in [None, Some(json!(provenance)), Some(json!("words")), Some(json!({"format_version": 9}))] {
+        for stored in
+            [None, Some(json!(provenance)), Some(json!("words")), Some(json!({"format_version": 9}))]
+        {
             assert!(refuse_newer(FIGURE, stored.as_ref(), "fig06.json").is_ok(), "{stored:?}");
         }
     }

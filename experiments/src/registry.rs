@@ -82,10 +82,6 @@ pub struct UnknownId {
 }
 
 /// The entries called `ids`, each once, in the order of `entries`; all of them when `ids` is empty.
-///
-/// # Errors
-///
-/// When an identifier is unknown; the error lists the known ones.
 pub fn select<'a>(
     entries: &'a [RegisteredExperiment],
     ids: &[String],

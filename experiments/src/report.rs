@@ -117,7 +117,8 @@ impl Section {
         numbers.for_each(|(key, number)| {
             claims.entry(key).or_insert(number);
         });
-        let discussion = environment().render_named_str(entry.id, entry.discussion.trim(), context! { claims })?;
+        let discussion =
+            environment().render_named_str(entry.id, entry.discussion.trim(), context! { claims })?;
         Ok(Self {
             id: entry.id,
             name: name(entry.id),
@@ -138,9 +139,8 @@ fn environment() -> Environment<'static> {
     environment.set_trim_blocks(true);
     environment.set_lstrip_blocks(true);
     environment.set_keep_trailing_newline(true);
-    environment.add_filter("cell", |text: &str| {
-        text.replace('|', "\\|").replace('\n', " ").replace('*', "\\*")
-    });
+    environment
+        .add_filter("cell", |text: &str| text.replace('|', "\\|").replace('\n', " ").replace('*', "\\*"));
     environment.add_filter("visible", |text: &str| crate::visible::visible(text));
     environment.add_filter("number", number);
     environment.add_filter("near", near);
@@ -151,8 +151,7 @@ fn environment() -> Environment<'static> {
 /// a share in per cent, `π` for a multiple of π, `m`, `µ` for thousandths and millionths, `k` for thousands.
 fn number(number: f64, format: &str) -> Result<String, TemplateError> {
     let malformed = || TemplateError::new(ErrorKind::InvalidOperation, format!("{format} is no format"));
-    let factors =
-        [('%', 1e2), ('π', std::f64::consts::FRAC_1_PI), ('m', 1e3), ('µ', 1e6), ('k', 1e-3)];
+    let factors = [('%', 1e2), ('π', std::f64::consts::FRAC_1_PI), ('m', 1e3), ('µ', 1e6), ('k', 1e-3)];
     let with_factor = factors.iter().find_map(|(sign, factor)| Some((format.strip_prefix(*sign)?, *factor)));
     let (style, factor) = with_factor.unwrap_or((format, 1.0));
     let number = number * factor;
@@ -293,7 +292,8 @@ mod tests {
     fn a_discussion_takes_its_numbers_from_the_claims() {
         let mut demo = crate::testing::demo_entries().remove(0);
         let made = demo.compute(crate::Quality::Draft, &crate::Measurements::none(), &crate::Silent);
-        let made = Made { claims: vec![Claim::printed("section4.merging", 0.560_750_7)], ..made.expect("works") };
+        let made =
+            Made { claims: vec![Claim::printed("section4.merging", 0.560_750_7)], ..made.expect("works") };
         let mut section = |discussion| {
             demo.discussion = discussion;
             Section::of(&demo, &made)

@@ -114,10 +114,6 @@ impl Table {
     }
 
     /// The table as comma-separated values.
-    ///
-    /// # Errors
-    ///
-    /// When a row does not fit the header or a number is not finite.
     pub fn to_csv(&self) -> Result<String, TableError> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&self.columns).map_err(unwritten)?;

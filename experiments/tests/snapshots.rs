@@ -125,9 +125,7 @@ fn digest(text: &str) -> String {
 /// Data made short.
 fn summary(value: &Value) -> Value {
     match value {
-        Value::Object(fields) => {
-            fields.iter().map(|(name, field)| (name.clone(), summary(field))).collect()
-        }
+        Value::Object(fields) => fields.iter().map(|(name, field)| (name.clone(), summary(field))).collect(),
         Value::Array(items) => summary_of_list(items),
         Value::String(text) if text.len() > LONGEST_TEXT => {
             json!({"bytes": text.len(), "digest": digest(text)})

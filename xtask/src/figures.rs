@@ -143,19 +143,21 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         }
     };
     let folder = options.measured_folder();
+    let refuse = |words: String| {
+        complain!("error: {words}");
+        Ok(ExitCode::from(USAGE))
+    };
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        complain!("error: --measured {}: there is no such folder", visible_path(&folder));
-        return Ok(ExitCode::from(USAGE));
+        return refuse(format!("--measured {}: there is no such folder", visible_path(&folder)));
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
-    if is_same_folder(&options.folder(), &folder) {
-        complain!(
-            "error: {} is the folder of the measurements; --out must be another",
-            visible_path(&folder)
-        );
-        return Ok(ExitCode::from(USAGE));
+    // Tables would be taken for measurements.
+    let real = |path: &Path| path.canonicalize().ok();
+    if real(&folder).is_some_and(|own| real(&options.folder()) == Some(own)) {
+        let folder = visible_path(&folder);
+        return refuse(format!("{folder} is the folder of the measurements; --out must be another"));
     }
     if options.list {
         return list(options, &selected, &measurements);
@@ -163,18 +165,14 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     if options.check {
         return check(options, &entries, &selected, &measurements);
     }
-    start_threads(options)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(options));
+    pool.build_global().context("cannot start the computing threads")?;
     let folder = OutputFolder::create(options.folder())?;
     let run = Run { options, entries: &entries, selected: &selected };
     if options.docs {
         return write_docs(&run, &folder);
     }
     make(&run, options.quality, &measurements, &folder)
-}
-
-/// Whether both exist and are the same, by whatever path. Tables would be taken for measurements.
-fn is_same_folder(one: &Path, other: &Path) -> bool {
-    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 /// What is to be made.
@@ -203,15 +201,9 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
     Ok(ExitCode::SUCCESS)
 }
 
-fn start_threads(options: &Options) -> anyhow::Result<()> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads(options))
-        .build_global()
-        .context("cannot start the computing threads")
-}
-
 fn threads(options: &Options) -> usize {
-    options.threads.map_or_else(available_threads, usize::from)
+    let available = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    options.threads.map_or_else(available, usize::from)
 }
 
 fn list(
@@ -234,8 +226,7 @@ fn list(
 
 /// The width of the column of the identifiers.
 fn width_of_ids<'a>(ids: impl Iterator<Item = &'a str>) -> usize {
-    const LEAST: usize = 8;
-    ids.map(str::len).fold(LEAST, usize::max)
+    ids.map(str::len).fold(8, usize::max)
 }
 
 /// Whether a figure is up to date with the sources and the measurements.
@@ -410,10 +401,6 @@ fn say_failures(options: &Options, finished: &[Finished]) -> anyhow::Result<usiz
     Ok(failed.len())
 }
 
-fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -473,5 +460,4 @@ mod tests {
         assert!(parse(&["--docs"]).is_ok() && parse(&["--extras", "--check"]).is_ok());
         assert!(parse(&["--docs", "fig01"]).is_err() && parse(&["--docs", "--check"]).is_err());
     }
-
 }

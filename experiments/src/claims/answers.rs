@@ -96,7 +96,11 @@ mod tests {
         claims.push(Claim::printed("table1.friction", 0.577));
         claims.push(Claim::number(["fig06", "", "an own number", ""], "1", 1.0));
         let faults = faults("fig06", &claims).join("; ");
-        for part in ["doubling_1 is answered by 2", "begins to slip\" comes from no", "\"an own number\" comes from no"] {
+        for part in [
+            "doubling_1 is answered by 2",
+            "begins to slip\" comes from no",
+            "\"an own number\" comes from no",
+        ] {
             assert!(faults.contains(part), "{part}: {faults}");
         }
     }

@@ -138,10 +138,6 @@ fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>,
 }
 
 /// All entries, file by file.
-///
-/// # Errors
-///
-/// When a file does not have the form of this version.
 pub fn entries() -> Result<&'static [PrintedEntry], CatalogueError> {
     static ENTRIES: OnceLock<Result<Vec<PrintedEntry>, CatalogueError>> = OnceLock::new();
     let read_all = || {
@@ -152,20 +148,12 @@ pub fn entries() -> Result<&'static [PrintedEntry], CatalogueError> {
 }
 
 /// The entry called `key`.
-///
-/// # Errors
-///
-/// When there is none.
 pub fn find(key: &str) -> Result<&'static PrintedEntry, CatalogueError> {
     let found = entries()?.iter().find(|entry| entry.key == key);
     found.ok_or_else(|| CatalogueError::Unknown { key: key.to_owned() })
 }
 
 /// The printed number called `key`, times a power of ten.
-///
-/// # Errors
-///
-/// When there is none.
 pub fn number(key: &str, power: i32) -> Result<PrintedNumber, CatalogueError> {
     let printed = text(key)?;
     PrintedNumber::read_shifted(printed, power).ok_or_else(|| CatalogueError::NoNumber {
@@ -176,10 +164,6 @@ pub fn number(key: &str, power: i32) -> Result<PrintedNumber, CatalogueError> {
 }
 
 /// The text of the entry `key` exactly as printed.
-///
-/// # Errors
-///
-/// When there is none.
 pub fn text(key: &str) -> Result<&'static str, CatalogueError> {
     find(key)?.printed.as_deref().ok_or_else(|| CatalogueError::NoNumber {
         key: key.to_owned(),

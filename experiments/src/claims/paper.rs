@@ -74,10 +74,6 @@ impl FromCatalogue for Uncertain {
 }
 
 /// A printed number, in the unit of its entry.
-///
-/// # Errors
-///
-/// When there is no such number.
 pub fn value(key: &str) -> Result<f64, CatalogueError> {
     Ok(catalogue::number(key, 0)?.value)
 }
@@ -103,10 +99,6 @@ macro_rules! structs {
         }
 
         $(#[$doc])*
-        ///
-        /// # Errors
-        ///
-        /// When an entry is missing or of another kind.
         pub fn $load() -> Result<$name, CatalogueError> {
             Ok($name {
                 $($field: <$kind>::from_catalogue(&[$(($key, power!($($power)?))),+])?,)*

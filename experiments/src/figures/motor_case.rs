@@ -11,8 +11,8 @@ pub(crate) use bouncing_disk::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as F
 use serde::{Deserialize, Serialize};
 
 use crate::claims::Claim;
-use crate::experiment::ExperimentError;
 use crate::claims::paper::{SectionFive, TableThree};
+use crate::experiment::ExperimentError;
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
 /// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16

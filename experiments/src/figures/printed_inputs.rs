@@ -6,11 +6,11 @@
 //! (`docs/judging.md`). This is the only place where they are drawn.
 
 use super::motor_case::MotorCase;
-use super::synthetic::Noise;
-use crate::claims::catalogue::{self, CatalogueError};
+use super::numbers::Noise;
 use crate::claims::Cases;
-use crate::experiment::ExperimentError;
+use crate::claims::catalogue::{self, CatalogueError};
 use crate::claims::paper;
+use crate::experiment::ExperimentError;
 
 /// How many are drawn for a verdict.
 pub(crate) const DRAWN: usize = 200;

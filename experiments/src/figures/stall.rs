@@ -158,8 +158,8 @@ mod tests {
     use bouncing_disk::{Engine, Event, InitialCondition, System};
 
     use super::*;
-    use crate::figures::synthetic::Noise;
     use crate::claims::paper;
+    use crate::figures::numbers::Noise;
 
     const PERTURBATION: f64 = 1e-3;
 

@@ -5,8 +5,8 @@ use bouncing_disk::core::numerics::minimum::golden_section;
 use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 
-use crate::experiment::ExperimentError;
 use crate::claims::paper::TableOne;
+use crate::experiment::ExperimentError;
 
 /// The parameters of a single toss, in the paper's order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

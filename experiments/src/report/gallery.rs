@@ -53,10 +53,6 @@ struct Page {
 
 impl Summary {
     /// Collects all figures whose results lie in the folder.
-    ///
-    /// # Errors
-    ///
-    /// When a file exists and cannot be read.
     pub fn of(
         entries: &[RegisteredExperiment],
         folder: &OutputFolder,
@@ -111,10 +107,6 @@ impl Summary {
 
     /// Collects all figures whose results lie in the folder and writes the common files. No other run writes
     /// meanwhile, so that the last of several runs describes what all of them have made.
-    ///
-    /// # Errors
-    ///
-    /// When a file exists and cannot be read, or the system refuses.
     pub fn update(
         entries: &[RegisteredExperiment],
         folder: &OutputFolder,
@@ -131,10 +123,6 @@ impl Summary {
     }
 
     /// The names of common files that are missing or out of date.
-    ///
-    /// # Errors
-    ///
-    /// When a file exists and cannot be read.
     pub fn outdated(&self, folder: &OutputFolder) -> Result<Vec<&'static str>, OutputError> {
         let mut outdated = Vec::new();
         for (name, text) in self.files() {
@@ -170,7 +158,7 @@ fn stored(
 fn claim_of(claim: &Claim, entry: &RegisteredExperiment, quality: Quality) -> Value {
     // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
     let mut stored = serde_json::to_value(claim).unwrap_or_default();
-    if let Ok(origin) = provenance::of(provenance::CLAIM, entry, quality) {
+    if let Ok(origin) = entry.provenance(provenance::CLAIM, quality) {
         stored["provenance"] = serde_json::to_value(origin).unwrap_or_default();
     }
     stored
@@ -230,7 +218,8 @@ mod tests {
         assert!(page.contains("τ_imp &amp; Γ &lt; 1") && page.contains("Draft quality, 75.2 s"), "{page}");
         assert!(page.contains("<td>restitution ε</td><td>0.5</td>"), "{page}");
         assert!(page.contains("class=\"verdict reproduced\"") && page.contains("table (CSV)"), "{page}");
-        let head = "<meta name=\"provenance\" content=\"{&quot;program&quot;:&quot;bouncing-disk-experiments&quot;";
+        let head =
+            "<meta name=\"provenance\" content=\"{&quot;program&quot;:&quot;bouncing-disk-experiments&quot;";
         assert!(page.contains(head) && !page.contains("http") && !page.contains("<script"), "{page}");
         assert!(!page.contains("beyond") && page.contains("1 figures and tables."), "{page}");
         assert_eq!(first.outdated(&folder).expect("readable"), [CLAIMS_FILE, PAGE_FILE]);
@@ -260,8 +249,13 @@ mod tests {
         let both = html(&[page(false), page(true), page(true)], &[], &counts);
         let beyond = both.find("<h2 id=\"beyond\"").expect("a heading");
         assert_eq!(both[..beyond].matches("<section").count(), 1, "{both}");
-        assert!(both.contains("1 figures and tables, and 2 <a href=\"#beyond\">beyond the paper</a>"), "{both}");
-        assert!(both.contains(r"Measurements not shown: fig06.csv, line 2: &quot;&lt;script&gt;\u{202e}x&quot;"));
+        assert!(
+            both.contains("1 figures and tables, and 2 <a href=\"#beyond\">beyond the paper</a>"),
+            "{both}"
+        );
+        assert!(
+            both.contains(r"Measurements not shown: fig06.csv, line 2: &quot;&lt;script&gt;\u{202e}x&quot;")
+        );
         assert!(both.contains("Out of date") && both.contains("2 min 5 s") && both.contains("width:2040px"));
     }
 }

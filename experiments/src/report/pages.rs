@@ -154,7 +154,8 @@ impl Figure {
         let failed = |source| PagesError::Figure { id, source: Box::new(source) };
         let (made, _, origin) = entry.read(&data).map_err(failed)?;
         let section = Section::of(entry, &made)?;
-        let section = environment().render_named_str("section.md", SECTION, Value::from_serialize(&section))?;
+        let section =
+            environment().render_named_str("section.md", SECTION, Value::from_serialize(&section))?;
         let section = digits::rounded(&section);
         let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
         let digest = digest([json::to_text(&made.data), drawing, section.clone()].concat().as_bytes());
@@ -178,10 +179,6 @@ impl Figure {
 
 /// Writes the pictures and their digests into `docs` from the figures in both output folders, and the pages of those of the
 /// paper: nothing before everything is drawn, and the digests, which all is compared with, last.
-///
-/// # Errors
-///
-/// When a figure is missing in one of the folders or cannot be drawn, a page refers to what is not there, or the system refuses.
 pub fn write(
     pictures: Pictures,
     entries: &[&RegisteredExperiment],
@@ -232,10 +229,6 @@ fn write_with(
 
 /// Names of committed files that are missing, were edited, or were made from other figures than those of `quality`
 /// in `made`. Of figures that have not been made there, the picture's file alone is checked.
-///
-/// # Errors
-///
-/// When a file exists and cannot be read.
 pub fn outdated(
     pictures: Pictures,
     entries: &[&RegisteredExperiment],
@@ -256,7 +249,8 @@ fn outdated_with(
     let folder = OutputFolder::existing(docs.path().join(pictures.folder()));
     let stored = folder.read(DIGESTS_FILE)?.unwrap_or_default();
     let stored: serde_json::Value = serde_json::from_slice(&stored).unwrap_or_default();
-    provenance::refuse_newer(provenance::DIGESTS, stored.get("provenance"), DIGESTS_FILE).map_err(Box::new)?;
+    provenance::refuse_newer(provenance::DIGESTS, stored.get("provenance"), DIGESTS_FILE)
+        .map_err(Box::new)?;
     let digests = Digests::deserialize(stored).ok();
     let mut outdated = Vec::new();
     for name in if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] } {
@@ -374,7 +368,8 @@ mod tests {
     #[test]
     fn the_page_holds_picture_discussion_parameters_and_verdicts() {
         let folders = Folders::new();
-        let figure = || vec![("demo", Figure::read(&folders.demo, &folders.paper, Quality::Paper).expect("made"))];
+        let figure =
+            || vec![("demo", Figure::read(&folders.demo, &folders.paper, Quality::Paper).expect("made"))];
         let page = results(&figure()).expect("filled in");
         for part in [
             "\n\n<a id=\"demo\"></a>\n\n## demo. A demonstration\n\n![A demonstration](figures/demo.png)\n\nIt shows that | is escaped.\n\n*Caption.* 50 phases",
@@ -413,7 +408,8 @@ mod tests {
             assert_eq!(folders.outdated(pictures, Draft), all);
             let write = || folders.write(pictures).expect("writable");
             write();
-            let current = || [Draft, Paper].iter().all(|quality| folders.outdated(pictures, *quality).is_empty());
+            let current =
+                || [Draft, Paper].iter().all(|quality| folders.outdated(pictures, *quality).is_empty());
             assert!(current());
             for page in pages {
                 folders.docs.write(page, b"edited").expect("writable");
@@ -425,8 +421,7 @@ mod tests {
             write();
             // What has not been made is not compared; another drawing of the draft alone is.
             let nothing = OutputFolder::existing(folders.docs.path());
-            let unmade =
-                outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
+            let unmade = outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
             assert!(unmade.expect("readable").is_empty() && current());
             let other = outdated_with("", pictures, &[&folders.demo], (Draft, &folders.draft), &folders.docs);
             assert_eq!(other.expect("readable"), pages.get(1..).unwrap_or_default());
@@ -459,7 +454,10 @@ mod tests {
             Claim::printed_statement("section4.coexistence", true, ""),
         ];
         let numbers = claim_numbers(&claims);
-        assert_eq!(numbers, BTreeMap::from([("section4.merging", 0.560_750_7), ("section5.linear_rise", 0.25)]));
+        assert_eq!(
+            numbers,
+            BTreeMap::from([("section4.merging", 0.560_750_7), ("section5.linear_rise", 0.25)])
+        );
     }
 
     #[test]
@@ -519,6 +517,9 @@ mod tests {
                 }
             }
         }
-        assert!(unknown.is_empty(), "neither printed in the paper nor from the data of a figure: {unknown:?}");
+        assert!(
+            unknown.is_empty(),
+            "neither printed in the paper nor from the data of a figure: {unknown:?}"
+        );
     }
 }

@@ -5,11 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use bouncing_disk::InitialSpin;
 
 use super::data::{Best, Fig04Data, LagCurve, TossPoint};
-use crate::claims::{self as claim, Claim};
-use crate::figures::samples;
 use crate::claims::judging::{LINE_WIDTH, trend};
 use crate::claims::paper::Uncertain;
 use crate::claims::printed::PrintedNumber;
+use crate::claims::{self as claim, Claim};
+use crate::figures::numbers;
 
 const ID: &str = "fig04";
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.
@@ -54,7 +54,7 @@ const OTHER_OPTIMUM: &str = "Table I has its optimum at another φ_L";
 
 /// By how much a curve at an angle is lower than its maximum, as a share of what it spans.
 fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
-    let (low, high) = samples::extent(curve.iter().copied());
+    let (low, high) = numbers::extent(curve.iter().copied());
     let points = || angles.iter().zip(curve);
     let between = points().zip(points().skip(1)).find(|(_, (end, _))| **end >= angle);
     let there = between
@@ -64,9 +64,9 @@ fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
 
 /// The angles at which a curve is lower than its maximum by no more than a line's width.
 fn accepted(angles: &[f64], curve: &[f64]) -> String {
-    let (low, high) = samples::extent(curve.iter().copied());
+    let (low, high) = numbers::extent(curve.iter().copied());
     let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));
-    let (from, to) = samples::extent(as_high.map(|(angle, _)| *angle));
+    let (from, to) = numbers::extent(as_high.map(|(angle, _)| *angle));
     format!("places from {} to {} are as high", pi(from), pi(to))
 }
 

@@ -5,9 +5,9 @@ use bouncing_disk::InitialSpin;
 use super::consistency::consistency;
 use super::data::{self, Fig04Data};
 use super::sweep;
+use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::toss_case::TossCase;
-use crate::claims::paper;
 use crate::progress::Progress;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {

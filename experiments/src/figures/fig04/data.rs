@@ -3,8 +3,8 @@
 use bouncing_disk::InitialSpin;
 use serde::{Deserialize, Serialize};
 
-use crate::figures::toss_case::TossCase;
 use crate::claims::paper::{SectionThree, TableOne};
+use crate::figures::toss_case::TossCase;
 
 /// The data of Fig. 4.
 #[derive(Debug, Serialize, Deserialize)]

@@ -6,8 +6,8 @@ use super::data::{self, Fig07Data};
 use super::panels::{self, WINDOW_TOP};
 use super::scan;
 use super::windows::windows;
-use crate::experiment::{ExperimentError, Quality};
 use crate::claims::paper;
+use crate::experiment::{ExperimentError, Quality};
 use crate::progress::Progress;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {

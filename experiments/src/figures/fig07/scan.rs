@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use super::panels::{grid, map, start};
-use crate::experiment::{ExperimentError, Quality};
 use crate::claims::paper::SectionFour;
+use crate::experiment::{ExperimentError, Quality};
 
 /// Forcings from that of panel (a) to that of (b).
 const ALONG_WINDOW: u32 = 16;

@@ -8,8 +8,8 @@ use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit};
 use super::data::{CurvePoint, Windows};
 use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
 use super::panels::{grid, map, others};
-use crate::experiment::ExperimentError;
 use crate::claims::paper::SectionFour;
+use crate::experiment::ExperimentError;
 use crate::progress::{Progress, advancing};
 
 /// Top of the largest window.

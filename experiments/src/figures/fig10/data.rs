@@ -3,9 +3,9 @@
 use bouncing_disk::{ExponentialFit, Spread};
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper::{SectionFive, TableThree};
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{Cycle, PerturbationEffect, RobustCycle};
-use crate::claims::paper::{SectionFive, TableThree};
 
 /// The data of Fig. 10.
 #[derive(Debug, Serialize, Deserialize)]

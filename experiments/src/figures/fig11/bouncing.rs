@@ -9,12 +9,12 @@ use bouncing_disk::core::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
 
 use super::data::{Coexisting, EndOfBouncing};
-use crate::claims::catalogue;
 use crate::claims::Cases;
+use crate::claims::catalogue;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::{MotorCase, core_error};
+use crate::figures::numbers::Noise;
 use crate::figures::printed_inputs::DRAWN;
-use crate::figures::synthetic::Noise;
 
 /// Seed of the rotors.
 pub(super) const SEED: u64 = 318;

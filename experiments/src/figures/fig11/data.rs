@@ -4,9 +4,9 @@ use bouncing_disk::Spread;
 use serde::{Deserialize, Serialize};
 
 use crate::claims::Cases;
+use crate::claims::paper::Preloads;
 use crate::figures::motor_case::{MotorCase, MotorStatistics};
 use crate::figures::stall::Stall;
-use crate::claims::paper::Preloads;
 
 /// The data of Fig. 11.
 #[derive(Debug, Serialize, Deserialize)]

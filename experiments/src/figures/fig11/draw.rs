@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
-use crate::figures::power_of_ten::exponent;
+use crate::figures::numbers::exponent;
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
 const STYLES: [(Colour, Dash); 3] =

@@ -4,7 +4,7 @@ use bouncing_disk::core::elementary::ln;
 
 use super::data::{Fig11Data, MeasuredExponent, MeasuredMotor, MeasuredMotors};
 use crate::experiment::ExperimentError;
-use crate::figures::regression::StraightLine;
+use crate::figures::numbers::StraightLine;
 use crate::measured::{Column, Layout, Range, Series};
 
 /// The file.

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper::ChatteringCases;
 use crate::figures::alike::AlikeMotor;
 use crate::figures::motor_case::{MotorCase, RobustCycle};
-use crate::claims::paper::ChatteringCases;
 
 /// The data of Fig. 12.
 #[derive(Debug, Serialize, Deserialize)]

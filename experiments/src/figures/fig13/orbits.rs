@@ -6,11 +6,10 @@ use bouncing_disk::core::elementary::ln;
 
 use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
-use crate::claims::{Cases, Claim, all};
-use crate::figures::circular::Concentration;
-use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
-use crate::figures::regression::StraightLine;
 use crate::claims::judging::trend;
+use crate::claims::{Cases, Claim, all};
+use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
+use crate::figures::numbers::{Concentration, StraightLine};
 
 /// A quotient that changes by less than this share over two decades of A counts as constant.
 const CONSTANT_WITHIN: f64 = 0.1;

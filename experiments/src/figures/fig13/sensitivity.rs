@@ -7,8 +7,7 @@ use super::sweeps::{
     Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
 };
 use crate::claims::{Cases, Claim};
-use crate::figures::regression::StraightLine;
-use crate::figures::samples;
+use crate::figures::numbers::{self, StraightLine};
 
 /// An exponent this near to 1 counts as proportional.
 const PROPORTIONAL_WITHIN: f64 = 0.1;
@@ -62,7 +61,7 @@ pub(super) fn cosine(data: &Fig13Data) -> Claim {
 
 /// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among them.
 fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
-    samples::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
+    numbers::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
 }
 
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
@@ -151,7 +150,7 @@ fn medians(data: &Fig13Data, of: Change) -> String {
     let words = Parameter::ALL.into_iter().map(|parameter| {
         let draws = data.alike.draws.iter();
         let changes = draws.filter_map(|draw| draw.sensitivity(parameter).and_then(of));
-        format!("{} {:.2}", parameter.symbol(), samples::median(changes).unwrap_or(f64::NAN))
+        format!("{} {:.2}", parameter.symbol(), numbers::median(changes).unwrap_or(f64::NAN))
     });
     words.collect::<Vec<_>>().join(", ")
 }
