@@ -103,16 +103,6 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// The names of the columns.
-    pub fn columns(&self) -> &[String] {
-        &self.columns
-    }
-
-    /// The rows.
-    pub fn rows(&self) -> &[Vec<Cell>] {
-        &self.rows
-    }
-
     /// The table as comma-separated values.
     pub fn to_csv(&self) -> Result<String, TableError> {
         let mut writer = csv::Writer::from_writer(Vec::new());

@@ -124,7 +124,7 @@ mod tests {
         let entries = [entry::<Failing<true>>(), entry::<Failing<false>>(), entry::<Failing<true>>()];
         let entries: Vec<&RegisteredExperiment> = entries.iter().collect();
         let mut finished =
-            make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::silent());
+            make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::Lines);
         finished.sort_by_key(|figure| figure.id);
         let errors: Vec<_> =
             finished.iter().map(|f| format!("{:#}", f.result.as_ref().expect_err("all fail"))).collect();

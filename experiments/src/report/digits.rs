@@ -13,6 +13,7 @@ const DIGITS: usize = 4;
 /// A number that keeps more digits.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(not(test), expect(dead_code, reason = "only tests ask for names and meanings"))]
 struct Kept {
     id: String,
     /// What it is, with its unit.

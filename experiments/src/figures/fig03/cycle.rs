@@ -5,7 +5,7 @@ use bouncing_disk::{
     Engine, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START, Trajectory,
 };
 
-use super::data::ChatteringCycle;
+use super::ChatteringCycle;
 use crate::experiment::{ExperimentError, Quality};
 
 /// A chattering orbit of the single-toss kind (Sec. IV A).

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::InitialSpin;
 
-use super::data::{Best, Fig04Data, LagCurve, TossPoint};
+use super::{Best, Fig04Data, LagCurve, TossPoint};
 use crate::claims::judging::{LINE_WIDTH, trend};
 use crate::claims::paper::Uncertain;
 use crate::claims::printed::PrintedNumber;

@@ -8,7 +8,7 @@ use bouncing_disk::core::elementary::{acos, asin, cos, sin, tan};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::{InitialSpin, TossPerformance};
 
-use super::data::{
+use super::{
     Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, Separation, SeparationCurve,
     SpeedCurve, TossPoint,
 };

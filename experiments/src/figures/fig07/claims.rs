@@ -1,7 +1,7 @@
 //! What the paper says about Fig. 7.
 
-use super::data::{Fig07Data, Panel, TopShares};
 use super::draw::forcing_text;
+use super::{Fig07Data, Panel, TopShares};
 use crate::claims::{self as claim, Claim};
 
 const ID: &str = "fig07";

@@ -8,8 +8,8 @@ use bouncing_disk::core::{
 };
 use rayon::prelude::*;
 
-use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use super::panels::{grid, map, start};
+use super::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use crate::claims::paper::SectionFour;
 use crate::experiment::{ExperimentError, Quality};
 

@@ -1,6 +1,6 @@
 //! What the paper says about Fig. 10.
 
-use super::data::{Fig10Data, Transient};
+use super::{Fig10Data, Transient};
 use crate::claims::catalogue;
 use crate::claims::{Cases, Claim, all};
 use crate::figures::alike::{AlikeMotor, INTERVALS};

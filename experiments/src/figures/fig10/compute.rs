@@ -8,7 +8,7 @@ use bouncing_disk::{
     PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
 };
 
-use super::data::{Alike, Exception, Fig10Data, Reading, Transient};
+use super::{Alike, Exception, Fig10Data, Reading, Transient};
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;

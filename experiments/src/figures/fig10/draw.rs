@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
     Ticks,
 };
 
-use super::data::{Exception, Fig10Data, Reading, Transient, Trial};
+use super::{Exception, Fig10Data, Reading, Transient, Trial};
 use crate::figures::numbers::exponent;
 
 /// Height of a row.

@@ -3,7 +3,7 @@
 use bouncing_disk::{Spread, TransientSettings};
 use rayon::prelude::*;
 
-use super::data::{
+use super::{
     Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Mirrored, Point, ReducedTwist, StallAt, Trend,
     trend_mn,
 };

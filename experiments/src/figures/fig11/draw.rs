@@ -5,7 +5,7 @@ use bouncing_disk_plot::{
     Panel, Scatter, Text, Ticks,
 };
 
-use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
+use super::{Curve, Fig11Data, MeasuredMotor, Point};
 use crate::figures::numbers::exponent;
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.

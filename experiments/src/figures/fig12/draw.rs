@@ -5,7 +5,7 @@ use bouncing_disk_plot::{
     Panel, Rect, Scatter, Text, Ticks,
 };
 
-use super::data::{Fig12Data, Shown};
+use super::{Fig12Data, Shown};
 use crate::figures::numbers::exponent;
 
 pub(super) fn draw(data: &Fig12Data) -> Figure {

@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use bouncing_disk::core::elementary::{ln, pow};
 use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
 
-use super::data::{
+use super::sweeps::{cosine_fit, trend_change};
+use super::{
     AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep, SweepPoint,
 };
-use super::sweeps::{cosine_fit, trend_change};
 use crate::claims::Cases;
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};

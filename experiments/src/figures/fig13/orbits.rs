@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_8, PI};
 
 use bouncing_disk::core::elementary::ln;
 
-use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
+use super::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use crate::claims::judging::trend;
 use crate::claims::{Cases, Claim, all};
 use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;

@@ -2,10 +2,10 @@
 
 use bouncing_disk::core::elementary::ln;
 
-use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::sweeps::{
     Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
 };
+use super::{Draw, Fig13Data, Parameter, Sensitivity};
 use crate::claims::{Cases, Claim};
 use crate::figures::numbers::{self, StraightLine};
 

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::elementary::{cos, ln};
 
-use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
+use super::{Fig13Data, Parameter, Sweep, SweepPoint};
 use crate::figures::numbers::StraightLine;
 pub(super) use crate::figures::numbers::extent;
 
