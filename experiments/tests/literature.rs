@@ -10,7 +10,7 @@ use bouncing_disk::core::{
     ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Verdict, VerdictSettings,
     Vibration, doubling_cascade, elementary::sin_cos,
 };
-use bouncing_disk_experiments::printed::PrintedNumber;
+use bouncing_disk_experiments::claims::printed::PrintedNumber;
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
-use super::regression::StraightLine;
+use super::numbers::StraightLine;
 use crate::experiment::ExperimentError;
 
 /// Intervals over which the speed of a transient is averaged.

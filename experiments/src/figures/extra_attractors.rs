@@ -11,8 +11,8 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::{Progress, advancing, sharing};
 
 /// Γ of the two sweeps, and the restitution of the second.

@@ -11,8 +11,8 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// Γ of the picture, and the pairs of one impact every k periods in it.

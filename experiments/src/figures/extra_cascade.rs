@@ -8,8 +8,8 @@ use bouncing_disk_plot::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// Feigenbaum's constants δ and α (K. Briggs, Math. Comp. 57, 435 (1991)).

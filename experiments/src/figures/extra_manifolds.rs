@@ -12,8 +12,8 @@ use bouncing_disk_plot::{
 use serde::{Deserialize, Serialize};
 
 use super::manifold_lines::lines;
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::{Progress, advancing};
 
 /// Top of the window of speeds, that of Fig. 7.

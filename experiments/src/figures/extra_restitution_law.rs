@@ -14,8 +14,8 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// The last Γ of the diagram: both attractors are lost before it.

@@ -4,12 +4,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::InitialSpin;
 
-use super::data::{Best, Fig04Data, LagCurve, TossPoint};
-use crate::claim::{self, Claim};
-use crate::figures::samples;
-use crate::judging::{LINE_WIDTH, trend};
-use crate::paper::Uncertain;
-use crate::printed::PrintedNumber;
+use super::{Best, Fig04Data, LagCurve, TossPoint};
+use crate::claims::judging::{LINE_WIDTH, trend};
+use crate::claims::paper::Uncertain;
+use crate::claims::printed::PrintedNumber;
+use crate::claims::{self as claim, Claim};
+use crate::figures::numbers;
 
 const ID: &str = "fig04";
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.
@@ -54,7 +54,7 @@ const OTHER_OPTIMUM: &str = "Table I has its optimum at another φ_L";
 
 /// By how much a curve at an angle is lower than its maximum, as a share of what it spans.
 fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
-    let (low, high) = samples::extent(curve.iter().copied());
+    let (low, high) = numbers::extent(curve.iter().copied());
     let points = || angles.iter().zip(curve);
     let between = points().zip(points().skip(1)).find(|(_, (end, _))| **end >= angle);
     let there = between
@@ -64,9 +64,9 @@ fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
 
 /// The angles at which a curve is lower than its maximum by no more than a line's width.
 fn accepted(angles: &[f64], curve: &[f64]) -> String {
-    let (low, high) = samples::extent(curve.iter().copied());
+    let (low, high) = numbers::extent(curve.iter().copied());
     let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));
-    let (from, to) = samples::extent(as_high.map(|(angle, _)| *angle));
+    let (from, to) = numbers::extent(as_high.map(|(angle, _)| *angle));
     format!("places from {} to {} are as high", pi(from), pi(to))
 }
 
@@ -109,7 +109,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
                 data.lossless_efficiency_of_fastest,
             ));
         }
-        if claim.verdict() == claim::Verdict::Differs {
+        if claim.verdict == claim::Verdict::Differs {
             claim = claim.note(&reason);
         }
         claims.push(claim.cause(OTHER_OPTIMUM));
@@ -122,8 +122,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
 
 /// An angle is also given as a multiple of π, as it is printed.
 fn in_turns(claim: Claim, computed: f64) -> Claim {
-    if claim.unit() == "rad" {
-        let note = format!("computed {}, printed {}", pi(computed), claim.printed_text());
+    if claim.unit == "rad" {
+        let note = format!("computed {}, printed {}", pi(computed), claim.printed);
         return claim.note(note);
     }
     claim
@@ -297,7 +297,7 @@ fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
     );
     grid.reading.numbers.iter().enumerate().map(move |(index, number)| {
         let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
-        let claim = Claim::reading(ID, &number.key, quantity, number.computed)
+        let claim = Claim::reading(ID, &number.key, &quantity, number.computed)
             .fitted("a_g, and the number of intervals")
             .note(described(data));
         if index == 0 { claim.note(&evidence) } else { claim }

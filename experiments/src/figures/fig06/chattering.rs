@@ -15,8 +15,8 @@ use bouncing_disk::{
 use super::data::{SingleTosses, Slice};
 use super::inputs::{Inputs, Systems};
 use super::slices::slice;
+use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
-use crate::paper::SectionFour;
 
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;

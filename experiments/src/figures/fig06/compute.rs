@@ -15,8 +15,8 @@ use super::data::{BestLag, Bouncing, Column, Fig06Data, Merging, SingleTosses, S
 use super::inputs::{Inputs, map, no_orbit};
 use super::slices::followed_slice;
 use super::{contact, dimension, explored, merging, period_one};
+use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper::{self, SectionFour};
 use crate::progress::Progress;
 
 /// The range of Γ of the diagram.

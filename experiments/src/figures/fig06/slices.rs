@@ -11,7 +11,7 @@ use bouncing_disk::{
 use super::data::{Slice, Twist};
 use super::inputs::{Inputs, Systems};
 use crate::experiment::ExperimentError;
-use crate::figures::samples::six_decimals;
+use crate::figures::numbers::six_decimals;
 
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
 pub(super) fn followed_slice(

@@ -5,8 +5,8 @@ use bouncing_disk::core::{
     OrbitEvent, Phase, UNDECIDED, Unobserved, Vibration, survival_times,
 };
 
-use super::data::{Other, Panel, Shares, Spot};
-use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
+use super::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
+use super::{Other, Panel, Shares, Spot};
 use crate::experiment::ExperimentError;
 use crate::progress::{Progress, advancing};
 

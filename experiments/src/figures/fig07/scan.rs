@@ -8,10 +8,10 @@ use bouncing_disk::core::{
 };
 use rayon::prelude::*;
 
-use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use super::panels::{grid, map, start};
+use super::{Beyond, Easiness, Other, Rest, TopShares, Traced};
+use crate::claims::paper::SectionFour;
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper::SectionFour;
 
 /// Forcings from that of panel (a) to that of (b).
 const ALONG_WINDOW: u32 = 16;
