@@ -10,7 +10,7 @@
 use serde::{Serialize, Serializer};
 
 use super::catalogue::{self, Class, PrintedEntry};
-use super::judging::{Cases, Kind, LINE_WIDTH, Verdict};
+use super::judging::{Cases, Kind, LARGEST_ACCEPTED, LINE_WIDTH, Verdict};
 use super::printed::PrintedNumber;
 
 /// Our value.
@@ -170,15 +170,22 @@ impl Claim {
             [false, true] => Verdict::DependsOnUnprintedDigits,
             [false, false] => Verdict::Differs,
         };
-        self.note(
-            "the paper does not define what decides, and definitions that were tried give different verdicts",
-        )
+        self.note(if self.verdict == Verdict::NotComputable {
+            "the paper does not define what decides, and definitions that were tried give different verdicts"
+        } else {
+            "the paper does not define what decides; no definition that was tried reproduces it, and the kindest counts"
+        })
     }
 
-    /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its maximum, as a share of what it spans.
-    pub fn at_printed_place(mut self, lower: f64) -> Self {
+    /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its maximum, as a share of what it spans,
+    /// `accepted` the share of the drawn places that would agree.
+    pub fn at_printed_place(mut self, lower: f64, accepted: f64) -> Self {
         self.tolerance = None;
-        self.verdict = if lower <= LINE_WIDTH { Verdict::Reproduced } else { Verdict::Differs };
+        self.verdict = match lower <= LINE_WIDTH {
+            true if accepted > LARGEST_ACCEPTED => Verdict::NotComputable,
+            true => Verdict::Reproduced,
+            false => Verdict::Differs,
+        };
         self.note(format!(
             "at the printed place the curve is lower than its maximum by {:.2} % of what it spans",
             100.0 * lower

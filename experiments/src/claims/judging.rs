@@ -34,6 +34,9 @@ pub const AGREED_SHARE: f64 = 0.95;
 /// A curve that is lower by no more than this share of what it spans is as high, for a reader of the picture: the width of a line.
 pub const LINE_WIDTH: f64 = 0.01;
 
+/// A place that agrees with more than this share of a curve is no place.
+pub const LARGEST_ACCEPTED: f64 = 0.5;
+
 /// So many inputs are a sample, whose share has a standard error.
 const SAMPLE: usize = 20;
 
@@ -153,7 +156,7 @@ kinds! {
     /// A printed number that the authors computed from rounded measurements.
     Measured = "measured", "Judged over inputs that all round to the printed ones: reproduced for 95 % of them or more, differing for 5 % or less, otherwise dependent on unprinted digits.";
     /// What the paper reads off drawn curves: a maximum, its place, that two maxima are at one place.
-    Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans.";
+    Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans. Where more than half of the drawn places would agree, it is no data.";
     /// A formula with an equality.
     Equation = "equation", "Reproduced where both sides agree but for rounding.";
     /// One thing is larger, slower, negligible, significant.

@@ -678,7 +678,7 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
             "section3.negative_lag_torque",
             reversed,
             format!(
-                "the dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
+                "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
                 described(|lag| lag.lowest_speed_rad_per_s)
             ),
         ),

@@ -345,11 +345,13 @@ fn claims(data: &Table2Data) -> Vec<Claim> {
     claims
 }
 
-/// The uncertainty of all inputs together, by the usual rule.
+/// The uncertainty of all inputs together by the usual rule, and by what else may be meant: the paper does not say.
 fn together(data: &Table2Data) -> Claim {
     const KEY: &str = "section3.predicted_airborne_speed_uncertainty";
     let combined = &data.combined;
-    Claim::printed(KEY, combined.root_sum_of_squares_rad_per_s).note(format!(
+    let others = [combined.largest_rad_per_s, combined.without_largest_rad_per_s];
+    let verdicts = others.map(|uncertainty| Claim::printed(KEY, uncertainty).verdict);
+    Claim::printed(KEY, combined.root_sum_of_squares_rad_per_s).by_definition(&verdicts).note(format!(
             "root of the sum of squares; the largest single effect is {:.1} and the root sum of squares of the others {:.1}, both of which print as the \
              paper's number; ω and φ_L are not independent of c and a_e: with both launch speeds, c, a_e, a_g and μ as independent inputs it is {:.1}",
             combined.largest_rad_per_s,

@@ -613,7 +613,7 @@ fn claims(data: &Table3Data) -> Vec<Claim> {
         Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
             "√(2 g h) for h = {:.1} cm and g = {} m/s²; heights that round to it give {slowest:.3} to {fastest:.3} m/s, and the \
              printed speed needs {shortest:.2} to {longest:.2} cm. Of heights and gravitational accelerations ({:.2} to {:.2} m/s²) that round to the \
-             printed ones {} in {} give the printed speed",
+             printed ones {} in {} give the printed speed; of g up to the 10 m/s² of the motor's full preload more would",
             100.0 * drop.heights.drop_height_m,
             data.gravity_m_per_s2,
             drop.printed_gravity_range_m_per_s2[0],

@@ -52,22 +52,30 @@ pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
 /// Why the optimum of Table I as printed is another one.
 const OTHER_OPTIMUM: &str = "Table I has its optimum at another φ_L";
 
+/// A curve at an angle, linear between its points.
+fn at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
+    let points = || angles.iter().zip(curve);
+    let between = points().zip(points().skip(1)).find(|(_, (end, _))| **end >= angle);
+    between.map_or(f64::NAN, |((from, one), (to, other))| one + (other - one) * (angle - from) / (to - from))
+}
+
 /// By how much a curve at an angle is lower than its maximum, as a share of what it spans.
 fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
     let (low, high) = numbers::extent(curve.iter().copied());
-    let points = || angles.iter().zip(curve);
-    let between = points().zip(points().skip(1)).find(|(_, (end, _))| **end >= angle);
-    let there = between
-        .map_or(f64::NAN, |((from, one), (to, other))| one + (other - one) * (angle - from) / (to - from));
-    (high - there) / (high - low)
+    (high - at(angles, curve, angle)) / (high - low)
 }
 
-/// The angles at which a curve is lower than its maximum by no more than a line's width.
-fn accepted(angles: &[f64], curve: &[f64]) -> String {
+/// The angles at which a curve is lower than its maximum by no more than a line's width: the first and the last, and their share.
+fn accepted(angles: &[f64], curve: &[f64]) -> (String, f64) {
     let (low, high) = numbers::extent(curve.iter().copied());
     let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));
-    let (from, to) = numbers::extent(as_high.map(|(angle, _)| *angle));
-    format!("places from {} to {} are as high", pi(from), pi(to))
+    let as_high: Vec<f64> = as_high.map(|(angle, _)| *angle).collect();
+    let (from, to) = numbers::extent(as_high.iter().copied());
+    let share = as_high.len() as f64 / angles.len() as f64;
+    (
+        format!("places from {} to {} are as high, {:.0} % of those drawn", pi(from), pi(to), 100.0 * share),
+        share,
+    )
 }
 
 /// The best toss with the parameters of Table I.
@@ -101,7 +109,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
             let printed = PrintedNumber::read(&data.printed.optimal_amplitude_angle_rad);
             let angle = printed.map_or(f64::NAN, |printed| printed.value);
             let (angles, speeds) = (&data.amplitude_angle_rad, &curve.airborne_speed_rad_per_s);
-            claim = claim.at_printed_place(lower_at(angles, speeds, angle)).note(accepted(angles, speeds));
+            let (places, share) = accepted(angles, speeds);
+            claim = claim.at_printed_place(lower_at(angles, speeds, angle), share).note(places);
         }
         if name == "largest_efficiency" {
             claim = claim.note(format!(
@@ -185,17 +194,21 @@ fn largest_ratio(data: &Fig04Data, linear: &LagCurve) -> Option<Vec<Claim>> {
     let ratios: Vec<f64> = linear.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect();
     let known: Vec<f64> = ratios.iter().copied().filter(|ratio| !ratio.is_nan()).collect();
     let angles = &data.amplitude_angle_rad[ratios.len() - known.len()..];
+    let (places, share) = accepted(angles, &known);
+    let all = curves(data, InitialSpin::AbsoluteRest);
+    let highest = size(&drawn.largest_speed_ratio);
+    let as_high = all.iter().filter(|curve| highest - size(&curve.largest_speed_ratio) <= LINE_WIDTH).count();
     Some(vec![
-        Claim::printed("section3.largest_speed_ratio", size(&drawn.largest_speed_ratio))
+        Claim::printed("section3.largest_speed_ratio", highest)
             .note(format!("of the curves drawn, θ = nπ/8, that of n = {}", drawn.n)),
         in_turns(
             Claim::printed("section3.amplitude_angle_of_largest_speed_ratio", at_zero.amplitude_angle_rad),
             at_zero.amplitude_angle_rad,
         )
-        .at_printed_place(lower_at(angles, &known, angle.value))
-        .note(accepted(angles, &known)),
+        .at_printed_place(lower_at(angles, &known, angle.value), share)
+        .note(places),
         Claim::printed("section3.phase_lag_of_largest_speed_ratio", drawn.phase_lag_rad)
-            .at_printed_place((size(&drawn.largest_speed_ratio) - size(at_zero)).max(0.0)),
+            .at_printed_place((highest - size(at_zero)).max(0.0), as_high as f64 / all.len() as f64),
     ])
 }
 

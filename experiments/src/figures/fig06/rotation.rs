@@ -407,7 +407,8 @@ fn three_branches(data: &Fig06Data, period_four: &[&Slice]) -> [Claim; 2] {
             "section4.projection_hides_branch",
             claim::all(&alike, |(gap, apart)| *apart > ONE_BRANCH && apart > gap),
             format!(
-                "where two of the four speeds look alike, their impacts are at least {nearest:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|"
+                "where two of the four speeds look alike, their impacts are at least {nearest:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|; next to the doubling, between these values of Γ, \
+                 both branches of a new pair begin in one impact, and are one without any projection"
             ),
         ),
     ]
