@@ -82,29 +82,3 @@ pub fn digests() -> String {
 pub fn golden_differences() -> Vec<String> {
     crate::golden_differences()
 }
-
-/// What is timed beside the native library.
-#[cfg(feature = "digests")]
-#[wasm_bindgen]
-#[derive(Debug)]
-pub struct Workloads(crate::Workloads);
-
-#[cfg(feature = "digests")]
-#[wasm_bindgen]
-impl Workloads {
-    /// Both, ready to be run.
-    #[wasm_bindgen(constructor)]
-    pub fn new() -> Result<Self, String> {
-        crate::Workloads::new().map(Self).ok_or_else(|| "a parameter is refused".to_owned())
-    }
-
-    /// Impacts in lockstep (W1): how many.
-    pub fn impacts(&mut self, times: u32) -> Result<f64, String> {
-        self.0.impacts(times).map_err(|error| error.to_string())
-    }
-
-    /// The basin W3: how many cells.
-    pub fn cells(&self, side: u32) -> Result<f64, String> {
-        self.0.cells(side as usize).map_err(|error| error.to_string())
-    }
-}

@@ -28,12 +28,8 @@ mod reply;
 mod request;
 mod shared_basins;
 mod summary;
-#[cfg(feature = "digests")]
-mod workloads;
 
 #[cfg(feature = "digests")]
 pub use digests::{digests, golden_differences};
 pub use explorer::Explorer;
 pub use reply::Reply;
-#[cfg(feature = "digests")]
-pub use workloads::Workloads;

@@ -1,48 +1,29 @@
 /** Colours of the theme, of the printed page, and scales between them that are even to the eye. */
 
-/** Gives the colour of a custom property that `colours.css` lists. */
+/** Gives the colour of a custom property that `theme.css` lists. */
 export type Colours = (name: string) => string;
 
-/** The light colours whatever the theme is, for a picture that is printed. */
-export function printedColours(): Colours {
-  printedProbe ??= makeProbe();
-  const style = getComputedStyle(printedProbe);
-  return (name) => style.getPropertyValue(name).trim() || "#000000";
+function colourIn(scheme: string | undefined, name: string): string {
+  const value = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  return value.replace(/^light-dark\(([^,]*), *(.*)\)$/, scheme === "dark" ? "$2" : "$1");
 }
-let printedProbe: HTMLElement | undefined;
 
-function makeProbe(): HTMLElement {
-  const probe = document.createElement("span");
-  probe.className = "printed";
-  probe.hidden = true;
-  document.body.append(probe);
-  return probe;
-}
+/** The colours of the present theme, and those of print, which are the light ones whatever the theme is. */
+export const themeColour: Colours = (name) => colourIn(document.documentElement.dataset["scheme"], name);
+export const printedColour: Colours = (name) => colourIn("light", name);
 
 export type Rgb = readonly [number, number, number];
 
-/** Reads `#rrggbb`, `#rgb` and `rgb(...)`. */
+/** Reads `#rrggbb`. */
 export function parseColour(text: string): Rgb {
-  const hex = /^#([0-9a-f]{3}|[0-9a-f]{6})$/i.exec(text.trim())?.[1];
-  if (hex !== undefined) {
-    const wide = hex.length === 3 ? [...hex].map((digit) => digit + digit).join("") : hex;
-    const value = parseInt(wide, 16);
-    return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
-  }
-  const parts = text.match(/[\d.]+/g)?.map(Number) ?? [];
-  return [parts[0] ?? 0, parts[1] ?? 0, parts[2] ?? 0];
+  const value = parseInt(text.slice(1), 16);
+  return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
 }
 
 /** The four bytes of an opaque pixel as one word, in the order of this machine. */
-export function pixelWord([red, green, blue]: Rgb): number {
-  PIXEL_BYTES[0] = red;
-  PIXEL_BYTES[1] = green;
-  PIXEL_BYTES[2] = blue;
-  PIXEL_BYTES[3] = 255;
-  return PIXEL_WORD[0] ?? 0;
+export function pixelWord(colour: Rgb): number {
+  return new Uint32Array(Uint8ClampedArray.of(...colour, 255).buffer)[0] as number;
 }
-const PIXEL_BYTES = new Uint8ClampedArray(4);
-const PIXEL_WORD = new Uint32Array(PIXEL_BYTES.buffer);
 
 /** `count` colours from the first stop to the last, evenly spaced in Oklab. */
 export function colourScale(stops: readonly string[], count: number): Rgb[] {
