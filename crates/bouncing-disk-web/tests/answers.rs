@@ -33,15 +33,15 @@ fn ask(request: &Value) -> Reply {
 
 fn answered(request: &Value) -> (Value, Reply) {
     let reply = ask(request);
-    assert!(!reply.refused(), "{request}: {}", reply.json());
-    (serde_json::from_str(reply.json()).expect("JSON"), reply)
+    assert!(!reply.refused, "{request}: {}", reply.json);
+    (serde_json::from_str(&reply.json).expect("JSON"), reply)
 }
 
 fn refused(request: &Value) -> Value {
     let reply = ask(request);
-    assert!(reply.refused(), "{request}: {}", reply.json());
-    assert!(reply.numbers().is_empty() && reply.bytes().is_empty());
-    serde_json::from_str(reply.json()).expect("JSON")
+    assert!(reply.refused, "{request}: {}", reply.json);
+    assert!(reply.numbers.is_empty() && reply.bytes.is_empty());
+    serde_json::from_str(&reply.json).expect("JSON")
 }
 
 fn start() -> Value {
@@ -92,7 +92,7 @@ fn what_is_no_request_is_told() {
     for text in ["", "null", "{}", "{\"call\": \"nothing\"}", "{\"call\": \"check\"}", "\u{0}", deep.as_str()]
     {
         let reply = explorer.respond(text);
-        assert!(reply.refused() && reply.json().contains("\"kind\":\"request\""), "{}", reply.json());
+        assert!(reply.refused && reply.json.contains("\"kind\":\"request\""), "{}", reply.json);
     }
     let unknown = with(pizza(), json!({ "colour": 1.0 }));
     assert_eq!(refused(&json!({ "call": "check", "system": unknown }))["kind"], "request");
@@ -113,18 +113,18 @@ fn a_longer_motion_begins_like_a_shorter_one() {
         let samples = |json: &Value| json["samples"].as_u64().expect("a count") as usize;
         let events = |json: &Value| json["events"].as_u64().expect("a count") as usize;
         assert_eq!((samples(&short), samples(&long)), (181, 721));
-        assert_eq!(few.numbers().len(), 9 * samples(&short) + 6 * events(&short));
-        assert_eq!(few.bytes().len(), samples(&short) + events(&short));
-        assert_eq!(few.numbers()[..9 * 181], many.numbers()[..9 * 181]);
-        assert_eq!(few.bytes()[..181], many.bytes()[..181]);
+        assert_eq!(few.numbers.len(), 9 * samples(&short) + 6 * events(&short));
+        assert_eq!(few.bytes.len(), samples(&short) + events(&short));
+        assert_eq!(few.numbers[..9 * 181], many.numbers[..9 * 181]);
+        assert_eq!(few.bytes[..181], many.bytes[..181]);
         let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
-        let (own, others) = (&few.numbers()[9 * 181..], &many.numbers()[9 * 721..]);
+        let (own, others) = (&few.numbers[9 * 181..], &many.numbers[9 * 721..]);
         assert_eq!(bits(own), bits(&others[..own.len()]));
         // Twelve periods take the time that they take, and the disk is never under the platform.
-        let last = many.numbers()[9 * 720];
+        let last = many.numbers[9 * 720];
         assert!((last - 12.0 * std::f64::consts::TAU / 15.0).abs() < 1e-12, "{last}");
         let above = |row: &[f64]| row[1] >= row[5] - 1e-12;
-        assert!(many.numbers()[..9 * 721].chunks(9).all(above));
+        assert!(many.numbers[..9 * 721].chunks(9).all(above));
     }
 }
 
@@ -145,7 +145,7 @@ fn energy_is_balanced_in_a_contact_that_does_not_end() {
         let (json, reply) = answered(&request);
         let energy = |name: &str| json["energy"][name].as_f64().expect("a number");
         let samples = 60 * periods as usize;
-        let last = reply.numbers()[9 * samples + 4];
+        let last = reply.numbers[9 * samples + 4];
         let lost = 0.5 * 6.3e-3 * 6.3e-3 * (900.0 - last * last);
         let (friction, work) = (energy("friction_loss"), energy("load_work"));
         assert!((friction + work - lost).abs() < 1e-9 * lost, "{lost} of {json}");
@@ -172,7 +172,7 @@ fn energy_is_balanced_at_the_end_of_any_motion() {
             // The impact at the start is before it.
             let held = |row: &[f64]| 0.5 * (row[3] * row[3] + 0.11 * 0.11 * row[4] * row[4]) + 9.8 * row[1];
             let samples = json["samples"].as_u64().expect("a count") as usize;
-            let row = |index: usize| held(&reply.numbers()[9 * index..9 * (index + 1)]);
+            let row = |index: usize| held(&reply.numbers[9 * index..9 * (index + 1)]);
             assert!(
                 (row(samples - 1) - row(0) - energy("stored")).abs() < 1e-9 * (1.0 + size),
                 "{periods} {json}"
@@ -189,7 +189,7 @@ fn a_disk_that_is_never_thrown_lies_on_the_platform() {
     request["system"] = still;
     let (json, reply) = answered(&request);
     assert_eq!(json["samples"], 121);
-    assert!(reply.numbers()[..9 * 121].chunks(9).all(|row| row[1].to_bits() == row[5].to_bits()));
+    assert!(reply.numbers[..9 * 121].chunks(9).all(|row| row[1].to_bits() == row[5].to_bits()));
 }
 
 #[test]
@@ -221,17 +221,17 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
             } else {
                 40
             };
-            parts.extend_from_slice(answered(&diagram([from, to], rotation)).1.numbers());
+            parts.extend_from_slice(&answered(&diagram([from, to], rotation)).1.numbers);
         }
         let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
-        assert_eq!(bits(all.numbers()), bits(&parts));
-        assert_eq!(all.numbers().chunks(4).all(|row| row[3].is_nan()), !rotation);
+        assert_eq!(bits(&all.numbers), bits(&parts));
+        assert_eq!(all.numbers.chunks(4).all(|row| row[3].is_nan()), !rotation);
     }
     // The rotation does not act back on the vertical motion: the same impacts, in the same order.
     let (_, without) = answered(&diagram([0, 40], false));
     let (_, rotating) = answered(&diagram([0, 40], true));
     let vertical = |reply: &Reply| {
-        let rows = reply.numbers().chunks(4);
+        let rows = reply.numbers.chunks(4);
         rows.flat_map(|row| row[..3].iter().map(|number| number.to_bits())).collect::<Vec<_>>()
     };
     assert_eq!(vertical(&without), vertical(&rotating));
@@ -261,7 +261,7 @@ fn columns_are_followed_until_they_have_settled() {
         let (json, reply) = answered(&with(request, json!({ "patience": 3000 })));
         assert_eq!(json["unsettled"], 0, "{json}");
         assert!(json["left_out"].as_u64().is_some_and(|left_out| (500..2000).contains(&left_out)), "{json}");
-        for row in reply.numbers().chunks(4) {
+        for row in reply.numbers.chunks(4) {
             assert!(spins.iter().any(|spin| (row[3] - spin).abs() < 1e-4), "{forcing}: {row:?}");
         }
     }
@@ -274,7 +274,7 @@ fn columns_are_followed_until_they_have_settled() {
     // Without friction or twist there is no spin, and no rounding of one.
     for idle in [json!({ "friction": 0.0 }), json!({ "twist_amplitude": 0.0 })] {
         let (_, reply) = answered(&with(diagram([0, 40], true), json!({ "system": with(pizza(), idle) })));
-        assert!(!reply.numbers().is_empty() && reply.numbers().chunks(4).all(|row| row[3].is_nan()));
+        assert!(!reply.numbers.is_empty() && reply.numbers.chunks(4).all(|row| row[3].is_nan()));
     }
     assert_eq!(
         refused(&with(diagram([0, 40], true), json!({ "patience": 1e7 as u64 })))["quantity"],
@@ -288,11 +288,11 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     let whole = ask(&basins([0, 20]));
     let mut labels = Vec::new();
     for rows in [[0, 1], [1, 13], [13, 20]] {
-        labels.extend_from_slice(explorer.respond(&basins(rows).to_string()).bytes());
+        labels.extend_from_slice(&explorer.respond(&basins(rows).to_string()).bytes);
         // Another map in between: its attractors are not taken for those of this one.
         explorer.respond(r#"{"call": "attractors", "axial_forcing": 0.35, "restitution": 0.5}"#);
     }
-    assert_eq!((whole.bytes().len(), whole.bytes()), (600, &labels[..]));
+    assert_eq!((whole.bytes.len(), &whole.bytes), (600, &labels));
     let (json, _) = answered(&json!({ "call": "attractors", "axial_forcing": 0.486, "restitution": 0.5 }));
     let known: Vec<_> =
         json["attractors"].as_array().expect("a list").iter().map(|one| one["label"].as_u64()).collect();
@@ -319,8 +319,8 @@ fn branches_go_through_the_doublings_of_the_cascade() {
     let first = bouncing_disk::core::ImpactMap::first_doubling_forcing(0.5);
     assert!(at("doubling").iter().any(|forcing| (forcing - first).abs() < 1e-9), "{json}");
     // Every impact is on an orbit of its map: the closed form of one impact a period.
-    let branches = json["branches"].as_array().expect("a list").len() as f64;
-    for row in reply.numbers().chunks(6) {
+    let branches = json["branches"].as_f64().expect("a count");
+    for row in reply.numbers.chunks(6) {
         assert!(
             (0.3..=0.62).contains(&row[0])
                 && row[3] < branches
@@ -331,7 +331,7 @@ fn branches_go_through_the_doublings_of_the_cascade() {
     refused(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.6, 0.3] }));
     refused(&json!({ "call": "branches", "restitution": 1.5, "axial_forcing": [0.3, 0.6] }));
     let (none, _) = answered(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.1, 0.2] }));
-    assert_eq!(none["branches"], json!([]));
+    assert_eq!(none["branches"], 0);
 }
 
 /// A line of a branch: its rows.
@@ -345,7 +345,7 @@ fn branches_in(restitution: f64, window: [f64; 2]) -> (Vec<(String, f64)>, Vec<L
         (one["kind"].as_str().expect("a word").to_owned(), one["axial_forcing"].as_f64().expect("a number"))
     });
     let mut lines: Vec<Line> = Vec::new();
-    for row in reply.numbers().chunks(6) {
+    for row in reply.numbers.chunks(6) {
         if row[5] as usize == lines.len() {
             lines.push(Vec::new());
         }
@@ -436,11 +436,11 @@ fn a_motor_is_that_of_its_sheet() {
         "seed": 1
     });
     let (json, reply) = answered(&request);
-    let statuses: Vec<_> = reply.numbers().chunks(10).map(|row| row[9]).collect();
+    let statuses: Vec<_> = reply.numbers.chunks(10).map(|row| row[9]).collect();
     assert_eq!((statuses.len(), statuses[2]), (3, 2.0));
-    assert!(json["shortfalls"][2].is_string() && reply.numbers()[1] > reply.numbers()[11]);
+    assert!(json["shortfalls"][2].is_string() && reply.numbers[1] > reply.numbers[11]);
     let run = json!({ "call": "motor_transient", "sheet": sheet(), "members": 4, "rise_times": 3.0, "points": 20, "seed": 1 });
-    assert_eq!(answered(&run).1.numbers().len(), 60);
+    assert_eq!(answered(&run).1.numbers.len(), 60);
     refused(&with(request, json!({ "most_impacts": 30_000_000 })));
     for (name, value) in [("members", json!(0)), ("points", json!(1)), ("rise_times", json!(-1.0))] {
         refused(&with(run.clone(), json!({ name: value })));

@@ -53,8 +53,7 @@ function measured(value: number, units: Units): string {
   return `${shown(value * factor, 4)} ${unit}`;
 }
 
-const metres = (value: number): string =>
-  value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, SMALL_METRES);
+const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, SMALL_METRES));
 const hertz = (value: number): string => measured(value / (2 * Math.PI), HERTZ);
 
 type Words = Omit<Parameter, "name" | "value" | "change" | "symbol" | "label" | "unit" | "slider">;

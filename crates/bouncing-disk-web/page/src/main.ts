@@ -125,7 +125,12 @@ function begin(): void {
   document.addEventListener("keydown", (event) => {
     const busy = document.querySelector("dialog[open]") !== null || event.ctrlKey || event.altKey || event.metaKey;
     const target = event.target as HTMLElement;
-    if (busy || event.defaultPrevented || !shortcutsOn() || target.closest("input, select, textarea, [contenteditable]"))
+    if (
+      busy ||
+      event.defaultPrevented ||
+      !shortcutsOn() ||
+      target.closest("input, select, textarea, [contenteditable]")
+    )
       return;
     const view = VIEWS[Number(event.key) - 1]?.name;
     const own = tools.find(([key]) => key === event.key)?.[2];

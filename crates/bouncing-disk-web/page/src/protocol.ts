@@ -31,8 +31,7 @@ export interface ImpactStart {
 export type FlightStart = Record<"phase" | "gap" | "relative_velocity" | "angular_speed", number>;
 
 export type MotionStart =
-  | ({ kind: "impact"; angular_speed: number } & ImpactStart)
-  | ({ kind: "flight" } & FlightStart);
+  ({ kind: "impact"; angular_speed: number } & ImpactStart) | ({ kind: "flight" } & FlightStart);
 
 /** The module refuses a request with a name that it does not know, or without one that it needs. */
 export interface Request {

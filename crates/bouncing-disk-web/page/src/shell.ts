@@ -196,7 +196,15 @@ export class Themes {
 function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElement {
   const made = element("dialog", { class: name, "aria-labelledby": `${name}-title` });
   const heading = element("h2", { id: `${name}-title` }, title);
-  made.append(element("div", { class: "sheet" }, heading, closeButton("Close", () => made.close()), ...content));
+  made.append(
+    element(
+      "div",
+      { class: "sheet" },
+      heading,
+      closeButton("Close", () => made.close()),
+      ...content,
+    ),
+  );
   // A click beside the sheet closes it.
   made.addEventListener("click", (event) => {
     if (event.target === made) made.close();

@@ -1,6 +1,5 @@
 /** What the page and a worker say to each other. */
 
-
 /** Where a worker finds the module: compiled by another worker, as base64 text, or at an address beside the page. */
 export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string } | { address: string };
 
@@ -21,8 +20,9 @@ interface Reply {
   readonly json: string;
   readonly digest: string;
   readonly refused: boolean;
-  numbers(): Float64Array;
-  bytes(): Uint8Array;
+  /** Copies outside of the module's memory, which can change hands. */
+  readonly numbers: Float64Array;
+  readonly bytes: Uint8Array;
   free(): void;
 }
 
@@ -80,17 +80,10 @@ function answer(id: number, request: string): void {
   try {
     if (explorer === null) throw new Error("the module has not started");
     const reply = explorer.respond(request);
-    const { json, digest } = reply;
-    if (reply.refused) {
-      reply.free();
-      say({ kind: "refused", id, json });
-      return;
-    }
-    const numbers = reply.numbers();
-    const bytes = reply.bytes();
+    const { json, digest, refused, numbers, bytes } = reply;
     reply.free();
-    // Both are copies outside of the module's memory, so they can change hands.
-    say({ kind: "answer", id, json, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
+    if (refused) say({ kind: "refused", id, json });
+    else say({ kind: "answer", id, json, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
   } catch (error) {
     say({ kind: "failed", id, message: String(error) });
   }

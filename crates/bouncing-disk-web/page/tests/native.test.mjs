@@ -6,8 +6,8 @@ import { once } from "node:events";
 import { createInterface } from "node:readline";
 import { setTimeout as pause } from "node:timers/promises";
 import { test } from "node:test";
-import { address, isFake, launch, ready } from "./browser.mjs";
-import { sourceOf } from "./sources.mjs";
+import { within } from "./browser.mjs";
+import { sourceOf } from "./module.mjs";
 
 /** The program `respond` of the crate, compiled for this machine. */
 const native = process.env.NATIVE_RESPOND;
@@ -170,7 +170,7 @@ async function show(page, { name, state, hash }, conversation, all) {
 
 const TITLE = "every answer in every figure and table has the digest of the native library";
 
-test(TITLE, { skip: isFake || !native }, async () => {
+test(TITLE, { skip: !native }, async () => {
   const { presets, states } = await statesToShow();
   assert.equal(presets.length, 17);
   const heard = new Map();
@@ -185,21 +185,10 @@ test(TITLE, { skip: isFake || !native }, async () => {
       answers.ask(request);
     }
   };
-  const browser = await launch();
-  try {
-    const context = await browser.newContext({ viewport: { width: 900, height: 700 } });
-    await context.addInitScript(listen);
-    const page = await context.newPage();
-    const errors = [];
-    page.on("pageerror", (error) => errors.push(String(error)));
-    await page.goto(address);
-    await ready(page);
+  await within({ width: 900, height: 700, script: listen }, async (page) => {
     // A whole curve and its stall load take a motor of frequent impacts a minute; that of Fig. 10(c) has few.
     for (const one of states) await show(page, one, { requests, take }, one.name.startsWith("fig10 (c)"));
-    assert.deepEqual(errors, []);
-  } finally {
-    await browser.close();
-  }
+  });
   const own = await answers.end();
   assert.equal(own.length, heard.size);
   [...heard].forEach(([request, answer], index) => assert.equal(own[index], answer, request));

@@ -304,9 +304,7 @@ export class ScreenChart {
 
 /** "time (s) 0.25: speed 1.2 ± 0.1": the values of one place with their standard errors. */
 function readingOf({ x, at, curves }: Chart, index: number): string {
-  const values = curves.map(
-    ({ label, y, error }) => `${label} ${withError(y[index] ?? null, error?.[index] ?? null)}`,
-  );
+  const values = curves.map(({ label, y, error }) => `${label} ${withError(y[index] ?? null, error?.[index] ?? null)}`);
   return `${plainText(x.label)} ${plain(at[index])}: ${values.join(", ")}`;
 }
 

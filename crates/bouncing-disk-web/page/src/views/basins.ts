@@ -54,8 +54,7 @@ class BasinsView implements View {
       point: (at) => this.point(at),
       pick: (at) => this.choose(at),
     });
-    const hint =
-      "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
+    const hint = "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
     host.append(
       element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
       element(

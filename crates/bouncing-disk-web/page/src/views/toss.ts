@@ -313,7 +313,9 @@ class TossView implements View {
     this.thrown.hidden = thrown === null;
     if (thrown === null || thrown === this.throwTold) return;
     this.throwTold = thrown;
-    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), { class: "quiet" });
+    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), {
+      class: "quiet",
+    });
     this.thrown.replaceChildren(describeThrow(thrown), " ", back);
   }
 
