@@ -74,17 +74,23 @@ fn starts(forcings: &[f64], restitution: f64) -> Result<Vec<(ImpactMap, ImpactSt
     maps.collect()
 }
 
+fn digest_of(numbers: impl IntoIterator<Item = f64>) -> Digest {
+    let mut digest = Digest::new();
+    for number in numbers {
+        digest.number(number);
+    }
+    digest
+}
+
+fn numbers_of(state: &ImpactState) -> [f64; 2] {
+    [state.phase().angle(), state.velocity()]
+}
+
 fn diagram(policy: ChatterPolicy) -> Result<Digest, Error> {
     let starts = starts(&forcings(200, 0.3, 0.002), 0.5)?;
     let orbits: Vec<_> = starts.iter().map(|(map, state)| map.orbit(*state, policy)).collect();
-    let mut digest = Digest::new();
-    for column in orbit_diagram(&orbits, 1000, 50)? {
-        for state in &column {
-            digest.number(state.phase().angle());
-            digest.number(state.velocity());
-        }
-    }
-    Ok(digest)
+    let columns = orbit_diagram(&orbits, 1000, 50)?;
+    Ok(digest_of(columns.iter().flatten().flat_map(numbers_of)))
 }
 
 fn basins() -> Result<Digest, Error> {
@@ -133,33 +139,24 @@ fn judged() -> Result<Digest, Error> {
 }
 
 fn tosses() -> Result<Digest, Error> {
-    let mut digest = Digest::new();
+    let mut numbers = Vec::new();
     for lag in forcings(100, -1.5, 0.03) {
         let system = System::pizza_toss().with_platform(|hand| hand.phase_lag = lag)?;
         for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
             let toss = single_toss(&system, initial)?;
-            for number in [toss.airborne_speed, toss.efficiency, toss.launch_speed, toss.energy.friction_loss]
-            {
-                digest.number(number);
-            }
+            let [speed, efficiency] = [toss.airborne_speed, toss.efficiency];
+            numbers.extend([speed, efficiency, toss.launch_speed, toss.energy.friction_loss]);
         }
     }
-    Ok(digest)
+    Ok(digest_of(numbers))
 }
 
 fn motors() -> Result<Digest, Error> {
     let settings = TransientSettings { duration: 0.5, intervals: 50, ..TransientSettings::default() };
     let runs = ensemble(&System::motor(), &settings, 16)?;
-    let mut digest = Digest::new();
-    for curve in &runs.curves {
-        for number in curve.times.iter().chain(&curve.speeds) {
-            digest.number(*number);
-        }
-    }
-    for number in [runs.steady_speed.mean, runs.time_constant.mean, runs.stall_acceleration.standard_error] {
-        digest.number(number);
-    }
-    Ok(digest)
+    let curves = runs.curves.iter().flat_map(|curve| curve.times.iter().chain(&curve.speeds)).copied();
+    let ends = [runs.steady_speed.mean, runs.time_constant.mean, runs.stall_acceleration.standard_error];
+    Ok(digest_of(curves.chain(ends)))
 }
 
 fn spectra() -> Result<Digest, Error> {
@@ -182,33 +179,25 @@ fn spectra() -> Result<Digest, Error> {
 
 fn manifolds() -> Result<Digest, Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
-    let mut digest = Digest::new();
+    let mut numbers = Vec::new();
     let orbits = map.periodic_orbits(&OrbitSearch::new(1, 1)?)?.orbits;
     for orbit in orbits.iter().filter(|orbit| orbit.multipliers().spectral_radius() > 1.0) {
         for kind in [ManifoldKind::Unstable, ManifoldKind::Stable] {
             let manifold = map.manifold(orbit, kind, &ManifoldSettings::new(10.0, 20_000)?)?;
-            digest.number(manifold.multiplier);
-            for state in manifold.pieces().flat_map(|piece| &piece.states) {
-                digest.number(state.phase().angle());
-                digest.number(state.velocity());
-            }
+            numbers.push(manifold.multiplier);
+            numbers.extend(manifold.pieces().flat_map(|piece| &piece.states).flat_map(numbers_of));
         }
     }
-    Ok(digest)
+    Ok(digest_of(numbers))
 }
 
 fn crisis() -> Result<Digest, Error> {
-    let mut digest = Digest::new();
     let search = CrisisSearch::new(0.5, (0.559, 0.562))?.with_samples(64, 400_000)?;
-    let Ok(crisis) = search.crisis(None, &Unobserved)? else { return Ok(digest) };
-    let Ok(tangency) = &crisis.tangency else { return Ok(digest) };
-    for number in [crisis.forcing, crisis.forcing_error, tangency.share, tangency.curvature] {
-        digest.number(number);
-    }
-    for life in crisis.lives(&[1e-4, 1e-3], 50, 20_000)?.lives {
-        digest.number(life.impacts);
-    }
-    Ok(digest)
+    let Ok(crisis) = search.crisis(None, &Unobserved)? else { return Ok(Digest::new()) };
+    let Ok(tangency) = &crisis.tangency else { return Ok(Digest::new()) };
+    let numbers = [crisis.forcing, crisis.forcing_error, tangency.share, tangency.curvature];
+    let lives = crisis.lives(&[1e-4, 1e-3], 50, 20_000)?.lives;
+    Ok(digest_of(numbers.into_iter().chain(lives.iter().map(|life| life.impacts))))
 }
 
 /// What the three calls about a motor in operation give.
@@ -238,27 +227,22 @@ fn operations() -> Result<Digest, Error> {
         SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),
         SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.1e-8]),
     ];
-    let mut digest = Digest::new();
+    let mut numbers = Vec::new();
     for row in MotorSweep::new(motor, axes, settings)?.run()?.matrix(SweepQuantity::Speed) {
-        for speed in row {
-            digest.number(speed.unwrap_or(f64::NAN));
-        }
+        numbers.extend(row.into_iter().map(|speed| speed.unwrap_or(f64::NAN)));
     }
     let quantity = SensitivityQuantity::SteadySpeed;
     let near = SensitivitySettings { operating: settings, ..SensitivitySettings::default() };
-    for one in motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near)? {
-        digest.number(one.derivative.value);
-    }
+    let slopes = motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near)?;
+    numbers.extend(slopes.iter().map(|one| one.derivative.value));
     let ranges =
         [(SensitivityParameter::Friction, [0.05, 0.2]), (SensitivityParameter::PhaseLag, [-0.2, 0.2])];
     let sampling = SamplingSettings { rows: 8, seed: 3 };
-    for one in motor.sobol_indices(quantity, &ranges, sampling, &settings)? {
-        digest.number(one.total.value);
-    }
-    for one in motor.elementary_effects(quantity, &ranges, sampling, &settings)? {
-        digest.number(one.mean.value);
-    }
-    Ok(digest)
+    let indices = motor.sobol_indices(quantity, &ranges, sampling, &settings)?;
+    numbers.extend(indices.iter().map(|one| one.total.value));
+    let effects = motor.elementary_effects(quantity, &ranges, sampling, &settings)?;
+    numbers.extend(effects.iter().map(|one| one.mean.value));
+    Ok(digest_of(numbers))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ export type ViewName = "toss" | "diagram" | "basins" | "motor";
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
 
 /**
- * All that the pictures depend on. It is frozen: a change makes another one. In the hash of the address numbers stand
+ * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand
  * as JavaScript prints them, which gives the same bits back.
  */
 export interface State {

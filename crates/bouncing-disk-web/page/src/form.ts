@@ -60,23 +60,23 @@ type Words = Omit<Parameter, "name" | "value" | "change" | "symbol" | "label" | 
 
 const LOGARITHMIC = "logarithmic";
 
-const ofSystem = (
-  name: keyof SystemParameters, symbol: string, label: string, unit: string, slider: Parameter["slider"],
-  more: Words = {},
-): Parameter => ({
-  name, symbol, label, unit, slider, ...more,
-  value: (state) => state.system[name],
-  change: (value) => ({ system: { [name]: value } }),
-}); // prettier-ignore
-
-const ofStart = (
-  name: keyof State["start"], symbol: string, label: string, unit: string, slider: Parameter["slider"],
-  more: Words = {},
-): Parameter => ({
-  name, symbol, label, unit, slider, ...more,
-  value: (state) => state.start[name],
-  change: (value) => ({ start: { [name]: value } }),
-}); // prettier-ignore
+/** Makes parameters of the numbers in a part of the state. */
+const parametersOf =
+  <Part extends "system" | "start">(part: Part) =>
+  (
+    name: keyof State[Part] & string,
+    symbol: string,
+    label: string,
+    unit: string,
+    slider: Parameter["slider"],
+    more: Words = {},
+  ): Parameter => ({
+    name, symbol, label, unit, slider, ...more,
+    value: (state) => state[part][name] as number,
+    change: (value) => ({ [part]: { [name]: value } }),
+  }); // prettier-ignore
+const ofSystem = parametersOf("system");
+const ofStart = parametersOf("start");
 
 /** The largest angular speed of the platform, or 1 rad/s where it does not turn: the scale of a slider. */
 const twistSpeed = ({ system }: State): number => system.angular_frequency * system.twist_amplitude || 1;

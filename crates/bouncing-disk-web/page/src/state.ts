@@ -27,7 +27,7 @@ export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
   load_acceleration: 0,
 };
 
-export const DEFAULT_STATE: State = frozen({
+export const DEFAULT_STATE: State = {
   view: "toss",
   system: DEFAULT_SYSTEM,
   mass: 0.4,
@@ -36,21 +36,11 @@ export const DEFAULT_STATE: State = frozen({
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { loads: [0, 1], points: 9, rise_times: 6 },
-});
-
-/** The same state, of which nothing can be changed. */
-export function frozen(state: State): State {
-  const { system, start, thrown, diagram, basins, motor } = state;
-  for (const part of [system, start, thrown ?? {}, diagram, basins, motor]) {
-    for (const value of Object.values(part) as unknown[]) if (Array.isArray(value)) Object.freeze(value);
-    Object.freeze(part);
-  }
-  return Object.freeze(state);
-}
+};
 
 /** A state with this change. A start that is chosen takes the place of a throw. */
 export function changed(state: State, change: Change): State {
-  return frozen({
+  return {
     view: change.view ?? state.view,
     system: { ...state.system, ...change.system },
     mass: change.mass ?? state.mass,
@@ -59,7 +49,7 @@ export function changed(state: State, change: Change): State {
     diagram: { ...state.diagram, ...change.diagram },
     basins: { ...state.basins, ...change.basins },
     motor: { ...state.motor, ...change.motor },
-  });
+  };
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */

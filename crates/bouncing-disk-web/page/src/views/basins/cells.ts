@@ -1,7 +1,7 @@
 /** The cells of one window of starts, coloured by what became of them, and the requests for them: coarse ones first. */
 
 import type { Context } from "../../contract";
-import { parseColour, pixelWord, themeColour, type Colours } from "../../drawing/colours";
+import { pixelWord, themeColour, type Colours } from "../../drawing/colours";
 import { contextOf } from "../../drawing/pen";
 import type { Window2 } from "../../drawing/window";
 import { element } from "../../elements";
@@ -56,7 +56,7 @@ export class Cells {
     const width = grid.phases * scale;
     const image = context.createImageData(width, (to - from) * scale);
     const words = new Uint32Array(image.data.buffer);
-    const wordOf = (name: string) => pixelWord(parseColour(colour(name)));
+    const wordOf = (name: string) => pixelWord(colour(name));
     const table = new Uint32Array(256).fill(wordOf("--undecided"));
     const striped = new Uint8Array(256).fill(1);
     const stripe = wordOf("--undecided-line");

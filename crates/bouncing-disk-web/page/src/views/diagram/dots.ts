@@ -2,7 +2,7 @@
 
 import type { Quantity, State } from "../../contract";
 import { clamp, extent, padded, type Plot } from "../../drawing/axes";
-import { colourScale, parseColour, pixelWord, themeColour, type Colours } from "../../drawing/colours";
+import { colourScale, pixelWord, themeColour, type Colours } from "../../drawing/colours";
 import { contextOf, type Pen } from "../../drawing/pen";
 import { paintStretched, type Window2 } from "../../drawing/window";
 import { element } from "../../elements";
@@ -186,7 +186,7 @@ class Density {
   /** Colours the columns `[from, to)`. */
   paint(from: number, to: number, colour: Colours): void {
     const shades = densityShades(colour);
-    const paper = pixelWord(parseColour(colour("--picture-paper")));
+    const paper = pixelWord(colour("--picture-paper"));
     const { width, height, counts, words, filled } = this;
     // All of an orbit in one pixel has the last colour.
     const scale = (SHADES - 1) / Math.log1p(RECORDED);
@@ -211,7 +211,7 @@ function densityShades(colour: Colours): Uint32Array {
   const key = stops.join();
   if (key !== shadesKey) {
     shadesKey = key;
-    shadesNow = Uint32Array.from(colourScale(stops, SHADES), pixelWord);
+    shadesNow = colourScale(stops, SHADES);
   }
   return shadesNow;
 }
