@@ -59,8 +59,8 @@ export const kept = {
 };
 
 /** A button that is not a form's. */
-export function button(label: Child, press: () => void, attributes: Attributes = {}): HTMLButtonElement {
-  return element("button", { type: "button", onclick: press, ...attributes }, label);
+export function button(label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement {
+  return element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());
 }
 
 /** The cross in the corner of what can be closed. */

@@ -18,9 +18,8 @@ function isNear(state: State, shown: State): boolean {
 }
 
 export class Notes {
-  private preset: Preset | null = null;
-  /** The panel that was shown last. */
-  private panel: Panel | null = null;
+  /** The preset and the panel that were shown last. */
+  private shown: { preset: Preset; panel: Panel } | null = null;
 
   constructor(
     private readonly host: HTMLElement,
@@ -29,37 +28,27 @@ export class Notes {
 
   /** Two panels may show the same state: the one that was asked for counts. */
   choose(preset: Preset, panel: Panel): void {
-    this.preset = preset;
-    this.panel = panel;
+    this.shown = { preset, panel };
   }
 
   /** Nothing while the tour explains the same states in its own way. */
   show(state: State, quiet: boolean): void {
-    if (quiet) {
-      this.close();
-      return;
-    }
+    const { shown } = this;
     const hash = toHash(state);
-    const own = this.preset?.panels.find((panel) => toHash(stateOf(panel)) === hash);
-    const found = this.preset && own ? { preset: this.preset, panel: own } : BY_HASH.get(hash);
-    if (found !== undefined) {
-      this.preset = found.preset;
-      this.panel = found.panel;
-      this.draw(found.preset, found.panel);
-    } else if (this.preset !== null && this.panel !== null && isNear(state, stateOf(this.panel))) {
-      this.draw(this.preset, null);
-    } else {
-      this.close();
-    }
+    const own = shown?.preset.panels.find((panel) => toHash(stateOf(panel)) === hash);
+    const found = shown && own ? { preset: shown.preset, panel: own } : BY_HASH.get(hash);
+    const near = shown !== null && isNear(state, stateOf(shown.panel)) ? shown : null;
+    this.shown = quiet ? null : (found ?? near);
+    if (this.shown === null) this.close();
+    else this.draw(this.shown.preset, found?.panel ?? null);
   }
 
   /** `active` is null where the parameters have been changed since. */
   private draw(preset: Preset, active: Panel | null): void {
     const panels = preset.panels.length > 1 || active === null ? preset.panels : [];
     const chips = panels.map((panel) => {
-      const chip = button("", () => this.open(preset, panel), { class: "chip", "aria-pressed": String(panel === active) });
-      chip.append(...rich(panel.label));
-      return chip;
+      const pressed = { class: "chip", "aria-pressed": String(panel === active) };
+      return button(rich(panel.label), () => this.open(preset, panel), pressed);
     });
     const place = element("span", { class: "place" }, preset.place);
     const changed = active === null ? element("span", { class: "changed" }, "changed since") : null;
@@ -77,8 +66,7 @@ export class Notes {
   } // prettier-ignore
 
   close(): void {
-    this.preset = null;
-    this.panel = null;
+    this.shown = null;
     this.host.hidden = true;
     this.host.replaceChildren();
   }

@@ -129,9 +129,8 @@ export class Menu {
         this.close();
         act();
       };
-      const made = button(element("span", {}, label), chosen, { role: "menuitem", tabindex: -1 });
-      made.append(element("span", { class: "kind" }, note));
-      return made;
+      const words = [element("span", {}, label), element("span", { class: "kind" }, note)];
+      return button(words, chosen, { role: "menuitem", tabindex: -1 });
     });
     this.list.replaceChildren(...buttons);
     this.list.hidden = false;
@@ -220,9 +219,8 @@ export function presetDialog(choose: (preset: Preset) => void): HTMLDialogElemen
       made.close();
       choose(preset);
     };
-    const card = button(element("b", {}, preset.place), chosen, { class: "card", "data-preset": preset.id });
-    card.append(element("span", {}, preset.title));
-    return card;
+    const words = [element("b", {}, preset.place), element("span", {}, preset.title)];
+    return button(words, chosen, { class: "card", "data-preset": preset.id });
   });
   const made = dialog(
     "Figures and tables of the paper",

@@ -27,9 +27,10 @@ for (const scheme of ["light", "dark"])
         const pixels = await Promise.all(
           (await coloursOf(page, ["--undecided", "--undecided-line"])).map((colour) => pixelsOf(page, PICTURE, [colour])),
         );
-        // The frame has the colour of the stripes.
-        const ends = [0, 1].map((axis) => pixels[0].map((at) => at[axis])).map((all) => [Math.min(...all), Math.max(...all)]);
-        const inner = pixels.map((all) => all.filter((at) => ends.every(([low, high], axis) => at[axis] > low + 8 && at[axis] < high - 8)));
+        // Inside of the axes, whose lines have the colour of the stripes.
+        const [width, height] = await page.$eval(PICTURE, (canvas) => [canvas.width, canvas.height]);
+        const isInside = ([x, y]) => x >= 60 && x < width - 20 && y >= 20 && y < height - 50;
+        const inner = pixels.map((all) => all.filter(isInside));
         const counts = inner.map(({ length }) => length);
         // A place amid grey cells is one that a pointer hits.
         const known = new Set(inner.flat().map(String));

@@ -100,7 +100,7 @@ test("points at zero stand inside the frame where there is nothing but zero", as
   const { loadCharts } = await sourceOf("views/motor/charts.ts");
   const still = [operation({ efficiency: 0 }), operation({ load_torque: 1e-5 })];
   const [, , efficiency] = loadCharts(still, [0, 1e-5], 1e-5, null);
-  assert.ok(efficiency.yRange[0] < 0, `${efficiency.yRange}`);
+  assert.ok(efficiency.y.range[0] < 0, `${efficiency.y.range}`);
 });
 
 test("numbers that the error hides have no digits and no sign, others no more than are known", () => {

@@ -101,6 +101,17 @@ export function contextOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   return context;
 }
 
+/** Follows a polyline; `down` is false where the pen has been lifted. */
+function trace(points: ArrayLike<number>, to: (x: number, y: number, down: boolean) => void): void {
+  let down = false;
+  for (let index = 0; index + 1 < points.length; index += 2) {
+    const [x, y] = [points[index] as number, points[index + 1] as number];
+    const lifted = Number.isNaN(x) || Number.isNaN(y);
+    if (!lifted) to(x, y, down);
+    down = !lifted;
+  }
+}
+
 /** Draws on a canvas whose transform is set to CSS pixels, or to points, already. */
 export class CanvasPen implements Pen {
   readonly colour: Colours;
@@ -120,15 +131,7 @@ export class CanvasPen implements Pen {
   path(points: ArrayLike<number>, style: PathStyle): void {
     const { context } = this;
     context.beginPath();
-    let down = false;
-    for (let index = 0; index + 1 < points.length; index += 2) {
-      const x = points[index] as number;
-      const y = points[index + 1] as number;
-      const lifted = Number.isNaN(x) || Number.isNaN(y);
-      if (!lifted && down) context.lineTo(x, y);
-      else if (!lifted) context.moveTo(x, y);
-      down = !lifted;
-    }
+    trace(points, (x, y, down) => (down ? context.lineTo(x, y) : context.moveTo(x, y)));
     if (style.close === true) context.closePath();
     this.finish(style);
   }
@@ -227,14 +230,7 @@ export class SvgPen implements Pen {
 
   path(points: ArrayLike<number>, style: PathStyle): void {
     let data = "";
-    let down = false;
-    for (let index = 0; index + 1 < points.length; index += 2) {
-      const x = points[index] as number;
-      const y = points[index + 1] as number;
-      const lifted = Number.isNaN(x) || Number.isNaN(y);
-      if (!lifted) data += `${down ? "L" : "M"}${short(x)} ${short(y)}`;
-      down = !lifted;
-    }
+    trace(points, (x, y, down) => (data += `${down ? "L" : "M"}${short(x)} ${short(y)}`));
     if (data !== "") this.parts.push(`<path d="${data}${style.close === true ? "Z" : ""}"${attributes(style)}/>`);
   }
 
