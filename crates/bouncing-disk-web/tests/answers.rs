@@ -231,7 +231,8 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
     // The rotation does not act back on the vertical motion: the same impacts, in the same order.
     let (_, without) = answered(&diagram([0, 40], false));
     let (_, rotating) = answered(&diagram([0, 40], true));
-    let vertical = |reply: &Reply| reply.numbers.chunks(4).flat_map(|row| bits(&row[..3])).collect::<Vec<_>>();
+    let vertical =
+        |reply: &Reply| reply.numbers.chunks(4).flat_map(|row| bits(&row[..3])).collect::<Vec<_>>();
     assert_eq!(vertical(&without), vertical(&rotating));
     for columns in [[3, 2], [0, 41]] {
         assert_eq!(refused(&diagram(columns, false))["quantity"], "columns");
@@ -300,15 +301,18 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     assert_eq!(refused(&basins([0, 21]))["quantity"], "rows");
 }
 
+/// The rows of each line of the branches.
+type Lines = Vec<Vec<[f64; 6]>>;
+
 /// The branches in a window: how many, kinds and forcings of their bifurcations, and the rows of each line.
-fn branches_in(restitution: f64, window: [f64; 2]) -> (f64, Vec<(String, f64)>, Vec<Vec<[f64; 6]>>) {
+fn branches_in(restitution: f64, window: [f64; 2]) -> (f64, Vec<(String, f64)>, Lines) {
     let request = json!({ "call": "branches", "restitution": restitution, "axial_forcing": window });
     let (json, reply) = answered(&request);
     let bifurcations = list(&json, "bifurcations").iter();
     let bifurcations = bifurcations
         .map(|one| (one["kind"].as_str().expect("a word").to_owned(), number(one, "axial_forcing")))
         .collect();
-    let mut lines: Vec<Vec<[f64; 6]>> = Vec::new();
+    let mut lines = Lines::new();
     for row in reply.numbers.chunks(6) {
         if row[5] as usize == lines.len() {
             lines.push(Vec::new());
