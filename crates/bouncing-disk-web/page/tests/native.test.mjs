@@ -29,6 +29,7 @@ function listen() {
         this.asked.delete(data.id);
         window.open -= 1;
         window.heard.push({ request, answer });
+        window.quiet = performance.now();
         // What the page asks last of a state before it shows it.
         if (request.includes('"sheet_of_system"')) window.shown = true;
       });
@@ -59,7 +60,7 @@ function isAnswered(all) {
   if (!window.shown || window.open > 0 || document.getElementById("status").dataset.kind === "busy") {
     window.quiet = performance.now();
   }
-  return window.shown && (rough || performance.now() - window.quiet > 300);
+  return window.shown && (rough || performance.now() - window.quiet > 500);
 }
 
 /** The native library, which answers each line while the page goes on. */
@@ -70,6 +71,7 @@ function library() {
   createInterface({ input: child.stdout }).on("line", (line) => lines.push(line));
   return {
     ask: (request) => child.stdin.write(`${request}\n`),
+    stop: () => child.kill(),
     /** All answers, each as the page's are kept: the digest, or the sentence of a refusal. */
     async end() {
       child.stdin.end();
@@ -100,9 +102,10 @@ const CALLS = [
 ]; // prettier-ignore
 const TITLE = "every answer in every figure and table has the digest of the native library";
 
-test(TITLE, { skip: !native }, async () => {
+test(TITLE, { skip: !native }, async (t) => {
   const heard = new Map();
   const answers = library();
+  t.after(answers.stop);
   await within({ width: 900, height: 700, script: listen, settle: false }, async (page) => {
     for (const { name, hash } of await statesToShow()) {
       await page.evaluate((to) => {
