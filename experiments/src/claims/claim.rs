@@ -170,11 +170,12 @@ impl Claim {
             [false, true] => Verdict::DependsOnUnprintedDigits,
             [false, false] => Verdict::Differs,
         };
-        self.note(if self.verdict == Verdict::NotComputable {
+        let words = if self.verdict == Verdict::NotComputable {
             "the paper does not define what decides, and definitions that were tried give different verdicts"
         } else {
             "the paper does not define what decides; no definition that was tried reproduces it, and the kindest counts"
-        })
+        };
+        self.note(words)
     }
 
     /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its maximum, as a share of what it spans,

@@ -97,7 +97,7 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
         Claim::printed_statement(
             "section5.frequent_collisions",
             mean_rises(|panel| -panel.impacts_per_s),
-            format!("impacts a millisecond at 10⁻⁹, 10⁻⁸, 10⁻⁷ m, a chatter counted up to the paper's cut: {}", listed(|panel| panel.impacts_per_s, 1e-3)),
+            format!("impacts a millisecond at 10⁻⁹, 10⁻⁸, 10⁻⁷ m, those of summed chatters not counted: {}", listed(|panel| panel.impacts_per_s, 1e-3)),
         )
         .single_orbits(over(&rises(|motor| -motor.impacts_per_s))),
         long_period(data),

@@ -1,42 +1,142 @@
-/** Zooming and pointing: wheel, pinch, rectangle and keyboard, for every picture that has a window. */
+/** A picture with a window that one can zoom and point into by wheel, pinch, rectangle and keyboard. */
 
+import { button, element, oncePerFrame } from "../elements";
 import type { Range } from "../protocol";
-import { inside, valueX, valueY } from "./axes";
-import type { Plot } from "./axes";
-import { clamp } from "./scale";
+import {
+  clamp, clippedTo, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Box, type Plot,
+} from "./axes"; // prettier-ignore
+import { CanvasPen, contextOf, type Pen } from "./pen";
 
 export interface Window2 {
   readonly x: Range;
   readonly y: Range;
 }
 
-export interface Box {
-  readonly left: number;
-  readonly top: number;
-  readonly width: number;
-  readonly height: number;
+export type Point = readonly [number, number];
+
+interface Place {
+  readonly x: number;
+  readonly y: number;
 }
 
-export interface GestureHost {
+/** What gestures ask of a picture; they do nothing where they are not heard. */
+interface GestureHost {
   plot(): Plot | null;
   window(): Window2;
   /** Asks for another window; `settled` is false while the gesture goes on. */
-  move(window: Window2, settled: boolean): void;
-  reset(): void;
+  move?(window: Window2, settled: boolean): void;
+  reset?(): void;
   /** The pointer or the keyboard's cross is at this value; null: it left. */
-  point(at: readonly [number, number] | null): void;
-  pick(at: readonly [number, number]): void;
+  point(at: Point | null): void;
+  pick(at: Point): void;
   /** The rectangle that is being drawn. */
-  rectangle(box: Box | null): void;
+  rectangle?(box: Box | null): void;
+}
+
+interface WindowPictureHost extends Omit<GestureHost, "plot" | "rectangle"> {
+  readonly className: string;
+  /** What a screen reader says of the picture, with its keys. */
+  readonly label: string;
+  axes(): Axes;
+  /** Draws the data into the plot, clipped to it. */
+  paint(pen: Pen, plot: Plot): void;
+}
+
+const KEYS =
+  "Plus and minus zoom, arrows move, 0 shows all; Shift with an arrow moves the cross, Enter chooses what is under it.";
+
+const LETTERS = 13;
+const SMALL_LETTERS = 12;
+
+export class WindowPicture {
+  readonly layers: Layers;
+  readonly tools: HTMLElement;
+  /** Where the axes are; null as long as the picture has no size. */
+  private plot: Plot | null = null;
+  private cross: Point | null = null;
+  private box: Box | null = null;
+  readonly redraw = oncePerFrame(() => this.paintData());
+  private readonly redrawCursor = oncePerFrame(() => this.paintCursor());
+
+  constructor(private readonly host: WindowPictureHost) {
+    this.layers = new Layers(host.className, `${host.label} ${KEYS}`);
+    const gestures = new Gestures(this.layers.surface, {
+      ...host,
+      plot: () => this.plot,
+      point: (at) => {
+        this.cross = at;
+        this.redrawCursor();
+        host.point(at);
+      },
+      rectangle: (box) => {
+        this.box = box;
+        this.redrawCursor();
+      },
+    });
+    this.tools = element(
+      "div",
+      { class: "picture-tools", role: "group", "aria-label": "Zoom" },
+      button("+", () => gestures.zoom(0.5), { "aria-label": "Zoom in", title: "Zoom in (+)" }),
+      button("\u2212", () => gestures.zoom(2), { "aria-label": "Zoom out", title: "Zoom out (-)" }),
+      button("All", () => host.reset?.(), { "aria-label": "Show all", title: "Show all (0)" }),
+    );
+  }
+
+  /** Lays the axes out for the present size and window; the number of device pixels of the plot, or null. */
+  layOut(): { plot: Plot; columns: number; rows: number } | null {
+    this.layers.fit();
+    const { width, height, ratio } = this.layers;
+    if (width < 60 || height < 60) return null;
+    const size = width < 480 ? SMALL_LETTERS : LETTERS;
+    const plot = layOut(this.layers.more(), width, height, this.host.axes(), size);
+    this.plot = plot;
+    return { plot, columns: Math.round(plot.width * ratio), rows: Math.round(plot.height * ratio) };
+  }
+
+  private paintData(): void {
+    const plot = this.layOut()?.plot;
+    if (plot === undefined) return;
+    const pen = this.layers.data();
+    clippedTo(plot, pen, () => this.host.paint(pen, plot));
+    paintAxes(pen, plot);
+    this.paintCursor();
+  }
+
+  private paintCursor(): void {
+    const pen = this.layers.cursor();
+    const { plot, box, cross } = this;
+    if (plot === null) return;
+    if (cross !== null) {
+      const lines = hairsAt(plot, cross);
+      clippedTo(plot, pen, () => {
+        pen.path(lines, { stroke: "--picture-paper", width: 3, opacity: 0.6 });
+        // In no colour of data, and fine: a cross is not taken for a line of the picture.
+        pen.path(lines, { stroke: "--picture-text", width: 1, dash: [1, 2] });
+      });
+    }
+    if (box !== null) {
+      const stroke = "--picture-selection";
+      pen.rect(box.left, box.top, box.width, box.height, { fill: stroke, opacity: 0.15 });
+      pen.rect(box.left, box.top, box.width, box.height, { stroke, width: 1.5 });
+    }
+  }
+}
+
+/** Draws a picture of one window into a plot of another, stretched as it has to be. */
+export function paintStretched(pen: Pen, plot: Plot, image: HTMLCanvasElement, { x, y }: Window2): void {
+  const left = pixelX(plot, x[0]);
+  const top = pixelY(plot, y[1]);
+  pen.image(image, left, top, pixelX(plot, x[1]) - left, pixelY(plot, y[0]) - top);
 }
 
 const SETTLE = 350;
 const SMALLEST_DRAG = 6;
 
+/** Zooming and pointing: wheel, pinch, rectangle and keyboard, for every picture that has a window. */
 export class Gestures {
-  private readonly pointers = new Map<number, { x: number; y: number }>();
-  private begun: { x: number; y: number; window: Window2; touch: boolean } | null = null;
-  private pinch: { window: Window2; distance: number; at: readonly [number, number] } | null = null;
+  private readonly pointers = new Map<number, Place>();
+  private begun: (Place & { window: Window2; touch: boolean }) | null = null;
+  private pinch: { window: Window2; distance: number; at: Point } | null = null;
   private moved = false;
   private cross: [number, number] | null = null;
   private settleTimer: ReturnType<typeof setTimeout> | undefined;
@@ -66,10 +166,10 @@ export class Gestures {
   /** Zooms about the middle: for buttons. */
   zoom(factor: number): void {
     const { x, y } = this.host.window();
-    this.host.move({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
+    this.host.move?.({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
   }
 
-  private place(event: MouseEvent): { x: number; y: number } {
+  private place(event: MouseEvent): Place {
     const box = this.surface.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
@@ -93,9 +193,9 @@ export class Gestures {
 
   /** Moves now, and says that it is settled when nothing has come for a while. */
   private move(window: Window2): void {
-    this.host.move(window, false);
+    this.host.move?.(window, false);
     clearTimeout(this.settleTimer);
-    this.settleTimer = setTimeout(() => this.host.move(this.host.window(), true), SETTLE);
+    this.settleTimer = setTimeout(() => this.host.move?.(this.host.window(), true), SETTLE);
   }
 
   private down(event: PointerEvent): void {
@@ -105,9 +205,9 @@ export class Gestures {
     this.pointers.set(event.pointerId, at);
     this.surface.setPointerCapture(event.pointerId);
     if (this.pointers.size === 2) {
-      const [one, two] = [...this.pointers.values()] as [typeof at, typeof at];
+      const [one, two] = [...this.pointers.values()] as [Place, Place];
       this.begun = null;
-      this.host.rectangle(null);
+      this.host.rectangle?.(null);
       this.pinch = {
         window: this.host.window(),
         distance: Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10),
@@ -125,7 +225,7 @@ export class Gestures {
     const at = this.place(event);
     if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
     if (this.pinch !== null && this.pointers.size >= 2) {
-      const [one, two] = [...this.pointers.values()] as [typeof at, typeof at];
+      const [one, two] = [...this.pointers.values()] as [Place, Place];
       const factor = this.pinch.distance / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
       const { window, at: centre } = this.pinch;
       this.moved = true;
@@ -138,7 +238,7 @@ export class Gestures {
         const shift = ((begun.x - at.x) / plot.width) * (begun.window.x[1] - begun.window.x[0]);
         this.move({ x: [begun.window.x[0] + shift, begun.window.x[1] + shift], y: begun.window.y });
       } else {
-        this.host.rectangle(boxOf(plot, begun, at));
+        this.host.rectangle?.(boxOf(plot, begun, at));
       }
     } else {
       this.host.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
@@ -160,8 +260,8 @@ export class Gestures {
       // A flat rectangle chooses a range of one axis.
       const wide = box.width >= SMALLEST_DRAG;
       const high = box.height >= SMALLEST_DRAG;
-      this.host.rectangle(null);
-      this.host.move(
+      this.host.rectangle?.(null);
+      this.host.move?.(
         {
           x: wide ? [valueX(plot, box.left), valueX(plot, box.left + box.width)] : begun.window.x,
           y: high ? [valueY(plot, box.top + box.height), valueY(plot, box.top)] : begun.window.y,
@@ -173,7 +273,7 @@ export class Gestures {
 
   private abandon(event: PointerEvent): void {
     this.release(event);
-    this.host.rectangle(null);
+    this.host.rectangle?.(null);
   }
 
   private release(event: PointerEvent): void {
@@ -192,11 +292,11 @@ export class Gestures {
       else this.move({ x: shifted(window.x, right * 0.1), y: shifted(window.y, up * 0.1) });
     } else if (event.key === "+" || event.key === "=") this.zoom(0.5);
     else if (event.key === "-") this.zoom(2);
-    else if (event.key === "0") this.host.reset();
+    else if (event.key === "0") this.host.reset?.();
     else if (event.key === "Enter" && this.cross !== null) this.host.pick(this.cross);
     else if (event.key === "Escape") {
       this.begun = null;
-      this.host.rectangle(null);
+      this.host.rectangle?.(null);
       this.host.point(null);
     } else return;
     event.preventDefault();
@@ -222,7 +322,7 @@ function shifted([low, high]: Range, share: number): Range {
   return [low + by, high + by];
 }
 
-function boxOf(plot: Plot, from: { x: number; y: number }, to: { x: number; y: number }): Box {
+function boxOf(plot: Plot, from: Place, to: Place): Box {
   const x = (value: number) => clamp(value, plot.left, plot.left + plot.width);
   const y = (value: number) => clamp(value, plot.top, plot.top + plot.height);
   const left = Math.min(x(from.x), x(to.x));
@@ -249,4 +349,58 @@ function middleOf([low, high]: Range, width: number, before: Range | undefined):
   if (!(Math.abs(factor - 1) > 1e-9)) return middle;
   const centre = (low - factor * before[0]) / (1 - factor);
   return centre + ((before[0] + before[1]) / 2 - centre) * (width / old);
+}
+
+/** Two canvases on each other at the screen's own pixels: data below, and the cursor, which moves often, above. */
+export class Layers {
+  /** The upper one, which takes the keyboard and the pointer. */
+  readonly surface: HTMLCanvasElement;
+  private readonly lower = element("canvas", { "aria-hidden": "true" });
+  readonly root: HTMLElement;
+  width = 0;
+  height = 0;
+  ratio = 1;
+
+  constructor(className: string, label: string) {
+    this.surface = element("canvas", { tabindex: 0, role: "application", "aria-label": label });
+    this.root = element("div", { class: `picture ${className}` }, this.lower, this.surface);
+  }
+
+  /** Takes the size of the element. True if it is another one, which empties both canvases. */
+  fit(): boolean {
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const ratio = window.devicePixelRatio || 1;
+    if (width === this.width && height === this.height && ratio === this.ratio) return false;
+    Object.assign(this, { width, height, ratio });
+    for (const canvas of [this.lower, this.surface]) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    return true;
+  }
+
+  /** A pen for the data, on clean paper. */
+  data(): Pen {
+    const pen = this.more();
+    pen.rect(0, 0, this.width, this.height, { fill: "--picture-paper" });
+    return pen;
+  }
+
+  /** A pen for the data, over what is there already. */
+  more(): Pen {
+    return new CanvasPen(this.scaled(this.lower));
+  }
+
+  /** A pen for the cursor, on a clean transparent sheet. */
+  cursor(): Pen {
+    const context = this.scaled(this.surface);
+    context.clearRect(0, 0, this.width, this.height);
+    return new CanvasPen(context);
+  }
+
+  private scaled(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+    const context = contextOf(canvas);
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    return context;
+  }
 }
