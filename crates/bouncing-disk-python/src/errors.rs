@@ -1,15 +1,11 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
-use std::borrow::Cow;
-
 use bouncing_disk::core::{Error as CoreError, NoCrisis};
 use bouncing_disk::{Error, MeasuredSpeedsError, MotorFileError};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
-
-use crate::names::{self, Name, Told};
 
 /// The numbers of an error, by their names.
 enum Detail {
@@ -50,7 +46,7 @@ impl From<&str> for Detail {
 
 /// A class of `bouncing_disk._errors` and what it is called with after its message.
 enum Raised {
-    OutOfRange(&'static str, f64, Cow<'static, str>),
+    OutOfRange(String, f64, &'static str),
     TooLarge(&'static str, u64, u64),
     /// Arguments that do not fit together.
     Invalid(&'static str, Vec<(&'static str, Detail)>),
@@ -66,7 +62,7 @@ macro_rules! details {
 fn of_core(error: CoreError) -> Raised {
     use Raised::{Computation, Invalid, OutOfRange, TooLarge};
     match error {
-        CoreError::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
+        CoreError::OutOfRange { field, value, legal } => OutOfRange(field.to_owned(), value, legal),
         CoreError::TooLarge { what, count, limit } => TooLarge(what, count, limit),
         CoreError::NoLiftOff { phase, peak_acceleration } => {
             Computation("no-lift-off", details![phase, peak_acceleration])
@@ -114,7 +110,7 @@ fn of_model(error: Error) -> Raised {
     use Raised::{Computation, FitRefused, Invalid, OutOfRange};
     match error {
         Error::Core(error) => of_core(error),
-        Error::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
+        Error::OutOfRange { field, value, legal } => OutOfRange(field.to_owned(), value, legal),
         Error::NeverLeaves { peak_acceleration } => Computation("never-leaves", details![peak_acceleration]),
         Error::SlipTooLong { duration, limit } => Computation("slip-too-long", details![duration, limit]),
         Error::NotShared { field, one, other } => Invalid("not-shared", details![field, one, other]),
@@ -183,36 +179,90 @@ fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
     exception(py, message, raised).unwrap_or_else(|error| error)
 }
 
-/// The exception of an error of the model or of the core.
+/// The exception of an error that no argument of a call can be the reason of.
 pub(crate) fn of(py: Python<'_>, error: impl Into<Error>) -> PyErr {
-    of_named(py, error, &[])
+    let error = error.into();
+    raise(py, error.to_string(), of_model(error))
 }
 
-/// The same where the library has other names for the arguments.
-pub(crate) fn of_named(py: Python<'_>, error: impl Into<Error>, names: &[Name]) -> PyErr {
-    let error = error.into();
-    match names::told(&error, names) {
-        Some(Told::Argument(field, value, legal)) => {
-            // The words of the library for a value and its range, which here need not be its own.
-            let message = Error::OutOfRange { field, value, legal: "" }.to_string() + &legal;
-            raise(py, message, Raised::OutOfRange(field, value, legal))
+/// Arguments whose names do not follow from what the library calls them.
+const ARGUMENTS: [(&str, &[&str]); 23] = [
+    ("phase", &["impact_phase"]),
+    ("period", &["impact_phase"]),
+    ("impacts", &["impact_phase"]),
+    ("impact_phase", &["phase_range"]),
+    ("lowest_normalised_speed", &["speed_range"]),
+    ("highest_normalised_speed", &["speed_range"]),
+    ("attraction_radius", &["known_orbits"]),
+    ("relative_speed", &["relative_velocity"]),
+    ("distance", &["reach", "distances", "beyond"]),
+    ("axial_forcing", &["beyond"]),
+    ("parameter", &["parameter_range"]),
+    ("low_end", &["parameter_range"]),
+    ("high_end", &["parameter_range"]),
+    ("forcing", &["axial_forcing"]),
+    ("multiplier", &["inside", "orbit"]),
+    ("real_part", &["inside", "orbit"]),
+    ("starts_along_the_phase", &["phases"]),
+    ("starts_along_the_speed", &["speeds"]),
+    ("loads", &["load_torques"]),
+    ("load_acceleration", &["load_torque", "load_torques"]),
+    ("points", &["times"]),
+    ("cells_along_a_box", &["box_side"]),
+    ("fitted_parameters", &["ranges"]),
+];
+
+/// The argument of a call that a quantity of the library is about: `longest period`, `points of a branch` and
+/// `number of ranges` are `longest_period`, `max_points` and `ranges`. `None` if it follows from several.
+fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> {
+    let is_given = |name: &String| call.contains(name.as_str()).unwrap_or(false);
+    let head = quantity.strip_prefix("number of ").unwrap_or(quantity);
+    let marks = [" (", " of ", " beyond ", " below ", " in periods", " along an axis"];
+    let cut = marks.iter().filter_map(|mark| head.find(mark)).min();
+    let head = head[..cut.unwrap_or(head.len())].replace(' ', "_");
+    let spellings = ["", "max_"].map(|prefix| format!("{prefix}{head}"));
+    let plurals = ["s", "_torque", "_torques"].map(|suffix| format!("{head}{suffix}"));
+    let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
+    let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
+    // What is illegal of one of many comes from the argument that holds them.
+    let containers = ["basins", "transients", "ranges", "axes"];
+    spellings
+        .into_iter()
+        .chain(plurals)
+        .chain(ranged.map(|_| "ranges".to_owned()))
+        .chain(others.chain(&containers).map(|name| (*name).to_owned()))
+        .find(is_given)
+}
+
+/// The exception of an error, with the name that the call has for the quantity it is about.
+pub(crate) fn of_call(py: Python<'_>, error: Error, call: &Bound<'_, PyDict>) -> PyErr {
+    let (Error::OutOfRange { field, value, legal }
+    | Error::Core(CoreError::OutOfRange { field, value, legal })) = error
+    else {
+        return of(py, error);
+    };
+    match argument(field, call) {
+        Some(name) => named(py, &name, value, legal),
+        None => {
+            let message = format!("{error}; it follows from several arguments");
+            let (quantity, range) = (field, legal);
+            raise(py, message, Raised::Invalid("out-of-range-together", details![quantity, value, range]))
         }
-        Some(Told::Derived { quantity, value, legal: range, of }) => {
-            let arguments = of.join(", ");
-            let message = format!("{error}; it follows from {arguments}");
-            let details = details![quantity, value, range];
-            let details = details.into_iter().chain([("arguments", Detail::Text(arguments))]);
-            raise(py, message, Raised::Invalid("out-of-range-together", details.collect()))
-        }
-        None => raise(py, error.to_string(), of_model(error)),
     }
 }
 
+/// The exception of an argument outside its range.
+pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &'static str) -> PyErr {
+    // The words of the library for a value and its range.
+    let message = Error::OutOfRange { field: "", value, legal }.to_string();
+    raise(py, format!("{field}{message}"), Raised::OutOfRange(field.to_owned(), value, legal))
+}
+
 /// The exception of a data sheet that cannot be read.
-pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError, names: &[Name]) -> PyErr {
+pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
     let number = |line: usize| Detail::Count(line as u64);
     let details = match error {
-        MotorFileError::Illegal { error: illegal, .. } => return of_named(py, *illegal, names),
+        MotorFileError::Illegal { error: illegal, .. } => return of(py, *illegal),
         MotorFileError::Syntax { line, column, .. } => {
             vec![("line", number(*line)), ("column", number(*column))]
         }
@@ -245,12 +295,6 @@ pub(crate) fn invalid_text(py: Python<'_>, error: &dyn std::error::Error) -> PyE
 pub(crate) fn unreadable(py: Python<'_>, error: &serde_json::Error) -> PyErr {
     let (line, column) = (error.line(), error.column());
     raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text", details![line, column]))
-}
-
-/// The exception of what is no text at all: half of a pair of surrogates is in it.
-pub(crate) fn no_unicode(py: Python<'_>, position: usize) -> PyErr {
-    let message = format!("the text cannot be read: its character {position} is none of Unicode");
-    raise(py, message, Raised::Invalid("text", details![position]))
 }
 
 /// A number outside its range, which the types of Rust would not have let through.
