@@ -46,7 +46,7 @@ impl From<&str> for Detail {
 
 /// A class of `bouncing_disk._errors` and what it is called with after its message.
 enum Raised {
-    OutOfRange(String, f64, &'static str),
+    OutOfRange(String, f64, String),
     TooLarge(&'static str, u64, u64),
     /// Arguments that do not fit together.
     Invalid(&'static str, Vec<(&'static str, Detail)>),
@@ -62,7 +62,9 @@ macro_rules! details {
 fn of_core(error: CoreError) -> Raised {
     use Raised::{Computation, Invalid, OutOfRange, TooLarge};
     match error {
-        CoreError::OutOfRange { field, value, legal } => OutOfRange(field.to_owned(), value, legal),
+        CoreError::OutOfRange { field, value, legal } => {
+            OutOfRange(field.to_owned(), value, legal.to_owned())
+        }
         CoreError::TooLarge { what, count, limit } => TooLarge(what, count, limit),
         CoreError::NoLiftOff { phase, peak_acceleration } => {
             Computation("no-lift-off", details![phase, peak_acceleration])
@@ -110,7 +112,7 @@ fn of_model(error: Error) -> Raised {
     use Raised::{Computation, FitRefused, Invalid, OutOfRange};
     match error {
         Error::Core(error) => of_core(error),
-        Error::OutOfRange { field, value, legal } => OutOfRange(field.to_owned(), value, legal),
+        Error::OutOfRange { field, value, legal } => OutOfRange(field.to_owned(), value, legal.to_owned()),
         Error::NeverLeaves { peak_acceleration } => Computation("never-leaves", details![peak_acceleration]),
         Error::SlipTooLong { duration, limit } => Computation("slip-too-long", details![duration, limit]),
         Error::NotShared { field, one, other } => Invalid("not-shared", details![field, one, other]),
@@ -217,9 +219,13 @@ const ARGUMENTS: [(&str, &[&str]); 23] = [
 fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> {
     let is_given = |name: &String| call.contains(name.as_str()).unwrap_or(false);
     let head = quantity.strip_prefix("number of ").unwrap_or(quantity);
-    let marks = [" (", " of ", " beyond ", " below ", " in periods", " along an axis"];
+    let marks = [" (", " of ", " from ", " beyond ", " below ", " in periods", " along an axis"];
     let cut = marks.iter().filter_map(|mark| head.find(mark)).min();
     let head = head[..cut.unwrap_or(head.len())].replace(' ', "_");
+    // That of the map, which is no argument of its methods.
+    if quantity.starts_with("restitution of ") {
+        return Some(head);
+    }
     let spellings = ["", "max_"].map(|prefix| format!("{prefix}{head}"));
     let plurals = ["s", "_torque", "_torques"].map(|suffix| format!("{head}{suffix}"));
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
@@ -241,21 +247,58 @@ pub(crate) fn of_call(py: Python<'_>, error: Error, call: &Bound<'_, PyDict>) ->
     else {
         return of(py, error);
     };
-    match argument(field, call) {
-        Some(name) => named(py, &name, value, legal),
-        None => {
-            let message = format!("{error}; it follows from several arguments");
-            let (quantity, range) = (field, legal);
-            raise(py, message, Raised::Invalid("out-of-range-together", details![quantity, value, range]))
+    let Some(name) = argument(field, call) else {
+        let message = format!("{error}; it follows from several arguments");
+        let given = call.iter().filter(|(_, value)| !value.is_none()).map(|(name, _)| name.to_string());
+        let arguments = given.filter(|name| name != "self").collect::<Vec<_>>().join(", ");
+        let (quantity, range, arguments) = (field, legal, arguments.as_str());
+        let details = details![quantity, value, range, arguments];
+        return raise(py, message, Raised::Invalid("out-of-range-together", details));
+    };
+    // The caller's number where the library has it in other units, and its range in those of the caller.
+    let given = call.get_item(&name).ok().flatten().and_then(|given| given.extract::<f64>().ok());
+    match given.filter(|given| *given != value) {
+        Some(given) => {
+            let legal = in_unit(legal, given / value, unit(&name)).unwrap_or(legal.to_owned());
+            named(py, &name, given, &legal)
         }
+        None => named(py, &name, value, legal),
     }
 }
 
+/// The unit of an argument that the library has in another one.
+fn unit(argument: &str) -> &'static str {
+    match argument {
+        "gap" => " m",
+        "relative_velocity" => " m/s",
+        "angular_speed" => " rad/s",
+        "duration" => " s",
+        "load_torque" => " N m",
+        _ => "",
+    }
+}
+
+/// An interval such as `(0, 1e17] (units of g/omega^2)` in another unit, of which the library's is `one`;
+/// `None` of what is no interval of two numbers. Six digits are enough to see which end is passed.
+fn in_unit(interval: &str, one: f64, unit: &str) -> Option<String> {
+    let (low, rest) = interval.split_once(", ")?;
+    let (high, _) = rest.split_at(rest.find([']', ')'])?);
+    let opens = low.get(..1).filter(|bracket| one.is_normal() && ["[", "("].contains(bracket))?;
+    let end = |text: &str| {
+        let rounded = format!("{:.5e}", text.parse::<f64>().ok()? * one);
+        let text = format!("{:?}", rounded.parse::<f64>().ok()?);
+        Some(text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned))
+    };
+    let closes = &rest[high.len()..=high.len()];
+    Some(format!("{opens}{}, {}{closes}{unit}", end(&low[1..])?, end(high)?))
+}
+
 /// The exception of an argument outside its range.
-pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &'static str) -> PyErr {
+pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyErr {
     // The words of the library for a value and its range.
-    let message = Error::OutOfRange { field: "", value, legal }.to_string();
-    raise(py, format!("{field}{message}"), Raised::OutOfRange(field.to_owned(), value, legal))
+    let message = Error::OutOfRange { field: "", value, legal: "" }.to_string();
+    let message = format!("{field}{message}{legal}");
+    raise(py, message, Raised::OutOfRange(field.to_owned(), value, legal.to_owned()))
 }
 
 /// The exception of a data sheet that cannot be read.

@@ -83,11 +83,33 @@ class Parameters:
     @classmethod
     def from_json(cls: type[Own], json: str) -> Own:
         """The object of such a text."""
+        text = readable(json)
         try:
-            return cls.from_dict(json_module.loads(json))
+            return cls.from_dict(json_module.loads(text, parse_constant=_refused))
         except json_module.JSONDecodeError as error:
-            where: dict[str, float | int | str] = {"line": error.lineno, "column": error.colno}
-            raise InvalidError(f"the text cannot be read: {error}", "text", where) from None
+            raise _unreadable(error, line=error.lineno, column=error.colno) from None
+        except (TypeError, RecursionError) as error:
+            raise _unreadable(error) from None
+
+
+def _unreadable(error: Exception, **where: float | int | str) -> InvalidError:
+    return InvalidError(f"the text cannot be read: {error}", "text", where)
+
+
+def _refused(constant: str) -> float:
+    """JSON has no NaN and no infinity."""
+    raise _unreadable(ValueError(f"{constant} is no number"))
+
+
+def readable(text: str) -> str:
+    """The text, unless half of a pair of surrogates is in it, which no reader takes."""
+    if not isinstance(text, str):
+        raise TypeError(f"must be a text, and is {type(text).__name__}")
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise _unreadable(error, position=error.start) from None
+    return text
 
 
 def _of(cls: Any, arguments: dict[str, Any]) -> Any:
@@ -115,7 +137,9 @@ def _same(one: Any, other: Any) -> bool:
 
 
 def _shown(value: Any) -> str:
-    """A value in a line of text: an array by its type and shape, if it is long."""
+    """A value in a line of text: long arrays by their type and shape, and many results by their number."""
+    if isinstance(value, tuple) and any(isinstance(item, (Result, np.ndarray)) for item in value):
+        return f"<{len(value)} {type(value[0]).__name__}>"
     if not isinstance(value, np.ndarray):
         return repr(value)
     return repr(value.tolist()) if value.size <= 4 else f"<{value.dtype} array {value.shape}>"
@@ -148,7 +172,7 @@ class Stored(Result):
         """Whether the library holds the same."""
         return self._native == other._native if isinstance(other, type(self)) else NotImplemented
 
-    __hash__: ClassVar[None]  # type: ignore[assignment]
+    __hash__: ClassVar[None]
 
     def to_json(self) -> str:
         """The result as JSON, as the Rust library stores it."""
@@ -157,7 +181,7 @@ class Stored(Result):
     @classmethod
     def from_json(cls: type[Kept], json: str) -> Kept:
         """The result of such a text."""
-        return getattr(native, cls.__name__).from_json(json)
+        return getattr(native, cls.__name__).from_json(readable(json))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (type(self), self.to_json())

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import (
@@ -20,6 +20,7 @@ from bouncing_disk._base import (
     Parameters,
     Progress,
     Result,
+    readable,
 )
 from bouncing_disk._system import System
 
@@ -234,7 +235,7 @@ class Motor(Parameters):
         >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
         True
         """
-        return Motor._of(native.known_motor("toml", toml))
+        return Motor._of(native.known_motor("toml", readable(toml)))
 
     def to_json(self) -> str:
         """The data sheet as the JSON that the Rust library and its command line read."""
@@ -243,7 +244,7 @@ class Motor(Parameters):
     @classmethod
     def from_json(cls, json: str) -> Motor:
         """The motor of such a text; errors name the line."""
-        return Motor._of(native.known_motor("json", json))
+        return Motor._of(native.known_motor("json", readable(json)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -319,18 +320,10 @@ def operating_point(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OperatingPoints(Result):
-    """How motors run under their loads; all arrays have the same shape.
+    """How motors run under their loads: arrays of one shape, as of :class:`OperatingPoint`.
 
     Attributes:
-        load_torque, speed, speed_error, mechanical_power, mechanical_power_error: as of
-            :class:`OperatingPoint`.
-        input_power, input_power_error, restitution_loss, restitution_loss_error: as of
-            :class:`OperatingPoint`.
-        friction_loss, friction_loss_error, efficiency, efficiency_error, perturbation_power: as of
-            :class:`OperatingPoint`.
-        energy_residual, averaged_time, start_up, acceleration: as of :class:`OperatingPoint`.
-        impacts: impacts of all members.
-        status: A place in :attr:`STATUSES`.
+        status: a place in :attr:`STATUSES`.
     """
 
     STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway")
@@ -359,19 +352,7 @@ class OperatingPoints(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TorqueSpeedCurve(OperatingPoints):
-    """How a motor runs under n loads; all arrays have the shape (n,).
-
-    Attributes:
-        load_torque, speed, speed_error, mechanical_power, mechanical_power_error: as of
-            :class:`OperatingPoint`.
-        input_power, input_power_error, restitution_loss, restitution_loss_error: as of
-            :class:`OperatingPoint`.
-        friction_loss, friction_loss_error, efficiency, efficiency_error, perturbation_power: as of
-            :class:`OperatingPoint`.
-        energy_residual, averaged_time, start_up, acceleration: as of :class:`OperatingPoint`.
-        impacts: impacts of all members.
-        status: A place in :attr:`STATUSES`.
-    """
+    """How a motor runs under n loads; all arrays have the shape (n,)."""
 
     def names(self) -> list[str]:
         """The status of each point in words, those of :attr:`STATUSES`."""
@@ -541,15 +522,6 @@ class MotorMap(OperatingPoints):
     Attributes:
         motor: the motor that is varied.
         axes: the parameters and their values (SI), shape (n,).
-        load_torque, speed, speed_error, mechanical_power, mechanical_power_error: as of
-            :class:`OperatingPoint`.
-        input_power, input_power_error, restitution_loss, restitution_loss_error: as of
-            :class:`OperatingPoint`.
-        friction_loss, friction_loss_error, efficiency, efficiency_error, perturbation_power: as of
-            :class:`OperatingPoint`.
-        energy_residual, averaged_time, start_up, acceleration: as of :class:`OperatingPoint`.
-        impacts: impacts of all members.
-        status: A place in :attr:`STATUSES`.
     """
 
     motor: Motor

@@ -165,10 +165,9 @@ class System(Parameters):
     @classmethod
     def from_dict(cls, parameters: dict[str, Any]) -> System:
         """The system of such a dictionary."""
-        match parameters:
-            case {"platform": {**platform}, "disk": {**disk}} if len(parameters) == 2:
-                return System._of({**platform, **disk})
-        raise TypeError("a system is a dictionary of two: its platform and its disk")
+        if not isinstance(parameters, dict) or set(parameters) != {"platform", "disk"}:
+            raise TypeError("a system is a dictionary of two: its platform and its disk")
+        return System._of({**parameters["platform"], **parameters["disk"]})
 
 
 class ChatterCut(Parameters):

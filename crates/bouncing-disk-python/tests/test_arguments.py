@@ -1,17 +1,145 @@
-"""Seams: nothing, one, NaN, infinity, denormal and huge numbers, wrong types and shapes, arrays of all kinds."""
+"""Arguments of all kinds: legal ones are the same numbers, others are refused by name, and no call panics."""
 
 from __future__ import annotations
 
+import inspect
+import math
 import random
+import re
 import time
 from collections.abc import Callable
 from typing import Any
 
+import bouncing_disk as bd
 import numpy as np
 import pytest
-
-import bouncing_disk as bd
 from good_calls import MAP, MOTOR, STARTS, TOSS, good
+
+Call = tuple[Callable[..., Any], list[Any], dict[str, Any]]
+
+CALLS: list[Call] = good()
+
+#: What stands for a number: it is too small, too large, or none.
+NUMBERS = [math.nan, -1.0, 0.0, 1e308, -1e308, math.inf, 5e-324]
+COUNTS = [-1, 0, 2**70, -(2**70)]
+PAIRS = [(math.nan, 1.0), (1.0, 0.0), (-1.0, -0.5), (-1e308, 1e308), (0.5, 1e308), (0.0, math.nan)]
+
+
+def spoilt(value: Any) -> list[Any]:
+    """The same kind of argument with other numbers."""
+    if isinstance(value, bool) or value is None or isinstance(value, str):
+        return []
+    if isinstance(value, int):
+        return COUNTS
+    if isinstance(value, float):
+        return NUMBERS
+    if isinstance(value, tuple) and len(value) == 2 and all(isinstance(item, float) for item in value):
+        return PAIRS
+    if isinstance(value, (list, np.ndarray)) and len(value) and isinstance(value[0], (int, float)):
+        row = np.asarray(value, dtype=float)
+        return [[], *(np.concatenate([row[:-1], [number]]) for number in NUMBERS), row[:1], row[::-1]]
+    if isinstance(value, dict):
+        return [{**value, key: other} for key, own in value.items() for other in spoilt(own)]
+    return []
+
+
+def is_argument(name: str, call: Callable[..., Any], keywords: dict[str, Any]) -> bool:
+    # The restitution of a map is that of no argument of its methods.
+    return name in {*inspect.signature(call).parameters, *keywords, "self", "restitution"}
+
+
+@pytest.mark.parametrize(
+    ("call", "positional", "keywords", "name"),
+    [
+        pytest.param(call, positional, keywords, name, id=f"{call.__qualname__}-{name}")
+        for call, positional, keywords in CALLS
+        for name, value in keywords.items()
+        if spoilt(value)
+    ],
+)
+def test_an_error_names_an_argument_and_its_value(
+    call: Callable[..., Any], positional: list[Any], keywords: dict[str, Any], name: str
+) -> None:
+    for value in spoilt(keywords[name]):
+        try:
+            call(*positional, **{**keywords, name: value})
+        except bd.OutOfRangeError as error:
+            assert is_argument(error.field, call, keywords), (value, error.field, str(error))
+            assert str(error).startswith(f"{error.field} = "), str(error)
+            if error.field == name and isinstance(value, (int, float)):
+                same = error.value == float(value) or (math.isnan(error.value) and math.isnan(value))
+                assert same, (value, error.value, str(error))
+        except bd.InvalidError as error:
+            if error.kind == "out-of-range-together":
+                arguments = str(error.details["arguments"]).split(", ")
+                assert all(is_argument(one, call, keywords) for one in arguments), arguments
+                assert name in arguments, (name, str(error))
+        except (bd.BouncingDiskError, ValueError):
+            pass
+        except TypeError as error:
+            # These are counts, which floats are not.
+            assert name in ("seeds", "distances"), str(error)
+
+
+def test_no_call_is_left_out() -> None:
+    # What takes a whole object, a text or a file, and no number.
+    plain = {"threads", "of_system", "read_speeds", "sweep", "read_sweep", "to_json", "to_dict", "from_json"}
+    plain |= {"from_dict", "pizza_toss", "motor", "paper", "events", "report", "warnings", "names", "reasons"}
+    plain |= {"of", "column", "share", "branch_end_names", "to_xarray", "to_netcdf"}
+    surface = set()
+    for name in bd.__all__:
+        thing = getattr(bd, name)
+        if inspect.isfunction(thing):
+            surface.add(name)
+        elif inspect.isclass(thing) and not issubclass(thing, (Exception, tuple)):
+            surface |= {member for member in vars(thing) if inspect.isfunction(vars(thing)[member])}
+    missing = {name for name in surface if not name.startswith("_")} - {call.__name__ for call, _, _ in CALLS}
+    assert missing - plain == set()
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "told", "call"),
+    [
+        ("normalised_speed", -1.0, r"\[0, .*", lambda: bd.orbit_diagram(axial_forcing=0.5, **{**STARTS, "normalised_speed": -1.0})),
+        ("impact_phase", math.inf, ".*", lambda: MAP.step(impact_phase=math.inf, axial_impact_velocity=-1.0)),
+        ("speed_range", -1.0, ".*", lambda: bd.basins(MAP, speed_range=(-1.0, 1.0))),
+        ("phase_range", 0.0, ".*", lambda: bd.basins(MAP, phase_range=(1.0, 0.0))),
+        ("friction", 0.5, ".*", lambda: bd.best_toss(friction=(0.7, 0.5))),
+        ("restitution", 1.5, r"\[0, 1\)", lambda: bd.System.from_json(TOSS.replace(restitution=0.125).to_json().replace("0.125", "1.5"))),
+        # A value and its range have the unit of the argument.
+        ("gap", -1.0, r"\[[0-9.e-]+, [0-9.e+]+\] m", lambda: bd.simulate(TOSS, gap=-1.0)),
+        ("relative_velocity", 1e300, r"\[-[0-9.e+]+, [0-9.e+]+\] m/s", lambda: bd.multi_toss(TOSS, gap=1.0, relative_velocity=1e300)),
+        ("relative_velocity", -1.0, r"\[0, inf\) m/s", lambda: bd.simulate(TOSS, relative_velocity=-1.0)),
+        ("angular_speed", 1e308, r"\[-[0-9.e+]+, [0-9.e+]+\] rad/s", lambda: bd.simulate(TOSS, angular_speed=1e308)),
+        ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.transient(TOSS, duration=1e300)),
+        ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.transients([TOSS, bd.System.motor()], duration=1e300)),
+        ("load_torque", 1e200, r"\[-[0-9.e+]+, [0-9.e+]+\] N m", lambda: bd.operating_point(MOTOR, load_torque=1e200)),
+        # Whole numbers stand without a fraction.
+        ("recorded", -1.0, r"\[0, 4294967295\]", lambda: bd.orbit_diagram(axial_forcing=0.5, **STARTS, recorded=-1)),
+        ("starts", 300_000.0, r"\[0, 262144\]", lambda: bd.attractors(MAP, starts=300_000)),
+        ("max_points", 2e7, r"\[2, 1000000\]", lambda: bd.continued(MAP, ORBIT, parameter_range=(0.4, 0.5), max_points=20_000_000)),
+    ],
+)  # fmt: skip
+def test_the_names_numbers_and_ranges_of_some(
+    field: str, value: float, told: str, call: Callable[[], Any]
+) -> None:
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        call()
+    error = refused.value
+    assert (error.field, error.value) == (field, value) and re.fullmatch(told, error.range), error.range
+    whole = f"{value:.0f}" if value == round(value) and abs(value) < 1e15 else ".*"
+    assert re.fullmatch(rf"{field} = {whole} is outside its legal range {re.escape(error.range)}", str(error))
+
+
+def test_the_end_of_a_range_in_si_is_that_of_the_library() -> None:
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.multi_toss(TOSS, gap=1.0, relative_velocity=-1e300)
+    unit = TOSS.preload_acceleration / TOSS.angular_frequency
+    ends = [float(end) for end in refused.value.range.strip("[] m/s").split(", ")]
+    assert ends == pytest.approx([-1e9 * unit, 1e9 * unit], rel=1e-5)
+
+
+ORBIT: Any = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
 
 
 def test_nothing_and_one_are_numbers_of_orbits() -> None:
@@ -19,22 +147,20 @@ def test_nothing_and_one_are_numbers_of_orbits() -> None:
     assert nothing.offsets.tolist() == [0]
     assert len(nothing.impact_phase) == 0 and len(nothing.column()) == 0
     assert bd.verdicts(axial_forcing=[], **STARTS).names() == []
+    assert bd.lyapunov_spectra(axial_forcing=[], **STARTS).names() == []
     assert bd.lyapunov_exponents(axial_forcing=np.array([]), **STARTS).shape == (0,)
     one = bd.orbit_diagram(axial_forcing=0.45, recorded=1, **STARTS)
     assert one.offsets.tolist() == [0, 1]
     assert one == bd.orbit_diagram(axial_forcing=[0.45], recorded=1, **STARTS)
     assert bd.orbit_diagram(axial_forcing=0.45, recorded=0, **STARTS).offsets.tolist() == [0, 0]
     assert bd.transients([], duration=0.01, intervals=5).speeds.shape == (5, 0)
-
-
-def test_a_disk_that_rests_for_ever_has_fewer_impacts() -> None:
     resting = bd.orbit_diagram(axial_forcing=[0.2, 0.45], recorded=10, **STARTS)
     assert np.diff(resting.offsets).tolist() == [0, 10]
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, -1.0, 1e300])
 @pytest.mark.parametrize("field", ["axial_forcing", "restitution"])
-def test_numbers_outside_their_range_are_told(field: str, value: float) -> None:
+def test_numbers_outside_their_range_are_named(field: str, value: float) -> None:
     for call in (bd.orbit_diagram, bd.verdicts, bd.lyapunov_exponents):
         with pytest.raises(bd.OutOfRangeError) as refused:
             call(**{"axial_forcing": 0.5, **STARTS, field: [0.4, value]})
@@ -46,11 +172,12 @@ def test_numbers_outside_their_range_are_told(field: str, value: float) -> None:
 def test_denormal_numbers_are_numbers(value: float) -> None:
     assert bd.verdicts(axial_forcing=value, **STARTS).names() == ["at-rest"]
     assert bd.ImpactMap(axial_forcing=value, restitution=0.5).restitution == 0.5
-    with pytest.raises(bd.InvalidError, match="follows from .*contact_radius"):
+    with pytest.raises(bd.InvalidError) as refused:
         TOSS.replace(contact_radius=value)
+    assert "contact_radius" in str(refused.value.details["arguments"])
 
 
-def test_counts_that_are_none_are_told() -> None:
+def test_counts_that_are_none_are_refused() -> None:
     for count in (-1, -(2**70), 2**70, 2**64):
         for call in (
             lambda count=count: bd.orbit_diagram(axial_forcing=0.5, recorded=count, **STARTS),
@@ -63,7 +190,7 @@ def test_counts_that_are_none_are_told() -> None:
             assert refused.value.value == pytest.approx(float(count))
     no_counts: list[Any] = [1.0, 1.5, "1", None, [1], np.array([1, 2])]
     for none in no_counts:
-        with pytest.raises(TypeError):
+        with pytest.raises(TypeError, match="recorded"):
             bd.orbit_diagram(axial_forcing=0.5, recorded=none, **STARTS)
     assert len(bd.orbit_diagram(axial_forcing=0.5, recorded=np.int8(3), **STARTS).impact_phase) == 3
 
@@ -83,49 +210,27 @@ def test_arrays_of_all_kinds_are_the_same_numbers() -> None:
     contiguous = np.array([0.5, 0.25, 0.5])
     read_only = contiguous.copy()
     read_only.flags.writeable = False
-    kinds: list[Any] = [
-        (0.5, 0.25, 0.5),
-        contiguous,
-        read_only,
-        np.array([0.5, 9.0, 0.25, 9.0, 0.5])[::2],
-        contiguous[::-1],
-        np.asfortranarray(np.array([[0.5, 1.0], [0.25, 1.0], [0.5, 1.0]]))[:, 0],
-        contiguous.astype(">f8"),
-        contiguous.astype(np.float32),
-        contiguous.astype(np.float16),
-        contiguous.astype(np.longdouble),
-        np.array([0.5, 0.25, 0.5, 0.0])[:3],
-        np.lib.stride_tricks.as_strided(
-            np.frombuffer(b"\0" + contiguous.tobytes(), np.uint8)[1:].view()
-        ).view("f8"),
-    ]
+    unaligned = np.frombuffer(b"\0" + contiguous.tobytes(), np.uint8)[1:].view("f8")
+    kinds: list[Any] = [(0.5, 0.25, 0.5), contiguous, read_only, contiguous[::-1], unaligned]
+    kinds += [np.array([0.5, 9.0, 0.25, 9.0, 0.5])[::2], np.array([0.5, 0.25, 0.5, 0.0])[:3]]
+    kinds += [np.asfortranarray(np.array([[0.5, 1.0], [0.25, 1.0], [0.5, 1.0]]))[:, 0]]
+    kinds += [contiguous.astype(kind) for kind in (">f8", np.float32, np.float16, np.longdouble)]
     for kind in kinds:
         assert bd.orbit_diagram(axial_forcing=kind, **STARTS) == expected
     assert read_only.tolist() == [0.5, 0.25, 0.5]
     whole = bd.verdicts(axial_forcing=np.array([1], dtype=np.uint8), impacts=64, **STARTS)
     assert whole.axial_forcing.tolist() == [1.0]
+    forcings = np.array([0.4, 0.5])
+    found = bd.orbit_diagram(axial_forcing=forcings, **STARTS)
+    forcings[:] = 7.0
+    assert found.axial_forcing.tolist() == [0.4, 0.5]
 
 
 @pytest.mark.parametrize(
     "value",
-    [
-        "0.5",
-        b"0.5",
-        None,
-        [None],
-        ["a"],
-        1j,
-        [1j],
-        [True],
-        {},
-        {0.5},
-        object(),
-        [object()],
-        np.array("x"),
-        lambda: 0,
-    ],
+    ["0.5", b"0.5", None, [None], ["a"], 1j, [1j], [True], {}, {0.5}, object(), [object()], np.array("x"), len],
     ids=repr,
-)
+)  # fmt: skip
 def test_what_is_no_number_is_a_type_error(value: object) -> None:
     with pytest.raises(TypeError):
         bd.orbit_diagram(axial_forcing=value, **STARTS)  # type: ignore[arg-type]
@@ -135,29 +240,31 @@ def test_what_is_no_number_is_a_type_error(value: object) -> None:
 def test_arrays_of_other_shapes_are_value_errors(value: Any) -> None:
     with pytest.raises(ValueError):
         bd.orbit_diagram(axial_forcing=value, **STARTS)
-
-
-def test_lengths_that_differ_are_told_by_name() -> None:
     with pytest.raises(ValueError, match="axial_forcing and impact_phase .* 2 and 3"):
-        bd.orbit_diagram(
-            axial_forcing=[0.4, 0.5], restitution=0.5, impact_phase=[1, 2, 3], normalised_speed=1.3
-        )
+        bd.orbit_diagram(axial_forcing=[0.4, 0.5], **{**STARTS, "impact_phase": [1, 2, 3]})
 
 
-def test_an_array_of_the_caller_is_not_kept() -> None:
-    forcings = np.array([0.4, 0.5])
-    found = bd.orbit_diagram(axial_forcing=forcings, **STARTS)
-    forcings[:] = 7.0
-    assert found.axial_forcing.tolist() == [0.4, 0.5]
+def test_masked_values_are_refused() -> None:
+    times = np.linspace(0.01, 5.0, 200)
+    speeds: Any = np.ma.array(30.0 * (1.0 - np.exp(-times / 0.8)))
+    expected = bd.fit_exponential(times=times, speeds=speeds.data).steady_speed
+    assert bd.fit_exponential(times=times, speeds=speeds).steady_speed == expected
+    speeds[50] = np.ma.masked
+    with pytest.raises(TypeError, match="masked values"):
+        bd.fit_exponential(times=times, speeds=speeds)
+    with pytest.raises(TypeError, match="masked values"):
+        bd.orbit_diagram(axial_forcing=np.ma.array([0.45, 0.5], mask=[True, False]), **STARTS)
 
 
-def test_names_that_are_unknown_are_told() -> None:
+def test_words_and_objects_that_are_wrong_are_named() -> None:
+    wrong: Any = "rest"
     with pytest.raises(ValueError, match="initial_spin"):
-        bd.single_toss(TOSS, initial_spin="rest")  # type: ignore[arg-type]
-    orbit = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
-    assert orbit is not None
+        bd.single_toss(TOSS, initial_spin=wrong)
     with pytest.raises(ValueError, match="parameter"):
-        bd.continued(MAP, orbit, parameter="friction", parameter_range=(0.1, 0.6))  # type: ignore[arg-type]
+        bd.continued(MAP, ORBIT, parameter=wrong, parameter_range=(0.1, 0.6))
+    for call, name in ((bd.single_toss, "system"), (bd.operating_point, "motor"), (bd.basins, "impact_map")):
+        with pytest.raises(TypeError, match=f"'{name}' must be a"):
+            call(wrong)  # type: ignore[operator]
 
 
 def test_computations_without_a_result_say_why() -> None:
@@ -174,34 +281,21 @@ def test_computations_without_a_result_say_why() -> None:
 
 # What a fuzzed call is given in place of a good argument.
 BAD: list[Callable[[random.Random], Any]] = [
-    lambda r: None,
+    lambda r: r.choice([None, True, 1j, {}, [], object(), bd.System, (0.0, 1.0), (1.0, 0.0, 2.0)]),
     lambda r: r.choice(["", "x", "0.5", "axial_forcing", b"\0", "\0", "\ud800"]),
     lambda r: r.choice([np.nan, np.inf, -np.inf, 0.0, -0.0, 5e-324, -1e300, 1.7e308, 1e-300]),
     lambda r: r.choice([0, -1, 1, 2**31, 2**32, 2**63, 2**64, -(2**63), 10**400]),
     lambda r: r.random() * 10.0 ** r.randint(-12, 12),
-    lambda r: [],
     lambda r: [r.random() for _ in range(r.randint(0, 4))],
     lambda r: [[1.0, 2.0], [3.0]],
     lambda r: np.array([r.choice([np.nan, np.inf, -1.0, 0.5]) for _ in range(r.randint(0, 3))]),
     lambda r: np.zeros((r.randint(0, 3),) * r.randint(0, 4)),
     lambda r: np.arange(12.0).reshape(3, 4)[:, :: r.choice([-1, 2])],
     lambda r: np.array(["a", None, 1.0], dtype=object),
-    lambda r: np.array([1 + 1j]),
     lambda r: np.array(["2020-01-01"], dtype="datetime64[D]"),
     lambda r: np.ma.masked_array([1.0, 2.0], mask=[True, False]),
-    lambda r: np.float32(r.random()),
     lambda r: np.zeros(3, dtype=[("a", "f8")]),
-    lambda r: (0.0, 1.0),
-    lambda r: (1.0, 0.0, 2.0),
-    lambda r: {},
-    lambda r: object(),
-    lambda r: bd.System,
-    lambda r: TOSS,
-    lambda r: MAP,
-    lambda r: MOTOR,
-    lambda r: bd.ChatterCut.paper(),
-    lambda r: True,
-    lambda r: 1j,
+    lambda r: r.choice([TOSS, MAP, MOTOR, bd.ChatterCut.paper()]),
     lambda r: iter([1.0]),
     lambda r: lambda *numbers: None,
     lambda r: memoryview(b"abc"),
@@ -218,17 +312,13 @@ LONG = {
 
 
 # What a good number or a good array of numbers is as good as.
-NUMBERS: list[Callable[[Any], Any]] = [
-    np.float64,
-    lambda number: np.array(number),
-    lambda number: np.array([number])[0],
-]
-ARRAYS: list[Callable[[Any], Any]] = [
+SAME_NUMBERS: list[Callable[[Any], Any]] = [np.float64, np.array, lambda number: np.array([number])[0]]
+SAME_ARRAYS: list[Callable[[Any], Any]] = [
     list,
     tuple,
+    np.asfortranarray,
     lambda array: np.repeat(array, 2)[::2],
     lambda array: np.array(array[::-1])[::-1],
-    lambda array: np.asfortranarray(array),
     lambda array: np.array(array, dtype=">f8"),
     lambda array: np.frombuffer(np.array(array).tobytes()),  # It is read-only.
 ]
@@ -237,17 +327,17 @@ ARRAYS: list[Callable[[Any], Any]] = [
 def dressed(value: Any, generator: random.Random) -> Any:
     """The same value as another type, or in another layout, where it is a float or a row of floats."""
     if type(value) is float:
-        return generator.choice(NUMBERS)(value)
+        return generator.choice(SAME_NUMBERS)(value)
     if isinstance(value, list) and value and all(type(one) is float for one in value):
         value = np.array(value)
     row = isinstance(value, np.ndarray) and value.dtype == np.float64 and value.ndim == 1
-    return generator.choice(ARRAYS)(value) if row else value
+    return generator.choice(SAME_ARRAYS)(value) if row else value
 
 
 def test_good_calls_work_with_numbers_and_arrays_of_any_kind() -> None:
     generator = random.Random(11)
     tried = 0
-    for call, positional, keywords in good():
+    for call, positional, keywords in CALLS:
         try:
             call(*positional, **keywords)
         except (bd.ComputationError, bd.FitRefusedError):
@@ -268,17 +358,16 @@ class Wrong(Exception):
 def test_a_fuzzed_call_raises_or_works(part: int) -> None:
     """A thousand calls with one or two arguments spoilt, or given as another type: never a panic or a crash."""
     generator = random.Random(part)
-    calls = good()
     outcomes = {"worked": 0, "raised": 0}
     try:
         for _ in range(1000):
-            call, positional, keywords = generator.choice(calls)
+            call, positional, keywords = generator.choice(CALLS)
             positional, keywords = list(positional), dict(keywords)
             for _ in range(generator.choice([1, 1, 2])):
                 place = generator.randrange(len(positional) + len(keywords) + 1)
                 arguments = [*positional, *keywords.values(), None]
-                spoilt = generator.random() > 0.1
-                value = generator.choice(BAD)(generator) if spoilt else dressed(arguments[place], generator)
+                is_spoilt = generator.random() > 0.1
+                value = generator.choice(BAD)(generator) if is_spoilt else dressed(arguments[place], generator)
                 if place < len(positional):
                     positional[place] = value
                 elif place < len(positional) + len(keywords):
@@ -308,33 +397,3 @@ def test_a_fuzzed_call_raises_or_works(part: int) -> None:
     assert outcomes["raised"] > 300, outcomes
     # About one in ten is legal after all: a fuzz of which everything fails at once would reach nothing.
     assert outcomes["worked"] > 50, outcomes
-
-
-def test_an_orbit_with_strong_shear_has_a_radius_in_which_starts_end_on_it() -> None:
-    # Four impacts in two periods, beside period 1 at the forcing of Fig. 7(b).
-    bouncing = bd.ImpactMap(axial_forcing=0.486, restitution=0.5)
-    orbits = bd.periodic_orbits(bouncing, max_impacts=4, max_platform_periods=2)
-    stable = [orbit for orbit in orbits if orbit.is_stable]
-    assert sorted(orbit.period for orbit in stable) == [1, 4]
-    found = bd.basins(bouncing, phases=30, speeds=30, speed_range=(0.0, 5.0), known_orbits=stable)
-    all_found = bd.attractors(bouncing).basins(phases=30, speeds=30, speed_range=(0.0, 5.0))
-    assert len(np.unique(found.labels)) == 3
-    # The orbits come in another order.
-    assert [(found.labels == label).sum() for label in (1,)] == [(all_found.labels == 1).sum()]
-
-
-def test_masked_values_are_refused() -> None:
-    times = np.linspace(0.01, 5.0, 200)
-    speeds: Any = np.ma.array(30.0 * (1.0 - np.exp(-times / 0.8)))
-    expected = bd.fit_exponential(times=times, speeds=speeds.data).steady_speed
-    assert bd.fit_exponential(times=times, speeds=speeds).steady_speed == expected
-    speeds[50] = np.ma.masked
-    with pytest.raises(TypeError, match="masked values"):
-        bd.fit_exponential(times=times, speeds=speeds)
-    with pytest.raises(TypeError, match="masked values"):
-        bd.orbit_diagram(
-            axial_forcing=np.ma.array([0.45, 0.5], mask=[True, False]),
-            restitution=0.5,
-            impact_phase=1.2,
-            normalised_speed=1.3,
-        )
