@@ -8,22 +8,17 @@ for yours.
 Matplotlib is an optional dependency: ``pip install 'bouncing-disk[plot]'``.
 """
 
-from bouncing_disk.plot._dynamics import basins, orbit_diagram, rotation_diagram
+from bouncing_disk.plot._dynamics import basins, orbit_diagram
 from bouncing_disk.plot._frame import style
-from bouncing_disk.plot._motor import braking, motor_dependence, motor_transient, torque_speed
-from bouncing_disk.plot._toss import toss, toss_animation, toss_performance, toss_speed
+from bouncing_disk.plot._motor import motor_transient, torque_speed
+from bouncing_disk.plot._toss import toss, toss_animation
 
 __all__ = [
     "basins",
-    "braking",
-    "motor_dependence",
     "motor_transient",
     "orbit_diagram",
-    "rotation_diagram",
     "style",
     "torque_speed",
     "toss",
     "toss_animation",
-    "toss_performance",
-    "toss_speed",
 ]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from fractions import Fraction
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -94,31 +93,13 @@ def drawn_on_rows(
     axes: Sequence[Axes] | np.ndarray[Any, Any] | None, rows: int, height: float
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """The axes of a figure with panels above each other, which share their abscissa."""
-    return _drawn_on(axes, (rows, 1), (SINGLE_COLUMN, height), rows, sharex=True)
-
-
-def drawn_on_columns(
-    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None, columns: int, height: float
-) -> tuple[Figure, np.ndarray[Any, Any]]:
-    """The axes of a figure with panels beside each other, which have nothing in common."""
-    return _drawn_on(axes, (1, columns), (columns * SINGLE_COLUMN, height), columns)
-
-
-def _drawn_on(
-    axes: Axes | Sequence[Axes] | np.ndarray[Any, Any] | None,
-    grid: tuple[int, int],
-    size: tuple[float, float],
-    panels: int,
-    sharex: bool = False,
-) -> tuple[Figure, np.ndarray[Any, Any]]:
     if axes is None:
-        fig, new = pyplot().subplots(*grid, sharex=sharex, squeeze=False, figsize=size, layout="constrained")
-        for unused in new.flat[panels:]:
-            unused.remove()
-        return fig, new.flatten()[:panels]
+        size = (SINGLE_COLUMN, height)
+        fig, new = pyplot().subplots(rows, sharex=True, figsize=size, layout="constrained")
+        return fig, new
     given = np.asarray(axes, dtype=object).ravel()
-    if len(given) != panels:
-        raise ValueError(f"ax must be {panels} axes, not {len(given)}")
+    if len(given) != rows:
+        raise ValueError(f"ax must be {rows} axes, not {len(given)}")
     return _figure_of(given[0]), given
 
 
@@ -165,19 +146,6 @@ def labelled(words: str, unit: str) -> str:
     return f"{words} ({unit})" if unit else words
 
 
-def with_unit(value: float, unit: str) -> str:
-    """A number with its unit, in one that fits, for a text with mathematics."""
-    factor, fitting = unit_of(value, unit, least=0.99999)
-    if fitting.startswith("$"):
-        return f"${in_words(value)}$ {unit}".strip()
-    return f"${in_words(factor * value)}$ {fitting}".strip()
-
-
-def equation(symbol: str, value: float, unit: str) -> str:
-    """A symbol, its value and the unit, as a text with mathematics."""
-    return f"${symbol} = {with_unit(value, unit)[1:]}"
-
-
 def in_words(value: float, digits: int = 3) -> str:
     """A number of some digits, for a text between dollar signs."""
     rounded = float(f"{value:.{digits}g}")
@@ -199,21 +167,6 @@ def with_error(value: float, error: float) -> str:
     if digits > 6 or error > 0.3 * abs(value) or abs(value) >= 1e6:
         return rf"({in_words(value)} \pm {in_words(error, 1)})"
     return f"{value:.{digits}f}({error * 10**digits:.0f})"
-
-
-def of_pi(angle: float) -> str:
-    """An angle as a multiple of pi, such as 3 pi/8, for a text between dollar signs."""
-    share = angle / np.pi
-    if not np.isfinite(share):
-        return str(angle)
-    simple = Fraction(share).limit_denominator(12)
-    if abs(share - simple) > 1.0e-4 or abs(simple) > 99:
-        return in_words(share) + r"\pi"
-    if simple == 0:
-        return "0"
-    sign, above = "-" if simple < 0 else "", abs(simple.numerator)
-    below = "" if simple.denominator == 1 else f"/{simple.denominator}"
-    return f"{sign}{'' if above == 1 else above}" + r"\pi" + below
 
 
 def note(ax: Axes, words: str) -> None:
@@ -279,40 +232,3 @@ def whole_number(field: str, value: Any, least: int, most: int | None = None) ->
     if given < least or (most is not None and given > most):
         raise out_of_range(field, given, f"[{least}, {'infinity)' if most is None else f'{most}]'}")
     return given
-
-
-def finite_array(field: str, values: npt.ArrayLike, *, positive: bool = False) -> npt.NDArray[np.float64]:
-    """Finite numbers in one dimension; a single number is an array of one."""
-    try:
-        given = np.asarray(values)
-        if given.dtype.kind not in "biuf" and given.size > 0:
-            raise TypeError
-        array: npt.NDArray[np.float64] = np.atleast_1d(given.astype(np.float64))
-    except (TypeError, ValueError) as error:
-        raise TypeError(f"{field} must be an array of numbers") from error
-    if array.ndim != 1:
-        message = f"{field} has {array.ndim} dimensions; legal is one"
-        raise bd.InvalidError(message, "not-one-dimensional", {"field": field, "dimensions": array.ndim})
-    legal = np.isfinite(array) & ((array > 0.0) | (not positive))
-    if not legal.all():
-        worst = float(array[~legal][0])
-        raise out_of_range(field, worst, "(0, infinity)" if positive else "(-infinity, infinity)")
-    return array
-
-
-def rising_array(field: str, values: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Finite numbers, each above the one before."""
-    array = finite_array(field, values)
-    falls = np.flatnonzero(np.diff(array) <= 0.0)
-    if len(falls):
-        place = int(falls[0]) + 1
-        message = f"{field}[{place}] is {array[place]}, which is not above the one before"
-        raise bd.InvalidError(message, "not-rising", {"field": field, "index": place})
-    return array
-
-
-def same_length(fields: tuple[str, str], one: npt.NDArray[Any], other: npt.NDArray[Any]) -> None:
-    """Two arrays that belong together."""
-    if len(one) != len(other):
-        message = f"{fields[0]} has {len(one)} values, and {fields[1]} has {len(other)}"
-        raise bd.InvalidError(message, "lengths-differ", {fields[0]: len(one), fields[1]: len(other)})
