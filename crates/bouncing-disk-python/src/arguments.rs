@@ -90,12 +90,7 @@ impl<'py> Arguments<'py> {
 
     /// One of the words of a `Literal`.
     pub(crate) fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
-        let given: String = self.of(name)?;
-        let found = choices.iter().find(|(word, _)| *word == given).map(|(_, choice)| *choice);
-        found.ok_or_else(|| {
-            let words: Vec<_> = choices.iter().map(|(word, _)| format!("{word:?}")).collect();
-            PyValueError::new_err(format!("{name} must be {}, and is {given:?}", words.join(" or ")))
-        })
+        choice(&self.get(name)?, name, choices)
     }
 
     /// A number or a row of numbers.
@@ -166,6 +161,16 @@ pub(crate) fn held<'py, T: PyClass<Frozen = True>>(
     inner.ok_or_else(|| {
         let own = T::NAME;
         PyTypeError::new_err(format!("argument '{name}' must be a {own}, and is {}", object.get_type()))
+    })
+}
+
+/// One of the words of a `Literal`.
+pub(crate) fn choice<T: Copy>(given: &Bound<'_, PyAny>, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
+    let given: &str = given.extract().map_err(|_| PyTypeError::new_err(format!("{name} must be a text")))?;
+    let found = choices.iter().find(|(word, _)| *word == given).map(|(_, choice)| *choice);
+    found.ok_or_else(|| {
+        let words: Vec<_> = choices.iter().map(|(word, _)| format!("{word:?}")).collect();
+        PyValueError::new_err(format!("{name} must be {}, and is {given:?}", words.join(" or ")))
     })
 }
 

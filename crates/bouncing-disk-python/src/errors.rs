@@ -14,126 +14,97 @@ enum Detail {
     Text(String),
 }
 
-impl From<f64> for Detail {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
+impl Detail {
+    /// What `Debug` has written.
+    fn read(text: &str) -> Self {
+        let number = || text.parse().map(Self::Number).ok();
+        text.parse()
+            .map(Self::Count)
+            .ok()
+            .or_else(number)
+            .unwrap_or_else(|| Self::Text(text.trim_matches('"').to_owned()))
     }
 }
 
-impl From<u64> for Detail {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<usize> for Detail {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<u32> for Detail {
-    fn from(count: u32) -> Self {
-        Self::Count(count.into())
-    }
-}
-
-impl From<&str> for Detail {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
+type Details = Vec<(String, Detail)>;
 
 /// A class of `bouncing_disk._errors` and what it is called with after its message.
 enum Raised {
     OutOfRange(String, f64, String),
     TooLarge(&'static str, u64, u64),
     /// Arguments that do not fit together.
-    Invalid(&'static str, Vec<(&'static str, Detail)>),
+    Invalid(String, Details),
     /// The computation itself.
-    Computation(&'static str, Vec<(&'static str, Detail)>),
+    Computation(String, Details),
     FitRefused,
 }
 
-macro_rules! details {
-    ($($name:ident),*) => { vec![$((stringify!($name), Detail::from($name))),*] };
+/// The errors that arguments are the reason of which do not fit together.
+const INVALID: [&str; 11] = [
+    "not-of-kind",
+    "no-closed-form",
+    "no-decimal",
+    "unfitting",
+    "not-shared",
+    "not-an-orbit",
+    "not-given",
+    "neither-given",
+    "both-given",
+    "empty-axis",
+    "repeated-axis",
+];
+
+/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as
+/// they stand in its `Debug`, such as `NoLiftOff { phase: 1.5, peak_acceleration: 0.9 }`.
+fn kind_and_details(error: &dyn std::fmt::Debug) -> (String, Details) {
+    let text = format!("{error:?}");
+    let (name, fields) = text.split_once(" { ").unwrap_or((&text, ""));
+    let mut kind = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !kind.is_empty() {
+            kind.push('-');
+        }
+        kind.extend(letter.to_lowercase());
+    }
+    let (mut details, mut start, mut depth, mut is_quoted) = (Vec::new(), 0, 0, false);
+    let fields = fields.strip_suffix(" }").unwrap_or(fields);
+    for (place, letter) in fields.char_indices().chain([(fields.len(), ',')]) {
+        match letter {
+            '"' => is_quoted = !is_quoted,
+            '(' | '{' | '[' => depth += 1,
+            ')' | '}' | ']' => depth -= 1,
+            ',' if depth == 0 && !is_quoted => {
+                if let Some((name, value)) = fields[start..place].trim().split_once(": ") {
+                    details.push((name.to_owned(), Detail::read(value)));
+                }
+                start = place + 1;
+            }
+            _ => {}
+        }
+    }
+    (kind, details)
 }
 
-fn of_core(error: CoreError) -> Raised {
-    use Raised::{Computation, Invalid, OutOfRange, TooLarge};
-    match error {
-        CoreError::OutOfRange { field, value, legal } => {
-            OutOfRange(field.to_owned(), value, legal.to_owned())
-        }
-        CoreError::TooLarge { what, count, limit } => TooLarge(what, count, limit),
-        CoreError::NoLiftOff { phase, peak_acceleration } => {
-            Computation("no-lift-off", details![phase, peak_acceleration])
-        }
-        CoreError::FlightTooLong { relative_speed, duration, limit } => {
-            Computation("flight-too-long", details![relative_speed, duration, limit])
-        }
-        CoreError::NoConvergence { evaluations, time, gap } => {
-            Computation("no-convergence", details![evaluations, time, gap])
-        }
-        CoreError::NotSettled { what, iterations, residual } => {
-            Computation("not-settled", details![what, iterations, residual])
-        }
-        CoreError::NotAttracting { spectral_radius, trace_error } => {
-            Computation("not-attracting", details![spectral_radius, trace_error])
-        }
-        CoreError::NothingProven { region } => Computation("nothing-proven", details![region]),
-        CoreError::ImpactWithoutSpeed { index, phase } => {
-            Computation("impact-without-speed", details![index, phase])
-        }
-        CoreError::NoPlatformPeriods { impacts, speed } => {
-            Computation("no-platform-periods", details![impacts, speed])
-        }
-        CoreError::EarlierImpact { index, sought, found } => {
-            Computation("earlier-impact", details![index, sought, found])
-        }
-        CoreError::IllegalRestitution { restitution, impact_speed } => {
-            Computation("illegal-restitution", details![restitution, impact_speed])
-        }
-        CoreError::Stopped { done, total } => Computation("stopped", details![done, total]),
-        CoreError::NoBranch { what, parameter } => Computation("no-branch", details![what, parameter]),
-        CoreError::NotOfKind { what, index, count, expected } => {
-            Invalid("not-of-kind", details![what, index, count, expected])
-        }
-        CoreError::NoClosedForm => Invalid("no-closed-form", Vec::new()),
-        CoreError::NoDecimal { at } => Invalid("no-decimal", details![at]),
-        CoreError::Unfitting { what, found, expected } => {
-            Invalid("unfitting", details![what, found, expected])
-        }
-        _ => Computation("other", Vec::new()),
-    }
+fn owned(details: impl IntoIterator<Item = (&'static str, Detail)>) -> Details {
+    details.into_iter().map(|(name, detail)| (name.to_owned(), detail)).collect()
 }
 
 fn of_model(error: Error) -> Raised {
-    use Raised::{Computation, FitRefused, Invalid, OutOfRange};
     match error {
-        Error::Core(error) => of_core(error),
-        Error::OutOfRange { field, value, legal } => OutOfRange(field.to_owned(), value, legal.to_owned()),
-        Error::NeverLeaves { peak_acceleration } => Computation("never-leaves", details![peak_acceleration]),
-        Error::SlipTooLong { duration, limit } => Computation("slip-too-long", details![duration, limit]),
-        Error::NotShared { field, one, other } => Invalid("not-shared", details![field, one, other]),
-        Error::DoesNotTurn { speed, standard_error } => {
-            Computation("does-not-turn", details![speed, standard_error])
+        Error::OutOfRange { field, value, legal }
+        | Error::Core(CoreError::OutOfRange { field, value, legal }) => {
+            Raised::OutOfRange(field.to_owned(), value, legal.to_owned())
         }
-        Error::NotSettled { speed, standard_error } => {
-            Computation("not-settled", details![speed, standard_error])
+        Error::Core(CoreError::TooLarge { what, count, limit }) => Raised::TooLarge(what, count, limit),
+        Error::FitRefused { .. } => Raised::FitRefused,
+        error => {
+            let (kind, details) = match &error {
+                Error::Core(error) => kind_and_details(error),
+                error => kind_and_details(error),
+            };
+            let is_invalid = INVALID.contains(&kind.as_str());
+            if is_invalid { Raised::Invalid(kind, details) } else { Raised::Computation(kind, details) }
         }
-        Error::Overpowered { load } => Computation("overpowered", details![load]),
-        Error::NotAnOrbit { impact, distance } => Invalid("not-an-orbit", details![impact, distance]),
-        Error::TooFewMotors { left, traps, needed } => {
-            Computation("too-few-motors", details![left, traps, needed])
-        }
-        Error::NotGiven { field } => Invalid("not-given", details![field]),
-        Error::NeitherGiven { one, other } => Invalid("neither-given", details![one, other]),
-        Error::BothGiven { one, other } => Invalid("both-given", details![one, other]),
-        Error::EmptyAxis { parameter } => Invalid("empty-axis", details![parameter]),
-        Error::RepeatedAxis { parameter } => Invalid("repeated-axis", details![parameter]),
-        Error::FitRefused { .. } => FitRefused,
-        _ => Computation("other", Vec::new()),
     }
 }
 
@@ -146,7 +117,7 @@ fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         .getattr(name)
 }
 
-fn dictionary<'py>(py: Python<'py>, details: Vec<(&'static str, Detail)>) -> PyResult<Bound<'py, PyDict>> {
+fn dictionary<'py>(py: Python<'py>, details: Details) -> PyResult<Bound<'py, PyDict>> {
     let dictionary = PyDict::new(py);
     for (name, detail) in details {
         match detail {
@@ -251,9 +222,13 @@ pub(crate) fn of_call(py: Python<'_>, error: Error, call: &Bound<'_, PyDict>) ->
         let message = format!("{error}; it follows from several arguments");
         let given = call.iter().filter(|(_, value)| !value.is_none()).map(|(name, _)| name.to_string());
         let arguments = given.filter(|name| name != "self").collect::<Vec<_>>().join(", ");
-        let (quantity, range, arguments) = (field, legal, arguments.as_str());
-        let details = details![quantity, value, range, arguments];
-        return raise(py, message, Raised::Invalid("out-of-range-together", details));
+        let details = [
+            ("quantity", Detail::Text(field.to_owned())),
+            ("value", Detail::Number(value)),
+            ("range", Detail::Text(legal.to_owned())),
+            ("arguments", Detail::Text(arguments)),
+        ];
+        return raise(py, message, Raised::Invalid("out-of-range-together".to_owned(), owned(details)));
     };
     // The caller's number where the library has it in other units, and its range in those of the caller.
     let given = call.get_item(&name).ok().flatten().and_then(|given| given.extract::<f64>().ok());
@@ -303,21 +278,22 @@ pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyE
 
 /// The exception of a data sheet that cannot be read.
 pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
-    let number = |line: usize| Detail::Count(line as u64);
+    let number = |line: &usize| Detail::Count(*line as u64);
+    let text = |key: &str| Detail::Text(key.to_owned());
     let details = match error {
         MotorFileError::Illegal { error: illegal, .. } => return of(py, *illegal),
         MotorFileError::Syntax { line, column, .. } => {
-            vec![("line", number(*line)), ("column", number(*column))]
+            vec![("line", number(line)), ("column", number(column))]
         }
         MotorFileError::UnknownKey { key, line, .. } => {
-            vec![("field", Detail::Text(key.clone())), ("line", number(*line))]
+            vec![("field", text(key)), ("line", number(line))]
         }
         MotorFileError::Repeated { key, line, .. } | MotorFileError::NotANumber { key, line, .. } => {
-            vec![("field", (*key).into()), ("line", number(*line))]
+            vec![("field", text(key)), ("line", number(line))]
         }
         _ => Vec::new(),
     };
-    raise(py, error.to_string(), Raised::Invalid("text", details))
+    raise(py, error.to_string(), Raised::Invalid("text".to_owned(), owned(details)))
 }
 
 /// The exception of measured speeds that cannot be read.
@@ -331,13 +307,14 @@ pub(crate) fn of_measured(py: Python<'_>, error: &MeasuredSpeedsError) -> PyErr 
 
 /// The exception of a text that means nothing, by what is said of it.
 pub(crate) fn invalid_text(py: Python<'_>, error: &dyn std::error::Error) -> PyErr {
-    raise(py, error.to_string(), Raised::Invalid("text", Vec::new()))
+    raise(py, error.to_string(), Raised::Invalid("text".to_owned(), Vec::new()))
 }
 
 /// The exception of a JSON text that cannot be read.
 pub(crate) fn unreadable(py: Python<'_>, error: &serde_json::Error) -> PyErr {
-    let (line, column) = (error.line(), error.column());
-    raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text", details![line, column]))
+    let details = [("line", error.line()), ("column", error.column())];
+    let details = owned(details.map(|(name, place)| (name, Detail::Count(place as u64))));
+    raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text".to_owned(), details))
 }
 
 /// A number outside its range, which the types of Rust would not have let through.
@@ -349,25 +326,12 @@ pub(crate) fn out_of_range(py: Python<'_>, field: &'static str, value: f64, rang
 pub(crate) fn no_events(py: Python<'_>) -> PyErr {
     let message = "the trajectory has no events, because the disk stays on its platform for ever: it ends where it \
                    begins, and there is nothing to sample; give simulate() a duration";
-    raise(py, message.to_owned(), Raised::Computation("no-events", Vec::new()))
+    raise(py, message.to_owned(), Raised::Computation("no-events".to_owned(), Vec::new()))
 }
 
 /// Why there is no crisis.
 pub(crate) fn no_crisis(py: Python<'_>, reason: &NoCrisis) -> PyErr {
-    let (kind, details) = match *reason {
-        NoCrisis::NotBorn { forcing, birth } => ("not-born", details![forcing, birth]),
-        NoCrisis::NotFollowed { forcing, reached } => ("not-followed", details![forcing, reached]),
-        NoCrisis::NoneRests { forcing, samples, impacts } => {
-            ("none-rests", details![forcing, samples, impacts])
-        }
-        NoCrisis::RestsBefore { forcing, life } => ("rests-before", details![forcing, life]),
-        NoCrisis::NotChaotic { forcing, exponent } => ("not-chaotic", details![forcing, exponent]),
-        NoCrisis::LivesDoNotShrink { forcing, near, far } => {
-            ("lives-do-not-shrink", details![forcing, near, far])
-        }
-        NoCrisis::OtherReason { bracket: (low, high), .. } => ("other-reason", details![low, high]),
-        _ => ("other", Vec::new()),
-    };
+    let (kind, details) = kind_and_details(reason);
     raise(py, format!("there is no crisis: {reason}"), Raised::Computation(kind, details))
 }
 

@@ -45,9 +45,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::orbits::{
-        Branch, PeriodicOrbit, branch_orbit, continued, derivative, doubling_cascade, iterate,
-        iterate_orbits, period_one, periodic_orbits, proven_radius, refine, settled_orbit, switched,
-        trapping_radius,
+        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, iterate_orbits,
+        periodic_orbits, proven_radius, refine, settled_orbit, switched, trapping_radius,
     };
     #[pymodule_export]
     use crate::parameters::{

@@ -6,16 +6,16 @@ use bouncing_disk::core::{
     Error as CoreError, ImpactMap, ImpactState, OrbitBatch, OrbitSearch, PeriodicOrbit as OrbitModel,
     Stability, Watch, doubling_cascade_observed, feigenbaum_estimates,
 };
-use numpy::{PyArray1, PyArray2};
+use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use rayon::prelude::*;
 
 use crate::arguments::{Arguments, Made, Starts, common_length, first_impact};
+use crate::errors;
 use crate::parameters::{pair, state};
 use crate::results::{array, column, complex, holders, holding, make, matrix, room_for};
-use crate::{errors, long_call};
 
 holders! {
     /// What a `PeriodicOrbit` holds.
@@ -50,25 +50,6 @@ pub(crate) fn iterate(a: Arguments<'_>) -> PyResult<(f64, f64)> {
     let (map, impacts) = (a.map()?, a.u64("impacts")?);
     let (phase, velocity) = (a.real("impact_phase")?, a.real("axial_impact_velocity")?);
     a.run(|observer| Ok(pair(map.iterate_observed(state(phase, velocity)?, impacts, observer)?)))
-}
-
-/// The derivative of the next impact.
-#[pyfunction]
-pub(crate) fn derivative(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let (map, phase, velocity) = (a.map()?, a.real("impact_phase")?, a.real("axial_impact_velocity")?);
-    let derivative = long_call::short(&a, || Ok(map.step_with_derivative(state(phase, velocity)?)?.1))?;
-    let (x, y) = (derivative.x_axis, derivative.y_axis);
-    matrix(a.py(), vec![x.x, y.x, x.y, y.y], [2, 2])
-}
-
-/// The orbit of one impact in closed form.
-#[pyfunction]
-pub(crate) fn period_one(a: Arguments<'_>) -> PyResult<Option<(f64, f64)>> {
-    let (map, periods) = (a.map()?, a.u64("platform_periods")?);
-    if periods == 0 {
-        return Err(errors::out_of_range(a.py(), "platform_periods", 0.0, "at least 1"));
-    }
-    long_call::short(&a, || Ok(map.period_one(periods).map(pair)))
 }
 
 /// The periodic orbit next to a guess.

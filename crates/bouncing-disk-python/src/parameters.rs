@@ -7,17 +7,54 @@ use bouncing_disk::{
     DiskParameters, Error, Motor as MotorModel, MotorField, MotorParameters, PAPER_CUT, Platform,
     PlatformParameters, Stroke, System as SystemModel,
 };
+use numpy::PyArray2;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
-use pyo3::{IntoPyObjectExt, PyClass};
 
-use crate::arguments::{Arguments, Made, Real};
-use crate::results::array;
+use crate::arguments::{Arguments, Count, Made, Real};
+use crate::results::{array, matrix};
 use crate::{errors, long_call};
 
-/// What a `System` holds.
+/// What a `System` holds. Its numbers are made when Python asks for the first one.
 #[pyclass(frozen, module = "bouncing_disk._native")]
 pub(crate) struct System(pub(crate) SystemModel);
+
+#[pymethods]
+impl System {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (platform, stroke) = (self.0.platform(), self.0.stroke());
+        let given = named(numbers_of(&self.0));
+        let derived = [
+            ("period", Some(TAU / platform.angular_frequency())),
+            ("peak_angular_speed", Some(platform.peak_angular_speed())),
+            ("stroke", Some(stroke.stroke)),
+            ("amplitude_angle", Some(stroke.amplitude_angle)),
+            ("axial_forcing", Some(self.0.axial_forcing())),
+            ("angular_forcing", self.0.angular_forcing()),
+            ("peak_acceleration", Some(self.0.peak_acceleration())),
+            ("rise_time", Some(self.0.rise_time())),
+        ];
+        numbers(py, &given, given.map(|(name, number)| (name, Some(number))).into_iter().chain(derived))
+    }
+
+    /// The system with other values of some arguments.
+    fn replaced(&self, changes: Arguments<'_>) -> PyResult<Self> {
+        let mut numbers = numbers_of(&self.0);
+        for name in changes.0.keys() {
+            let name: String = name.extract()?;
+            let Some(place) = SYSTEM.iter().position(|known| *known == name) else {
+                return Err(PyTypeError::new_err(format!("System has no argument '{name}'")));
+            };
+            numbers[place] = changes.real(&name)?;
+        }
+        system_of(numbers).map(Self).or_else(|error| {
+            let call = named(numbers).into_py_dict(changes.py())?;
+            Err(errors::of_call(changes.py(), error, &call))
+        })
+    }
+}
 
 /// What a `Motor` holds.
 #[pyclass(frozen, module = "bouncing_disk._native")]
@@ -25,6 +62,32 @@ pub(crate) struct Motor(pub(crate) MotorModel);
 
 #[pymethods]
 impl Motor {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (sheet, motor) = (self.0.parameters(), &self.0);
+        let (platform, disk) = (motor.system().platform(), motor.system().disk());
+        let all = [
+            ("drive_frequency", Some(sheet.drive_frequency)),
+            ("amplitude", Some(sheet.amplitude)),
+            ("peak_angular_speed", Some(platform.peak_angular_speed())),
+            ("twist_amplitude", Some(platform.twist_amplitude())),
+            ("phase_lag", Some(sheet.phase_lag)),
+            ("mass", Some(motor.mass())),
+            ("inertia", Some(motor.inertia())),
+            ("contact_radius", Some(disk.contact_radius())),
+            ("gyration_radius", Some(disk.gyration_radius())),
+            ("preload_force", Some(motor.preload_force())),
+            ("preload_acceleration", Some(motor.preload_acceleration())),
+            ("friction", Some(sheet.friction)),
+            ("restitution", Some(sheet.restitution)),
+            ("load_torque", Some(motor.load_torque())),
+            ("largest_torque", Some(motor.largest_torque())),
+            ("static_deflection", motor.static_deflection()),
+        ];
+        let all = numbers(py, &given_sheet(&sheet), all)?;
+        all.set_item("system", python_system(py, motor.system())?)?;
+        Ok(all)
+    }
+
     fn to_json(&self) -> String {
         self.0.to_json()
     }
@@ -38,12 +101,38 @@ impl Motor {
 #[pyclass(frozen, module = "bouncing_disk._native")]
 pub(crate) struct ChatterCut(pub(crate) Cut);
 
-/// What an `ImpactMap` holds. Its steps are what loops in Python call, without a second call in between.
+#[pymethods]
+impl ChatterCut {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        all.set_item("smallest_speed", self.0.smallest_speed())?;
+        all.set_item("short_flight", self.0.short_flight())?;
+        all.set_item("short_flights", self.0.short_flights())?;
+        all.set_item("_given", all.copy()?)?;
+        Ok(all)
+    }
+}
+
+/// What an `ImpactMap` holds, and the axial forcing if that was given: what is computed from the peak
+/// acceleration may differ in the last place. Its steps are what loops in Python call themselves.
 #[pyclass(frozen, name = "ImpactMap", module = "bouncing_disk._native")]
-pub(crate) struct Map(pub(crate) ImpactMap);
+pub(crate) struct Map(pub(crate) ImpactMap, Option<f64>);
 
 #[pymethods]
 impl Map {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Self(map, forcing) = self;
+        let (peak, restitution) = (map.vibration().peak_acceleration(), map.restitution());
+        let given = forcing.map_or(("peak_acceleration", peak), |forcing| ("axial_forcing", forcing));
+        let all = [
+            ("axial_forcing", Some(forcing.unwrap_or_else(|| map.vibration().axial_forcing()))),
+            ("peak_acceleration", Some(peak)),
+            ("restitution", Some(restitution)),
+            ("normalised_speed_bound", Some(map.impact_speed_bound() / std::f64::consts::PI)),
+        ];
+        numbers(py, &[given, ("restitution", restitution)], all)
+    }
+
     #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
     fn step(&self, py: Python<'_>, impact_phase: Real, axial_impact_velocity: Real) -> PyResult<(f64, f64)> {
         stepped(py, impact_phase, axial_impact_velocity, |state| Ok(self.0.step(state)?.into()))
@@ -58,6 +147,30 @@ impl Map {
     ) -> PyResult<(f64, f64)> {
         stepped(py, impact_phase, axial_impact_velocity, |state| Ok(self.0.step_back(state)?))
     }
+
+    /// The derivative of the next impact.
+    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
+    fn derivative<'py>(
+        &self,
+        py: Python<'py>,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let derivative = |state| Ok(self.0.step_with_derivative(state)?.1);
+        let derivative = with_state(py, impact_phase, axial_impact_velocity, derivative)?;
+        let (x, y) = (derivative.x_axis, derivative.y_axis);
+        matrix(py, vec![x.x, y.x, x.y, y.y], [2, 2])
+    }
+
+    /// The orbit of one impact in closed form.
+    #[pyo3(signature = (*, platform_periods=Count::Fits(1)))]
+    fn period_one(&self, py: Python<'_>, platform_periods: Count) -> PyResult<Option<(f64, f64)>> {
+        let periods = platform_periods.u64(py, "platform_periods")?;
+        if periods == 0 {
+            return Err(errors::out_of_range(py, "platform_periods", 0.0, "at least 1"));
+        }
+        Ok(long_call::caught(|| Ok(self.0.period_one(periods).map(pair)))?.unwrap_or(None))
+    }
 }
 
 fn stepped(
@@ -66,7 +179,17 @@ fn stepped(
     velocity: Real,
     step: impl FnOnce(ImpactState) -> Result<ImpactState, Error>,
 ) -> PyResult<(f64, f64)> {
-    long_call::caught(|| Ok(pair(step(state(phase.0, velocity.0)?)?)))?.map_err(|error| {
+    with_state(py, phase, velocity, |state| Ok(pair(step(state)?)))
+}
+
+/// What becomes of an impact of these two numbers.
+fn with_state<T>(
+    py: Python<'_>,
+    phase: Real,
+    velocity: Real,
+    work: impl FnOnce(ImpactState) -> Result<T, Error>,
+) -> PyResult<T> {
+    long_call::caught(|| work(state(phase.0, velocity.0)?))?.map_err(|error| {
         let call = [("impact_phase", phase.0), ("axial_impact_velocity", velocity.0)].into_py_dict(py);
         call.map_or_else(|failure| failure, |call| errors::of_call(py, error, &call))
     })
@@ -82,79 +205,85 @@ pub(crate) fn pair(state: ImpactState) -> (f64, f64) {
     (state.phase().angle(), state.velocity())
 }
 
-/// The numbers of an object by their names, those that were given apart, and what it holds of the library.
-fn object<'py, H: Into<PyClassInitializer<H>> + PyClass>(
+/// The numbers of an object by their names, with those that were given apart.
+fn numbers<'py>(
     py: Python<'py>,
     given: &[(&str, f64)],
-    numbers: &[(&str, Option<f64>)],
-    held: H,
+    all: impl IntoIterator<Item = (&'static str, Option<f64>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let all = PyDict::new(py);
-    for (name, number) in numbers {
-        all.set_item(name, number)?;
+    let numbers = PyDict::new(py);
+    for (name, number) in all {
+        numbers.set_item(name, number)?;
     }
-    all.set_item("_given", given.into_py_dict(py)?)?;
-    all.set_item("_native", Bound::new(py, held)?)?;
-    Ok(all)
+    numbers.set_item("_given", given.into_py_dict(py)?)?;
+    Ok(numbers)
 }
 
-/// The parameters of a system by the names of their arguments.
-fn numbers_of(platform: PlatformParameters, disk: DiskParameters) -> [(&'static str, f64); 10] {
+/// The arguments of a system.
+const SYSTEM: [&str; 10] = [
+    "amplitude",
+    "twist_amplitude",
+    "angular_frequency",
+    "phase_lag",
+    "contact_radius",
+    "gyration_radius",
+    "friction",
+    "restitution",
+    "preload_acceleration",
+    "load_acceleration",
+];
+
+/// The parameters of a system in the order of its arguments.
+fn numbers_of(system: &SystemModel) -> [f64; 10] {
+    let (platform, disk) = (system.platform().parameters(), system.disk().parameters());
     [
-        ("amplitude", platform.amplitude),
-        ("twist_amplitude", platform.twist_amplitude),
-        ("angular_frequency", platform.angular_frequency),
-        ("phase_lag", platform.phase_lag),
-        ("contact_radius", disk.contact_radius),
-        ("gyration_radius", disk.gyration_radius),
-        ("friction", disk.friction),
-        ("restitution", disk.restitution),
-        ("preload_acceleration", disk.preload_acceleration),
-        ("load_acceleration", disk.load_acceleration),
+        platform.amplitude,
+        platform.twist_amplitude,
+        platform.angular_frequency,
+        platform.phase_lag,
+        disk.contact_radius,
+        disk.gyration_radius,
+        disk.friction,
+        disk.restitution,
+        disk.preload_acceleration,
+        disk.load_acceleration,
     ]
+}
+
+fn named(numbers: [f64; 10]) -> [(&'static str, f64); 10] {
+    std::array::from_fn(|place| (SYSTEM[place], numbers[place]))
+}
+
+/// The system of these parameters.
+fn system_of(numbers: [f64; 10]) -> Result<SystemModel, Error> {
+    let [amplitude, twist_amplitude, angular_frequency, phase_lag, contact_radius, gyration_radius, ..] =
+        numbers;
+    let [.., friction, restitution, preload_acceleration, load_acceleration] = numbers;
+    let platform = PlatformParameters { amplitude, twist_amplitude, angular_frequency, phase_lag };
+    let disk = DiskParameters {
+        contact_radius,
+        gyration_radius,
+        friction,
+        restitution,
+        preload_acceleration,
+        load_acceleration,
+    };
+    SystemModel::new(platform.build()?, disk.build()?)
 }
 
 /// A system by its arguments.
 #[pyfunction]
-pub(crate) fn system(a: Arguments<'_>) -> PyResult<Bound<'_, PyDict>> {
-    let platform = PlatformParameters {
-        amplitude: a.real("amplitude")?,
-        twist_amplitude: a.real("twist_amplitude")?,
-        angular_frequency: a.real("angular_frequency")?,
-        phase_lag: a.real("phase_lag")?,
-    };
-    let disk = DiskParameters {
-        contact_radius: a.real("contact_radius")?,
-        gyration_radius: a.real("gyration_radius")?,
-        friction: a.real("friction")?,
-        restitution: a.real("restitution")?,
-        preload_acceleration: a.real("preload_acceleration")?,
-        load_acceleration: a.real("load_acceleration")?,
-    };
-    let made = platform.build().and_then(|platform| SystemModel::new(platform, disk.build()?));
-    shown_system(a.py(), made.map_err(|error| a.refused(error))?)
-}
-
-fn shown_system(py: Python<'_>, system: SystemModel) -> PyResult<Bound<'_, PyDict>> {
-    let (platform, stroke) = (system.platform(), system.stroke());
-    let given = numbers_of(platform.parameters(), system.disk().parameters());
-    let mut numbers: Vec<_> = given.iter().map(|(name, number)| (*name, Some(*number))).collect();
-    numbers.extend([
-        ("period", Some(TAU / platform.angular_frequency())),
-        ("peak_angular_speed", Some(platform.peak_angular_speed())),
-        ("stroke", Some(stroke.stroke)),
-        ("amplitude_angle", Some(stroke.amplitude_angle)),
-        ("axial_forcing", Some(system.axial_forcing())),
-        ("angular_forcing", system.angular_forcing()),
-        ("peak_acceleration", Some(system.peak_acceleration())),
-        ("rise_time", Some(system.rise_time())),
-    ]);
-    object(py, &given, &numbers, System(system))
+pub(crate) fn system(a: Arguments<'_>) -> PyResult<System> {
+    let mut numbers = [0.0; 10];
+    for (name, number) in SYSTEM.iter().zip(&mut numbers) {
+        *number = a.real(name)?;
+    }
+    system_of(numbers).map(System).map_err(|error| a.refused(error))
 }
 
 /// The system that the library has made, as Python has it.
 pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<'py> {
-    let given = numbers_of(system.platform().parameters(), system.disk().parameters()).into_py_dict(py)?;
+    let given = named(numbers_of(system)).into_py_dict(py)?;
     py.import("bouncing_disk")?.getattr("System")?.call((), Some(&given))
 }
 
@@ -162,7 +291,7 @@ pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<
 #[pyfunction]
 pub(crate) fn known_system<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
     let system = if name == "motor" { SystemModel::motor() } else { SystemModel::pizza_toss() };
-    numbers_of(system.platform().parameters(), system.disk().parameters()).into_py_dict(py)
+    named(numbers_of(&system)).into_py_dict(py)
 }
 
 /// Both amplitudes of a platform that moves along a stroke.
@@ -224,7 +353,7 @@ fn given_sheet(sheet: &MotorParameters) -> Vec<(&'static str, f64)> {
 
 /// A motor by its arguments.
 #[pyfunction]
-pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Bound<'_, PyDict>> {
+pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
     let sheet = MotorParameters {
         drive_frequency: a.real("drive_frequency")?,
         amplitude: a.real("amplitude")?,
@@ -244,29 +373,7 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Bound<'_, PyDict>> {
         restitution: a.real("restitution")?,
         load_torque: a.real("load_torque")?,
     };
-    let motor = sheet.build().map_err(|error| a.refused(error))?;
-    let (platform, disk) = (motor.system().platform(), motor.system().disk());
-    let numbers = [
-        ("drive_frequency", Some(sheet.drive_frequency)),
-        ("amplitude", Some(sheet.amplitude)),
-        ("peak_angular_speed", Some(platform.peak_angular_speed())),
-        ("twist_amplitude", Some(platform.twist_amplitude())),
-        ("phase_lag", Some(sheet.phase_lag)),
-        ("mass", Some(motor.mass())),
-        ("inertia", Some(motor.inertia())),
-        ("contact_radius", Some(disk.contact_radius())),
-        ("gyration_radius", Some(disk.gyration_radius())),
-        ("preload_force", Some(motor.preload_force())),
-        ("preload_acceleration", Some(motor.preload_acceleration())),
-        ("friction", Some(sheet.friction)),
-        ("restitution", Some(sheet.restitution)),
-        ("load_torque", Some(motor.load_torque())),
-        ("largest_torque", Some(motor.largest_torque())),
-        ("static_deflection", motor.static_deflection()),
-    ];
-    let all = object(a.py(), &given_sheet(&sheet), &numbers, Motor(motor))?;
-    all.set_item("system", python_system(a.py(), motor.system())?)?;
-    Ok(all)
+    sheet.build().map(Motor).map_err(|error| a.refused(error))
 }
 
 /// The motor that the library has made, as Python has it.
@@ -297,7 +404,7 @@ pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
 
 /// A map by its arguments, of which one forcing is left out.
 #[pyfunction]
-pub(crate) fn impact_map(a: Arguments<'_>) -> PyResult<Bound<'_, PyDict>> {
+pub(crate) fn impact_map(a: Arguments<'_>) -> PyResult<Map> {
     let (one, other) = ("axial_forcing", "peak_acceleration");
     let (forcing, peak, restitution) = (a.optional(one)?, a.optional(other)?, a.real("restitution")?);
     let vibration = match (forcing, peak) {
@@ -307,20 +414,7 @@ pub(crate) fn impact_map(a: Arguments<'_>) -> PyResult<Bound<'_, PyDict>> {
         (Some(_), Some(_)) => Err(Error::BothGiven { one, other }),
     };
     let map = vibration.and_then(|vibration| Ok(ImpactMap::new(vibration, restitution)?));
-    shown_map(a.py(), forcing, map.map_err(|error| a.refused(error))?)
-}
-
-fn shown_map(py: Python<'_>, forcing: Option<f64>, map: ImpactMap) -> PyResult<Bound<'_, PyDict>> {
-    let (peak, restitution) = (map.vibration().peak_acceleration(), map.restitution());
-    let given = forcing.map_or(("peak_acceleration", peak), |forcing| ("axial_forcing", forcing));
-    let numbers = [
-        // As it was given: what is computed from the peak acceleration may differ in the last place.
-        ("axial_forcing", Some(forcing.unwrap_or_else(|| map.vibration().axial_forcing()))),
-        ("peak_acceleration", Some(peak)),
-        ("restitution", Some(restitution)),
-        ("normalised_speed_bound", Some(map.impact_speed_bound() / std::f64::consts::PI)),
-    ];
-    object(py, &[given, ("restitution", restitution)], &numbers, Map(map))
+    map.map(|map| Map(map, forcing)).map_err(|error| a.refused(error))
 }
 
 /// The map that the library has made, as Python has it.
@@ -332,18 +426,10 @@ pub(crate) fn python_map<'py>(py: Python<'py>, map: &ImpactMap) -> Made<'py> {
 
 /// A cut by its arguments.
 #[pyfunction]
-pub(crate) fn chatter_cut(a: Arguments<'_>) -> PyResult<Bound<'_, PyDict>> {
-    let (speed, flight) = (a.real("smallest_speed")?, a.real("short_flight")?);
+pub(crate) fn chatter_cut(a: Arguments<'_>) -> PyResult<ChatterCut> {
     let flights = a.count("short_flights", u32::MAX.into(), "[1, 4294967295]")? as u32;
-    let cut = Cut::new(speed, flight, flights).map_err(|error| a.refused(error))?;
-    let py = a.py();
-    let all = object(py, &[("smallest_speed", speed), ("short_flight", flight)], &[], ChatterCut(cut))?;
-    let given = all.get_item("_given")?;
-    if let Some(given) = given {
-        given.set_item("short_flights", flights)?;
-        all.update(given.cast::<PyDict>()?.as_mapping())?;
-    }
-    Ok(all)
+    let cut = Cut::new(a.real("smallest_speed")?, a.real("short_flight")?, flights);
+    cut.map(ChatterCut).map_err(|error| a.refused(error))
 }
 
 /// The arguments of the rule of the paper's simulations.

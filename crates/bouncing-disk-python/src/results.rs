@@ -6,9 +6,10 @@ use bouncing_disk::core::Error as CoreError;
 use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::PyClass;
 use pyo3::exceptions::PyValueError;
+use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyTuple, PyType};
 
 use crate::arguments::Made;
 use crate::errors;
@@ -25,7 +26,12 @@ pub(crate) use make;
 pub(crate) fn made<'py>(py: Python<'py>, class: &str, fields: Vec<Bound<'py, PyAny>>) -> Made<'py> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
     let module = MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk")?.unbind()))?;
-    module.bind(py).getattr(class)?.call1(PyTuple::new(py, fields)?)
+    let (class, fields) = (module.bind(py).getattr(class)?, PyTuple::new(py, fields)?);
+    if class.cast::<PyType>()?.is_subclass_of::<PyTuple>()? {
+        // A named tuple; its own constructor is written in Python, and takes longer than all else of a toss.
+        return py.get_type::<PyTuple>().call_method1(intern!(py, "__new__"), (class, fields));
+    }
+    class.call1(fields)
 }
 
 /// A result with what it holds of the library.

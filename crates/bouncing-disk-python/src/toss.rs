@@ -11,9 +11,9 @@ use bouncing_disk::{
 use numpy::Complex64;
 use pyo3::prelude::*;
 
-use crate::arguments::{Arguments, Made, Pair};
+use crate::arguments::{Arguments, Made, Pair, choice, held};
 use crate::orbits::PeriodicOrbit;
-use crate::parameters::python_system;
+use crate::parameters::{System, python_system};
 use crate::results::{array, column, complex, holders, holding, make, room_for};
 use crate::{errors, long_call};
 
@@ -31,11 +31,8 @@ const MOST_SAMPLES: u64 = 1 << 24;
 /// What an event counts as for an observer, in flights.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
-fn initial_spin(a: &Arguments<'_>) -> PyResult<InitialSpin> {
-    let spins =
-        [("absolute-rest", InitialSpin::AbsoluteRest), ("with-hand", InitialSpin::RestRelativeToHand)];
-    a.choice("initial_spin", &spins)
-}
+const SPINS: [(&str, InitialSpin); 2] =
+    [("absolute-rest", InitialSpin::AbsoluteRest), ("with-hand", InitialSpin::RestRelativeToHand)];
 
 fn shown_energy<'py>(py: Python<'py>, energy: &SiEnergy) -> Made<'py> {
     make!(
@@ -68,10 +65,14 @@ fn shown_toss<'py>(py: Python<'py>, toss: &TossPerformance) -> Made<'py> {
 }
 
 /// The toss of a disk from its platform.
+///
+/// Thousands a second are asked for, so that it takes no dictionary.
 #[pyfunction]
-pub(crate) fn single_toss(a: Arguments<'_>) -> Made<'_> {
-    let (system, initial) = (a.system()?, initial_spin(&a)?);
-    shown_toss(a.py(), &long_call::short(&a, || toss(&system, initial))?)
+pub(crate) fn single_toss<'py>(system: &Bound<'py, PyAny>, initial_spin: &Bound<'py, PyAny>) -> Made<'py> {
+    let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
+    let initial = choice(initial_spin, "initial_spin", &SPINS)?;
+    let done = long_call::caught(|| toss(&system, initial))?;
+    shown_toss(py, &done.map_err(|error| errors::of(py, error))?)
 }
 
 /// How a motion starts, in SI units.
@@ -289,7 +290,7 @@ pub(crate) fn events(a: Arguments<'_>) -> Made<'_> {
 /// The whole toss of a disk from its platform.
 #[pyfunction]
 pub(crate) fn toss_trajectory(a: Arguments<'_>) -> Made<'_> {
-    let (system, initial) = (a.system()?, initial_spin(&a)?);
+    let (system, initial) = (a.system()?, a.choice("initial_spin", &SPINS)?);
     let motion = long_call::short(&a, || toss_motion(&system, initial))?;
     shown_trajectory(a.py(), (system, motion))
 }
@@ -350,7 +351,7 @@ pub(crate) fn best_toss(a: Arguments<'_>) -> Made<'_> {
             preload_acceleration: or("preload_acceleration", table.dough.preload_acceleration)?,
             ..table.dough
         },
-        initial: initial_spin(&a)?,
+        initial: a.choice("initial_spin", &SPINS)?,
         stroke: or("stroke", table.stroke)?,
         friction: pair("friction", table.friction)?,
         angular_frequency: pair("angular_frequency", table.angular_frequency)?,

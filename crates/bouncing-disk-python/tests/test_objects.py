@@ -185,9 +185,10 @@ def test_keys_that_are_missing_unknown_or_there_twice_are_refused() -> None:
             bd.ImpactMap.from_json(wrong)
     with pytest.raises(bd.InvalidError, match="friction"):
         bd.System.from_json(toss.to_json().replace('"friction": 0.6, ', ""))
-    for parameters in ({"plattform": {}}, {"platform": {"amplitud": 1.0}}, {"platform": 1}, {1: {}}, {}):
+    unknown: list[Any] = [{"plattform": {}}, {"platform": {"amplitud": 1.0}}, {"platform": 1}, {1: {}}, {}]
+    for parameters in unknown:
         with pytest.raises((TypeError, ValueError)):
-            bd.System.from_dict(parameters)  # type: ignore[arg-type]
+            bd.System.from_dict(parameters)
     with pytest.raises(bd.OutOfRangeError) as refused:
         bd.ImpactMap.from_json('{"axial_forcing": 0.5, "restitution": 1.5}')
     assert (refused.value.field, refused.value.value) == ("restitution", 1.5)

@@ -147,7 +147,6 @@ class Attractors(Stored):
 
         Args:
             phases, phase_range, speeds, speed_range, max_impacts, chatter: as of :func:`basins`.
-            progress: called as ``progress(done, total)`` with the number of rows.
         """
         return native.basins_of(locals())
 
@@ -174,7 +173,6 @@ def attractors(
         impacts: impacts over which one orbit of each attractor is followed that is not periodic, at least 64.
         longest_period: the longest period, in impacts, in [1, 4096].
         cells: cells along each axis by which attractors are told apart that are not periodic, in [8, 4096].
-        progress: called as ``progress(done, total)``.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
@@ -210,7 +208,6 @@ def basins(
             :meth:`PeriodicOrbit.trapping_radius`.
         max_impacts: impacts after which a start is left undecided.
         chatter: how a chatter ends; ``None`` sums it.
-        progress: called as ``progress(done, total)`` with the number of rows.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
@@ -319,8 +316,6 @@ def boundary_scaling(
         basins: as of :func:`basins` and :meth:`Attractors.basins`.
         distances: distances in cells, rising from 1 at least, the last less than half the shorter side of the
             grid.
-        progress: called as ``progress(done, total)`` with the number of rows of cells, once for each
-            distance.
 
     The basin of the period-1 orbit just beyond its birth has a smooth boundary:
 
@@ -388,7 +383,6 @@ class BasinFractions(Stored):
         Args:
             axial_forcing: more values of Gamma, shape (k,).
             reach, starts, transient, impacts, longest_period, cells: as of :func:`basin_fractions_over`.
-            progress: called as ``progress(done, total)`` with the number of forcings.
         """
         return native.extended(locals())
 
@@ -421,7 +415,6 @@ def basin_fractions_over(
             most 65536, shape (n,).
         reach: how far an attractor may be from where it was at the forcing before (rad), in [0, 100].
         starts, transient, impacts, longest_period, cells: as of :func:`attractors`.
-        progress: called as ``progress(done, total)`` with the number of forcings.
 
     The period-1 orbit appears at Gamma = 1/3; beside it there is the disk at rest:
 

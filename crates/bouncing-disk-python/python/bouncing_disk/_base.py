@@ -6,7 +6,7 @@ from __future__ import annotations
 import json as json_module
 from collections.abc import Callable
 from dataclasses import fields
-from typing import Any, ClassVar, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -36,8 +36,14 @@ class Parameters:
     _given: dict[str, float]
     _native: Any
 
-    def _fill(self, numbers: dict[str, Any]) -> None:
-        self.__dict__.update(numbers)
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            # The numbers are made when the first one is asked for: calls take what the library holds.
+            if name == "_native" or "_given" in self.__dict__:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            self.__dict__.update(self._native.numbers())
+            return getattr(self, name)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a {type(self).__name__} never changes; replace() makes another one")

@@ -111,7 +111,6 @@ def orbit_diagram(
         transient: impacts of each orbit that are not recorded.
         recorded: impacts of each orbit that are; of a disk that rests for ever fewer.
         chatter: how a chatter ends; ``None`` sums it.
-        progress: called as ``progress(done, total)`` with the number of orbits.
 
     >>> import bouncing_disk as bd
     >>> import numpy as np
@@ -139,7 +138,6 @@ def survival_times(
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         most: impacts after which an orbit is left.
         chatter: how a chatter ends; ``None`` sums it.
-        progress: called as ``progress(done, total)`` with the number of orbits.
 
     Returns:
         Shape (n,).
@@ -168,7 +166,6 @@ def lyapunov_exponents(
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         transient: impacts before the exponent is measured.
         impacts: impacts that it is measured over.
-        progress: called as ``progress(done, total)`` with the number of orbits.
 
     Returns:
         Mean logarithmic growth per impact; NaN where the disk comes to rest or grazes the platform.
@@ -230,7 +227,6 @@ def lyapunov_spectra(
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         transient: impacts before the exponents are measured.
         impacts: impacts that they are measured over, at least 16.
-        progress: called as ``progress(done, total)`` with the number of orbits.
 
     >>> import bouncing_disk as bd
     >>> spectra = bd.lyapunov_spectra(axial_forcing=[0.2, 0.55], restitution=0.5, impact_phase=1.2, normalised_speed=1.3)
@@ -315,7 +311,6 @@ def verdicts(
         impacts: impacts that the exponent is measured over, at least 64.
         longest_period: the longest period that is looked for, in impacts, in [1, 4096].
         tolerance: how near an impact must come to an earlier one for a period to be tried, in (0, 0.01].
-        progress: called as ``progress(done, total)`` with the number of orbits.
 
     >>> import bouncing_disk as bd
     >>> verdicts = bd.verdicts(axial_forcing=[0.2, 0.44, 0.56], restitution=0.5, impact_phase=1.2, normalised_speed=1.3,
@@ -412,7 +407,6 @@ def manifold(
         max_generations: how often the first piece is mapped at most, in [1, 10000].
         launch_speed: the largest own speed after an impact (units of g/omega) that a stable manifold is
             followed to.
-        progress: called as ``progress(done, total)`` with the number of points.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
@@ -500,7 +494,6 @@ class Crisis(Stored):
             beyond: distances from the crisis in Gamma, positive, shape (n,).
             orbits: orbits at each distance, in [1, 1e6].
             impacts: impacts over which an orbit is followed at most, at least 1.
-            progress: called as ``progress(done, total)`` with the orbits at one distance, from 0 on for each.
         """
         return native.lives(locals())
 
@@ -528,7 +521,6 @@ def crisis(
         samples: orbits that are followed at each forcing, in [16, 1e6].
         impacts: impacts of all of them together, in [1e4, 1e12]; 200 at least of each. More make the bracket
             narrower.
-        progress: called as ``progress(done, total)`` with the number of impacts.
 
     Raises:
         ComputationError: There is none, with the reason as its kind: ``"not-born"``, ``"not-followed"``,

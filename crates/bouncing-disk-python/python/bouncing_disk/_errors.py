@@ -75,8 +75,8 @@ class InvalidError(BouncingDiskError, ValueError):
     >>> try:
     ...     bd.System.pizza_toss().replace(amplitude=1e300)
     ... except bd.InvalidError as error:
-    ...     print(error.details["quantity"], error.details["value"])
-    peak_acceleration inf
+    ...     print(error.details["quantity"], error.details["range"])
+    peak_acceleration [0, 1e8] (units of the preload acceleration)
     """
 
     def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:

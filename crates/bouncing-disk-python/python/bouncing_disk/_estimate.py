@@ -71,7 +71,6 @@ def transient(
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
         seed: seed of the perturbations.
         chatter: how a chatter ends; ``None`` sums it.
-        progress: called as ``progress(done, total)``.
 
     >>> import bouncing_disk as bd
     >>> curve = bd.transient(bd.System.motor(), duration=0.01, intervals=10)
@@ -115,7 +114,6 @@ def transients(
         phases: phase of the stator at the start of each (rad), shape (m,).
         seeds: seeds of the perturbations.
         duration, intervals, relaunch_perturbation, chatter: as of :func:`transient`, the same for all.
-        progress: called as ``progress(done, total)`` with the number of members.
 
     >>> import bouncing_disk as bd
     >>> curves = bd.transients(bd.System.motor(), phases=[0.0, 1.0, 2.0], duration=0.01, intervals=10)
@@ -177,7 +175,6 @@ def ensemble(
     Args:
         members: number of transients, in [1, 1000000].
         duration, intervals, relaunch_perturbation, seed, chatter: as of :func:`transient`.
-        progress: called as ``progress(done, total)`` with the number of members.
 
     >>> import bouncing_disk as bd
     >>> runs = bd.ensemble(bd.System.motor(), members=4, duration=0.5, intervals=50)
@@ -210,7 +207,6 @@ def fit_exponential(*, times: ArrayLike, speeds: ArrayLike, progress: Progress =
     Args:
         times: times (s), rising, not negative, shape (n,).
         speeds: speeds (rad/s), shape (n,).
-        progress: called as ``progress(done, total)``.
 
     >>> import bouncing_disk as bd
     >>> import numpy as np
@@ -297,7 +293,6 @@ def fit_transients(
         largest_residual: the largest residual, relative to the steady speed.
         from_rest: whether the motor rises from rest at time zero. Without it time zero, a dead time and the
             speed at the start are found from the record, and the intervals are wider.
-        progress: called as ``progress(done, total)``.
 
     >>> import bouncing_disk as bd
     >>> import numpy as np
@@ -449,6 +444,5 @@ def fit_parameters(
         most_evaluations: most evaluations of all motors, in [1, 10000].
         resamples: resampled fits, in [200, 100000].
         largest_misfit: the largest misfit that is accepted, at least 1.
-        progress: called as ``progress(done, total)`` with the number of evaluations.
     """
     return native.fit_parameters(locals())

@@ -176,7 +176,7 @@ class Motor(Parameters):
         restitution: Float,
         load_torque: Float = 0.0,
     ) -> None:
-        self._fill(native.motor(locals()))
+        self.__dict__["_native"] = native.motor(locals())
 
     def replace(self, **changes: Float | None) -> Motor:
         """The same motor with other values in its data sheet.
@@ -203,11 +203,7 @@ class Motor(Parameters):
         return tuple(self._native.warnings())
 
     def report(self, *, progress: Progress = None) -> MotorReport:
-        """What the data sheet says before anything turns: forcing, regime, largest torque.
-
-        Args:
-            progress: called as ``progress(done, total)``.
-        """
+        """What the data sheet says before anything turns: forcing, regime, largest torque."""
         return native.report(locals())
 
     @staticmethod
@@ -231,7 +227,7 @@ class Motor(Parameters):
             toml: the text of the file.
 
         >>> import bouncing_disk as bd
-        >>> text = "\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
+        >>> text = "\\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
         >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
         True
         """
@@ -313,7 +309,6 @@ def operating_point(
         most_impacts: most impacts of all members together, in [1, 1e15].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
         seed: seed of the perturbations.
-        progress: called as ``progress(done, total)`` with the number of impacts.
     """
     return native.operating_point(locals())
 
@@ -375,7 +370,6 @@ def torque_speed_curve(
     Args:
         load_torques: load torques (N m) in place of that of the data sheet, shape (n,).
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
-        progress: called as ``progress(done, total)`` with the number of impacts.
     """
     return native.torque_speed_curve(locals())
 
@@ -413,7 +407,6 @@ def stall_load(
 
     Args:
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
-        progress: called as ``progress(done, total)`` with the number of impacts.
     """
     return native.stall_load(locals())
 
@@ -469,7 +462,6 @@ def input_spreads(
         perturbation_decades: decades over which the size of the relaunch perturbation is drawn, in [0, 6].
         draws: motors that are drawn, in [8, 10000].
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
-        progress: called as ``progress(done, total)`` with the number of draws.
 
     Returns:
         One for each load, or that of the stall load alone; None where fewer than four draws have a speed.
@@ -508,7 +500,6 @@ def best_phase_lag(
 
     Args:
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
-        progress: called as ``progress(done, total)`` with the number of impacts.
     """
     return native.best_phase_lag(locals())
 
@@ -554,7 +545,6 @@ def motor_map(
             rows, shape (n,).
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`, for
             each cell.
-        progress: called as ``progress(done, total)`` with the number of cells.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
@@ -604,7 +594,6 @@ def low_period_traps(
     Args:
         preload_accelerations: preloads as accelerations (m/s^2), positive; they take the place of that of the
             data sheet, shape (n,).
-        progress: called as ``progress(done, total)`` with the number of preloads.
 
     A flight of twelve and a half periods lands softly, which is where Gamma is 12.51:
 
@@ -655,7 +644,6 @@ def nearest_trap(
 
     Args:
         relative_range: the largest relative change of preload or amplitude that is looked at, in (0, 1].
-        progress: called as ``progress(done, total)`` with the steps to either side.
 
     Returns:
         None if there is none within the range that is at least 0.05 % wide.
@@ -715,7 +703,6 @@ def local_sensitivities(
             are drawn, in (0, 2].
         points: motors that are drawn over it, in [5, 10000].
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
-        progress: called as ``progress(done, total)`` with the number of ensembles.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
@@ -771,7 +758,6 @@ def sobol_indices(
         rows: rows of the sample, in [8, 1000000]; with d parameters each takes d + 2 motors.
         sampling_seed: seed of the sample.
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
-        progress: called as ``progress(done, total)`` with the number of rows.
     """
     return native.sobol_indices(locals())
 
@@ -821,6 +807,5 @@ def elementary_effects(
         rows: trajectories of the sample, in [8, 1000000]; with d parameters each takes d + 1 motors.
         sampling_seed, relative_error, members, most_impacts, relaunch_perturbation, seed: as of
             :func:`sobol_indices`.
-        progress: called as ``progress(done, total)`` with the number of trajectories.
     """
     return native.elementary_effects(locals())

@@ -71,9 +71,7 @@ class ImpactMap(Parameters):
         peak_acceleration: Float | None = None,
         restitution: Float,
     ) -> None:
-        self._fill(native.impact_map(locals()))
-        # Loops call the compiled steps themselves: a call in between would take as long as they do.
-        self._fill({"step": self._native.step, "step_back": self._native.step_back})
+        self.__dict__["_native"] = native.impact_map(locals())
 
     def _key(self) -> object:
         # Two maps are equal that compute the same, whichever forcing was given.
@@ -96,6 +94,8 @@ class ImpactMap(Parameters):
         Returns:
             Phase and velocity of the next impact.
         """
+        # The next call is that of the compiled method itself, here and below, so that loops pay for one call alone.
+        self.__dict__["step"] = self._native.step
         return self._native.step(
             impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
         )
@@ -109,6 +109,7 @@ class ImpactMap(Parameters):
         Returns:
             Phase and velocity of the impact before.
         """
+        self.__dict__["step_back"] = self._native.step_back
         return self._native.step_back(
             impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
         )
@@ -121,7 +122,6 @@ class ImpactMap(Parameters):
         Args:
             impact_phase, axial_impact_velocity: as of :meth:`step`.
             impacts: number of steps.
-            progress: called as ``progress(done, total)`` with the number of impacts.
 
         Returns:
             Phase and velocity of that impact.
@@ -137,7 +137,10 @@ class ImpactMap(Parameters):
         Returns:
             Rows: next phase and velocity; columns: by this phase and velocity (rad, units of g/omega).
         """
-        return native.derivative(locals())
+        self.__dict__["derivative"] = self._native.derivative
+        return self._native.derivative(
+            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
+        )
 
     def period_one(self, *, platform_periods: Int = 1) -> tuple[float, float] | None:
         """The orbit with one impact every so many periods of the platform, in closed form.
@@ -148,7 +151,8 @@ class ImpactMap(Parameters):
         Returns:
             Phase and velocity of its impact; None below the forcing at which it is born.
         """
-        return native.period_one(locals())
+        self.__dict__["period_one"] = self._native.period_one
+        return self._native.period_one(platform_periods=platform_periods)
 
     def refine(self, *, impact_phase: ArrayLike, axial_impact_velocity: ArrayLike) -> PeriodicOrbit:
         """The periodic orbit next to a guess, stable or not, by Newton's method on all impacts.
@@ -177,7 +181,6 @@ class ImpactMap(Parameters):
             transient: impacts before a period is looked for.
             longest_period: the longest period, in impacts, up to 4096.
             tolerance: how near an orbit must come to itself to count as periodic (rad, and relative speed).
-            progress: called as ``progress(done, total)`` with the number of impacts.
 
         Returns:
             None if the disk comes to rest or shows no period.
@@ -240,7 +243,6 @@ class PeriodicOrbit(Stored):
         Args:
             impact_map: the map that it is an orbit of.
             samples: starts on each circle that is tried.
-            progress: called as ``progress(done, total)`` with the number of starts.
 
         Returns:
             In radians (a radian counts as much as the peak velocity of the platform).
@@ -270,7 +272,6 @@ def periodic_orbits(
         max_impacts: the most impacts of an orbit, in [1, 64].
         max_platform_periods: the most periods of the platform that it takes, in [1, 10000].
         phases, speeds: starts along each axis, in [2, 4096].
-        progress: called as ``progress(done, total)`` with the number of starts.
 
     Returns:
         By rising number of impacts, then of platform periods, then by falling speed.
@@ -300,7 +301,6 @@ def iterate_orbits(
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         impacts: number of steps.
-        progress: called as ``progress(done, total)`` with the number of impacts of all orbits.
 
     Returns:
         Phase (rad) and relative velocity (not positive, in units of g/omega) of the last impact of each
@@ -421,7 +421,6 @@ def continued(
         rising: whether it goes towards higher values at first.
         first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
         max_points: the most orbits, in [2, 1000000].
-        progress: called as ``progress(done, total)`` with the number of orbits.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
@@ -469,7 +468,6 @@ def doubling_cascade(*, restitution: Float, count: Int, progress: Progress = Non
     Args:
         restitution: coefficient of restitution, in (0, 1).
         count: number of doublings, in [1, 13].
-        progress: called as ``progress(done, total)`` with the number of doublings.
 
     >>> import bouncing_disk as bd
     >>> bd.doubling_cascade(restitution=0.5, count=3).axial_forcing.round(4)

@@ -85,7 +85,7 @@ class System(Parameters):
         preload_acceleration: Float,
         load_acceleration: Float = 0.0,
     ) -> None:
-        self._fill(native.system(locals()))
+        self.__dict__["_native"] = native.system(locals())
 
     @staticmethod
     def pizza_toss() -> System:
@@ -129,6 +129,12 @@ class System(Parameters):
         amplitude, twist_amplitude = native.amplitudes_of_stroke(arguments)
         del arguments["stroke"], arguments["amplitude_angle"]
         return System(amplitude=amplitude, twist_amplitude=twist_amplitude, **arguments)
+
+    def replace(self, **changes: Any) -> System:
+        """The same system with other arguments."""
+        made = System.__new__(System)
+        made.__dict__["_native"] = self._native.replaced(changes)
+        return made
 
     def with_load_torque(self, *, torque: Float, mass: Float) -> System:
         """The same system with a load torque.
@@ -190,7 +196,7 @@ class ChatterCut(Parameters):
     short_flights: int
 
     def __init__(self, *, smallest_speed: Float, short_flight: Float, short_flights: Int) -> None:
-        self._fill(native.chatter_cut(locals()))
+        self.__dict__["_native"] = native.chatter_cut(locals())
 
     @staticmethod
     def paper() -> ChatterCut:

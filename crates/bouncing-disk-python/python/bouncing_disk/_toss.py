@@ -40,8 +40,6 @@ __all__ = [
     "toss_trajectory",
 ]
 
-Spin = Literal["absolute-rest", "with-hand"]
-
 
 class Energy(NamedTuple):
     """An energy balance per unit mass (J/kg).
@@ -102,7 +100,7 @@ def single_toss(
     >>> round(toss.airborne_speed)  # rad/s, as the paper prints for the toss of Table I
     14
     """
-    return native.single_toss(locals())
+    return native.single_toss(system, initial_spin)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -172,7 +170,6 @@ def multi_toss(
         longest_period: the longest period, in impacts, that is recognised, up to 4096.
         tolerance: phases (rad) and relative speeds that differ by no more are the same.
         chatter: how a chatter ends; ``None`` sums it.
-        progress: called as ``progress(done, total)`` with the number of impacts.
 
     >>> import bouncing_disk as bd
     >>> tossed = bd.System.pizza_toss().replace(amplitude=0.0566)
@@ -346,7 +343,6 @@ def simulate(
         duration: time (s), positive, after which the next event is the last one; where none follows, the
             motion ends then.
         chatter: how a chatter ends; ``None`` sums it.
-        progress: called as ``progress(done, total)`` with the number of events.
 
     >>> import bouncing_disk as bd
     >>> motion = bd.simulate(bd.System.pizza_toss(), phase=4.7, events=100)
@@ -416,7 +412,6 @@ def best_toss(
             positive.
         objective: what is to be largest.
         over_friction: how it is taken over the range of friction.
-        progress: called as ``progress(done, total)`` with steps of the search.
 
     >>> import bouncing_disk as bd
     >>> design = bd.best_toss(friction=(0.5, 0.7), angular_frequency=(10.0, 16.0), highest_flight=0.5)
