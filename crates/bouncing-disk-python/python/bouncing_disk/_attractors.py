@@ -9,18 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import (
-    ArrayLike,
-    ByteArray,
-    Float,
-    FloatArray,
-    Int,
-    IntArray,
-    Pair,
-    Progress,
-    Result,
-    Stored,
-)
+from bouncing_disk._base import *
 from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
 from bouncing_disk._system import ChatterCut
 

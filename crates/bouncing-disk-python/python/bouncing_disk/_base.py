@@ -1,4 +1,4 @@
-"""What parameters and results have in common, and the types of arguments."""
+"""What parameters and results have in common, and the types of arguments: for `import *` by the chapters."""
 
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
@@ -13,6 +13,23 @@ import numpy.typing as npt
 
 from bouncing_disk import _native as native
 from bouncing_disk._errors import InvalidError
+
+__all__ = [
+    "ArrayLike",
+    "BoolArray",
+    "ByteArray",
+    "ComplexArray",
+    "Float",
+    "FloatArray",
+    "Int",
+    "IntArray",
+    "Pair",
+    "Parameters",
+    "Progress",
+    "Result",
+    "Stored",
+    "readable",
+]
 
 ArrayLike: TypeAlias = npt.ArrayLike
 FloatArray: TypeAlias = npt.NDArray[np.float64]

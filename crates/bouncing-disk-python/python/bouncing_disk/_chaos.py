@@ -9,19 +9,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import (
-    ArrayLike,
-    ByteArray,
-    ComplexArray,
-    Float,
-    FloatArray,
-    Int,
-    IntArray,
-    Pair,
-    Progress,
-    Result,
-    Stored,
-)
+from bouncing_disk._base import *
 from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
 from bouncing_disk._system import ChatterCut
 

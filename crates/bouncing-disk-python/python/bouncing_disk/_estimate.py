@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import ArrayLike, Float, FloatArray, Int, IntArray, Pair, Progress, Result
+from bouncing_disk._base import *
 from bouncing_disk._motor import Motor
 from bouncing_disk._system import ChatterCut, System
 

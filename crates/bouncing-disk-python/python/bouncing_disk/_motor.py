@@ -8,20 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import (
-    ArrayLike,
-    BoolArray,
-    ByteArray,
-    Float,
-    FloatArray,
-    Int,
-    IntArray,
-    Pair,
-    Parameters,
-    Progress,
-    Result,
-    readable,
-)
+from bouncing_disk._base import *
 from bouncing_disk._system import System
 
 __all__ = [

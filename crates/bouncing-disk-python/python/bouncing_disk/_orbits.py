@@ -7,20 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import (
-    ArrayLike,
-    BoolArray,
-    ComplexArray,
-    Float,
-    FloatArray,
-    Int,
-    IntArray,
-    Pair,
-    Parameters,
-    Progress,
-    Result,
-    Stored,
-)
+from bouncing_disk._base import *
 from bouncing_disk._system import System
 
 __all__ = [

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import ArrayLike, Float, FloatArray, Int, Parameters
+from bouncing_disk._base import *
 
 __all__ = [
     "ChatterCut",

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import Int
+from bouncing_disk._base import *
 
 __all__ = ["set_threads", "threads"]
 

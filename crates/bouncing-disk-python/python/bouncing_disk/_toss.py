@@ -7,19 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, NamedTuple
 
 from bouncing_disk import _native as native
-from bouncing_disk._base import (
-    BoolArray,
-    ByteArray,
-    ComplexArray,
-    Float,
-    FloatArray,
-    Int,
-    IntArray,
-    Pair,
-    Progress,
-    Result,
-    Stored,
-)
+from bouncing_disk._base import *
 from bouncing_disk._orbits import PeriodicOrbit
 from bouncing_disk._system import ChatterCut, System
 
