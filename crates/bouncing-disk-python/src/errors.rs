@@ -232,7 +232,7 @@ pub(crate) fn of_call(py: Python<'_>, error: Error, call: &Bound<'_, PyDict>) ->
     };
     // The caller's number where the library has it in other units, and its range in those of the caller.
     let given = call.get_item(&name).ok().flatten().and_then(|given| given.extract::<f64>().ok());
-    match given.filter(|given| *given != value) {
+    match given.filter(|given| given.total_cmp(&value).is_ne()) {
         Some(given) => {
             let legal = in_unit(legal, given / value, unit(&name)).unwrap_or(legal.to_owned());
             named(py, &name, given, &legal)
