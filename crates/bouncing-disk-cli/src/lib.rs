@@ -7,7 +7,6 @@
 //!
 //! The chapter on the command line in the book (`docs/command-line.md`) shows what it does.
 
-mod arguments;
 mod commands;
 mod context;
 mod failure;
@@ -16,14 +15,13 @@ mod interrupt;
 mod output;
 mod parameters;
 mod pictures;
-mod progress;
 mod range;
 
 use std::process::ExitCode;
 
 use clap::Parser as _;
 
-use arguments::CommandLine;
+use commands::CommandLine;
 use failure::Failure;
 use output::lines::complain;
 
@@ -42,11 +40,8 @@ pub fn run() -> ExitCode {
     match run_line(line) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if let Some(text) = failure.text() {
-                complain!(
-                    "{}: {text}",
-                    if matches!(failure, Failure::Interrupted(_)) { "bouncing-disk" } else { "error" }
-                );
+            if let Some(message) = failure.message() {
+                complain(&message);
             }
             failure.exit_code()
         }
@@ -55,9 +50,9 @@ pub fn run() -> ExitCode {
 
 fn run_line(line: CommandLine) -> Result<(), Failure> {
     interrupt::listen()?;
-    if let Some(threads) = line.common.threads {
+    if let Some(threads) = line.context.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
         pool.map_err(|error| Failure::failed(format!("{threads} threads cannot be started: {error}")))?;
     }
-    commands::run(line.command, line.common.into())
+    commands::run(line.command, line.context)
 }

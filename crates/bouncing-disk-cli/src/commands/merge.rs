@@ -2,18 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
-
-use crate::arguments::OutputArgs;
-use crate::commands::basins::BasinsJob;
-use crate::commands::diagram::DiagramJob;
-use crate::commands::motor::sweep::SweepJob;
-use crate::commands::motor::transient::TransientJob;
-use crate::commands::verdicts::VerdictsJob;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::GridJob;
-use crate::grid::chunk::{Part, merged};
+use super::basins::BasinsJob;
+use super::diagram::DiagramJob;
+use super::motor::sweep::SweepJob;
+use super::motor::transient::TransientJob;
+use super::prelude::*;
+use super::verdicts::VerdictsJob;
+use crate::grid::{GridJob, Part, merged};
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
@@ -40,7 +35,7 @@ pub(crate) fn run(args: &MergeArgs, context: Context) -> Result<(), Failure> {
     args.output.check(true, &inputs, None)?;
     let parts = args.files.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
     let watcher = context.watch("merge");
-    let report = match parts.first().map(|part| part.command.as_str()).unwrap_or_default() {
+    let report = match parts.first().map(Part::command).unwrap_or_default().to_owned().as_str() {
         DiagramJob::COMMAND => merged::<DiagramJob>(parts, &watcher),
         VerdictsJob::COMMAND => merged::<VerdictsJob>(parts, &watcher),
         BasinsJob::COMMAND => merged::<BasinsJob>(parts, &watcher),

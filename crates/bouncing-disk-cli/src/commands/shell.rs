@@ -1,12 +1,10 @@
-//! What a shell is told of the program: completions and manual pages, made from the command line's own
-//! description.
+//! Completions and manual pages for a shell, made from the command line's own description.
 
 use std::io::{self, Write as _};
 
-use clap::{Args, CommandFactory as _};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::arguments::CommandLine;
 use crate::failure::Failure;
 
 /// What stands at the end of the help of completions.
@@ -37,8 +35,7 @@ pub(crate) struct ManArgs {
 }
 
 /// Writes completions.
-pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
-    let mut command = CommandLine::command();
+pub(crate) fn completions(args: &CompletionsArgs, mut command: Command) -> Result<(), Failure> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "bouncing-disk", &mut text);
     // For bash clap_complete writes the hyphen of the program's name in two ways, and finds no subcommand.
@@ -47,8 +44,7 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
 }
 
 /// Writes a manual page.
-pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
-    let mut command = CommandLine::command();
+pub(crate) fn man(args: &ManArgs, mut command: Command) -> Result<(), Failure> {
     command.build();
     let mut name = "bouncing-disk".to_owned();
     for word in &args.command {

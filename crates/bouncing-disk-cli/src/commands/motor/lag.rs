@@ -1,12 +1,7 @@
 //! `bouncing-disk motor phase-lag`: the phase lag at which the motor turns fastest.
 
-use clap::Args;
-
 use super::settings::OperationArgs;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::Quantities;
+use crate::commands::prelude::*;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
@@ -38,7 +33,7 @@ pub(super) fn run(args: &LagArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor phase-lag", &job)?,
         text: list.to_text(),
-        table: ready(list.to_table()),
+        table: list.into_csv(),
         data: vec![("best_phase_lag", stored(&best)?)],
         figure: None,
     };

@@ -1,15 +1,9 @@
 //! How a steady operation is computed, and of which motor.
 
+use crate::commands::prelude::*;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
-use clap::Args;
+use bouncing_disk::{InputTolerance, Motor, OperatingSettings, Operation};
 use serde::Serialize;
-
-use super::wrote_template;
-use crate::arguments::OutputArgs;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::parameters::motor::MotorArgs;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -68,11 +62,26 @@ impl SpreadArgs {
     }
 }
 
+/// What is legal in a data sheet and yet unlikely to be meant is a warning.
+pub(super) fn warn(motor: &Motor, context: Context) {
+    motor.warnings().iter().for_each(|warning| context.note(&format!("warning: {warning}")));
+}
+
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
     let regime = motor.report(&Unobserved)?.regime;
     let note = "the errors hold at exactly these inputs, the spread over their tolerances";
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
+}
+
+/// What became of a motor.
+pub(super) const fn state(operation: &Operation) -> &'static str {
+    match operation {
+        Operation::Steady(_) => "steady",
+        Operation::Unsettled(..) => "unsettled",
+        Operation::Runaway { .. } => "runaway",
+        _ => "unknown",
+    }
 }
 
 /// What a command takes that looks for one operation of a motor.
@@ -96,11 +105,8 @@ pub(super) struct OperationJob {
 impl OperationArgs {
     /// The job, if the result can be written; `None` where the template was asked for, and has been written.
     pub(super) fn job(&self, context: Context) -> Result<Option<OperationJob>, Failure> {
-        if wrote_template(&self.motor, &self.output, context)? {
-            return Ok(None);
-        }
-        self.output.check(false, &self.motor.inputs(), None)?;
-        let motor = self.motor.motor(context.quiet)?;
+        let Some(motor) = self.motor.begin(&self.output, false, context)? else { return Ok(None) };
+        warn(&motor, context);
         Ok(Some(OperationJob { motor, settings: self.settings.settings() }))
     }
 }

@@ -1,25 +1,17 @@
 //! `bouncing-disk motor transient`: the run-up of a motor from rest.
 
-use bouncing_disk::core::Unobserved;
 use std::ops::Range as Rows;
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
     FitSettings, LEAST_MEMBERS, Motor, Observer, SpeedCurve, TransientEnsemble, TransientFit,
     TransientMember, TransientSettings, ensemble_members, transients,
 };
-use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::wrote_template;
-use crate::arguments::{GridArgs, OWN, OutputArgs};
+use super::settings::warn;
 use crate::commands::fit::{estimates, refusal};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::{Quantities, Table};
-use crate::parameters::motor::MotorArgs;
-use crate::pictures;
+use crate::commands::prelude::*;
 
 /// What stands at the end of the help.
 const AFTER: &str = "\
@@ -60,11 +52,10 @@ pub(crate) struct TransientArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor, &args.output, context)? {
-        return Ok(());
-    }
+    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
+    warn(&motor, context);
     let job = TransientJob {
-        motor: args.motor.motor(context.quiet)?,
+        motor,
         members: args.members,
         settings: TransientSettings {
             duration: args.duration,
@@ -139,12 +130,14 @@ impl GridJob for TransientJob {
             list.push("time_constant", ensemble.time_constant.mean, "s");
             list.push("stall_acceleration", ensemble.stall_acceleration.mean, "rad/s^2");
         }
-        let mut table = Table::new(&[("time", "s"), ("speed", "rad/s"), ("member", "1")]);
-        for (member, curve) in ensemble.curves.iter().enumerate() {
-            for (time, speed) in curve.times.iter().zip(&curve.speeds) {
-                table.push([(*time).into(), (*speed).into(), (member + 1).into()]);
-            }
-        }
+        let columns = Columns::<(f64, f64, usize)>::new()
+            .column("time", "s", |row| row.0)
+            .column("speed", "rad/s", |row| row.1)
+            .column("member", "1", |row| row.2 + 1);
+        let instants = ensemble.curves.iter().enumerate().flat_map(|(member, curve)| {
+            curve.times.iter().zip(&curve.speeds).map(move |(time, speed)| (*time, *speed, member))
+        });
+        let table = columns.csv_of(instants.collect());
         let text = list.to_text() + &refused.map_or_else(String::new, |refused| format!("{refused}\n"));
         let judged = fit.is_some();
         let fit = fit.and_then(Result::ok);
@@ -154,7 +147,7 @@ impl GridJob for TransientJob {
                 .with_seed(self.settings.seed)
                 .with_chatter_policy(policy),
             text,
-            table: ready(table),
+            table,
             data: vec![
                 ("fit", stored(&fit)?),
                 ("curves", stored(&ensemble.curves)?),
