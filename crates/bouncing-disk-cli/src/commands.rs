@@ -20,8 +20,15 @@ use clap::{CommandFactory as _, Parser, Subcommand};
 use crate::context::Context;
 use crate::failure::Failure;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// A disk that bounces on a platform which vibrates and twists: tosses, orbits, attractors, motors
+///
+/// The model is that of Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009). Results are tables with units on
+/// the terminal, or files by the ending of --out: .csv, .json, .png, .svg.
+#[derive(Debug, Parser)]
+#[command(
+    name = "bouncing-disk",
+    version,
+    after_help = "\
 Exit status: 0 done; 1 the computation failed or the system refused; 2 the line or a file that it names is not \
 legal; 130 interrupted by Ctrl-C, 143 terminated. A first signal ends the computation and keeps what can be kept, a \
 second one ends the program at once. Results are the same bits for any number of threads.
@@ -29,14 +36,9 @@ second one ends the program at once. Results are the same bits for any number of
 Examples:
   bouncing-disk toss
   bouncing-disk diagram --out diagram.png
-  bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv";
-
-/// A disk that bounces on a platform which vibrates and twists: tosses, orbits, attractors, motors
-///
-/// The model is that of Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009). Results are tables with units on
-/// the terminal, or files by the ending of --out: .csv, .json, .png, .svg.
-#[derive(Debug, Parser)]
-#[command(name = "bouncing-disk", version, after_help = AFTER, max_term_width = 110)]
+  bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv",
+    max_term_width = 110
+)]
 pub(crate) struct CommandLine {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -1,4 +1,4 @@
-//! What every command is run with, and how far a long computation is: a bar on a terminal, a line now and then
+//! The options of every command, and the progress of a computation: a bar on a terminal, a line now and then
 //! elsewhere.
 
 use std::io::{IsTerminal as _, stderr};
@@ -13,7 +13,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use crate::interrupt;
 use crate::output::lines::complain;
 
-/// What every command has.
+/// The options of every command.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "General")]
 pub(crate) struct Context {
@@ -31,7 +31,7 @@ impl Context {
         Watcher::new(what, self.quiet)
     }
 
-    /// Says something that the result does not, unless that is unwanted.
+    /// Prints a note beside the result, unless that is unwanted.
     pub(crate) fn note(self, text: &str) {
         if !self.quiet {
             complain(text);

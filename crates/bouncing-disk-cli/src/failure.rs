@@ -15,8 +15,8 @@ pub(crate) enum Failure {
     Usage(String),
     /// The computation failed, or the system refused: status 1.
     Failed(String),
-    /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says what is
-    /// kept and how to resume.
+    /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says which
+    /// rows are kept, and how to resume.
     Interrupted(String),
     /// Whoever read the output has gone, as `head` does: nobody is left to read a message, and that is no
     /// error.

@@ -79,10 +79,10 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     /// The command, as it is written on the line.
     const COMMAND: &'static str;
 
-    /// What is known of a row when it is computed.
+    /// The result of a row.
     type Row: Serialize + DeserializeOwned;
 
-    /// What is worked out once for all rows.
+    /// Computed once, for all rows.
     type Prepared;
 
     /// Number of rows.
@@ -91,7 +91,7 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     /// Most rows that are computed together: they are kept, or begun again, together.
     fn together(&self) -> usize;
 
-    /// Works out what all rows need.
+    /// Computes what all rows need.
     ///
     /// # Errors
     /// Those of the library, also for a job that is not legal.
@@ -115,7 +115,7 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     fn report(self, prepared: Self::Prepared, rows: Vec<Self::Row>) -> Result<Report, Failure>;
 }
 
-/// Computes a job, or its part, and delivers what comes out; `inputs` are the files that the job was read
+/// Computes a job, or its part, and delivers the result; `inputs` are the files that the job was read
 /// from.
 pub(crate) fn run<J: GridJob>(
     job: J,
@@ -220,7 +220,7 @@ fn compute_all<J: GridJob>(
     Ok(finished.into_results()?)
 }
 
-/// What is kept, and how to resume.
+/// Says which rows are kept, and how to resume.
 fn interrupted(journal: Option<&Path>, done: u64, items: usize) -> Failure {
     Failure::Interrupted(match journal {
         Some(path) => format!(

@@ -160,7 +160,7 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl T
     let possible = words.iter().map(|(word, help, _)| PossibleValue::new(*word).help(*help));
     PossibleValuesParser::new(possible).try_map(move |word| {
         let found = words.iter().find(|(own, ..)| *own == word);
-        found.map(|(.., value)| *value).ok_or("it is none of the words")
+        found.map(|(.., value)| *value).ok_or("an unknown word")
     })
 }
 

@@ -15,17 +15,6 @@ use serde_json::Value;
 use super::map::{MapArgs, VERTICAL, map};
 use super::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
-The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
-as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
-
-Examples:
-  bouncing-disk basins --out basins.png
-  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed 0:5 --out basins.json
-  bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json";
-
 /// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
 const FORCING: f64 = 0.486;
 
@@ -34,7 +23,15 @@ const TOGETHER: usize = 100_000;
 
 /// Attractors and their basins, in the plane of impact phase and speed
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
+as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
+
+Examples:
+  bouncing-disk basins --out basins.png
+  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed 0:5 --out basins.json
+  bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json")]
 pub(crate) struct BasinsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
     /// given; without these 0.486, that of the paper's Fig. 7(b)
@@ -79,7 +76,7 @@ pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-/// What basins depend on.
+/// The inputs of basins.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BasinsJob {
@@ -220,7 +217,7 @@ fn hexadecimal(labels: &[Label]) -> String {
     labels.iter().map(|label| format!("{label:02x}")).collect()
 }
 
-/// The labels of a row; what is none counts as none, which the number of labels tells.
+/// The labels of a row, without pairs of letters that are none: their number shows a fault.
 fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
     let pairs = row.as_bytes().chunks(2);
     pairs.filter_map(|pair| Label::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())

@@ -9,17 +9,7 @@ use bouncing_disk::{
 use super::prelude::*;
 use super::toss::{MOST_INSTANTS, SPINS, Sample, instants, motion, quantities, samples, write_table};
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
-Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
-whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
-the range of friction. See docs/numerics/design.md and `TossConstraints` of the library.
-
-Examples:
-  bouncing-disk design
-  bouncing-disk design --friction 0.5:0.7 --angular-frequency 10:16 --objective turns --highest-flight 0.5";
-
-/// What a toss is to be best at.
+/// The quantities that a toss can maximise.
 const OBJECTIVES: Words<TossObjective> = &[
     ("airborne-speed", "The airborne rotary speed (rad/s)", TossObjective::AirborneSpeed),
     ("efficiency", "The efficiency of Sec. III A", TossObjective::Efficiency),
@@ -32,7 +22,14 @@ const OVER: Words<OverFriction> =
 
 /// The hand motion that tosses best, under constraints
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
+whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
+the range of friction. See docs/numerics/design.md and `TossConstraints` of the library.
+
+Examples:
+  bouncing-disk design
+  bouncing-disk design --friction 0.5:0.7 --angular-frequency 10:16 --objective turns --highest-flight 0.5")]
 pub(crate) struct DesignArgs {
     #[command(flatten)]
     system: SystemArgs,
@@ -51,7 +48,7 @@ pub(crate) struct DesignArgs {
     /// The highest that the dough may fly above the place where it leaves the hand (m)
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "METRES")]
     highest_flight: Option<f64>,
-    /// What the toss is to be best at
+    /// The quantity that the toss maximises
     #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed", value_parser = one_of(OBJECTIVES))]
     objective: TossObjective,
     /// How that is taken over the range of friction

@@ -15,17 +15,6 @@ use super::prelude::*;
 use super::start::{STARTS, Start};
 use crate::output::json::Data;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
-Of each forcing a row: the impacts of an orbit after its transient, as Figs. 6(a) and 6(b) of the paper. Phases are in \
-periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the \
-phases that differ by a millionth of a period. See docs/studying-the-dynamics.md.
-
-Examples:
-  bouncing-disk diagram --out diagram.png
-  bouncing-disk diagram -G 0.45:0.55:1001 --start period-1 --out cascade.csv
-  bouncing-disk diagram --chunk 1/10 --out part-1.json";
-
 /// Forcings of the paper's Fig. 6.
 const FORCINGS: &str = "0.30:0.62:641";
 
@@ -34,7 +23,15 @@ const TOGETHER: usize = 256;
 
 /// An orbit diagram: the impacts for good, over the axial forcing
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+Of each forcing a row: the impacts of an orbit after its transient, as Figs. 6(a) and 6(b) of the paper. Phases are in \
+periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the \
+phases that differ by a millionth of a period. See docs/studying-the-dynamics.md.
+
+Examples:
+  bouncing-disk diagram --out diagram.png
+  bouncing-disk diagram -G 0.45:0.55:1001 --start period-1 --out cascade.csv
+  bouncing-disk diagram --chunk 1/10 --out part-1.json")]
 pub(crate) struct DiagramArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
     /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:641, those of the
@@ -79,7 +76,7 @@ const SAME_PHASE: f64 = 1e-6;
 /// What an impact takes (bytes): a phase and a speed.
 const IMPACT: u64 = 16;
 
-/// What a diagram depends on.
+/// The inputs of a diagram.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramJob {

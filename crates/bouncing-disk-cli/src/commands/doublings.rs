@@ -6,19 +6,16 @@ use super::map::MapArgs;
 use super::prelude::*;
 use crate::output::numbers::rounded;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
+#[derive(Debug, Args)]
+#[command(after_help = "\
 The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
 the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. The forcings are what is found, so that there is no --axial-forcing; of a system its restitution alone matters. See docs/numerics/dynamics.md.
+forcing by. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
 
 Examples:
   bouncing-disk doublings
-  bouncing-disk doublings --restitution 0.3 --count 12 --out cascade.csv";
-
-/// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk doublings --restitution 0.3 --count 12 --out cascade.csv")]
 pub(crate) struct DoublingsArgs {
     #[command(flatten)]
     map: MapArgs,

@@ -1,4 +1,4 @@
-//! `bouncing-disk fit`: what measured run-ups say.
+//! `bouncing-disk fit`: steady speed and time constant, or parameters of a motor, from measured run-ups.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -11,8 +11,9 @@ use bouncing_disk::{
 use super::prelude::*;
 use crate::parameters::source::{Described as _, Setting};
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Fits measured run-ups: steady speed and time constant, or parameters of a motor
+#[derive(Debug, Args)]
+#[command(after_help = "\
 The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds in units that it names, \
 such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter alpha_ss - b exp(-t/t_c) is \
 fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
@@ -24,11 +25,7 @@ docs/designing-a-motor.md.
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
   bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit rpm
-  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4";
-
-/// Fits measured run-ups: steady speed and time constant, or parameters of a motor
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4")]
 pub(crate) struct FitArgs {
     /// Measured speeds: time_s, speed_rad_s and, of several runs, member
     file: PathBuf,
@@ -157,7 +154,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     })
 }
 
-/// What a fit of a run-up says.
+/// The results of a fit of a run-up.
 pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
     list.push_interval("steady_speed", fit.steady_speed(), "rad/s");
     list.push_interval("time_constant", fit.time_constant(), "s");

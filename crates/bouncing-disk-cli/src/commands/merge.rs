@@ -10,17 +10,14 @@ use super::prelude::*;
 use super::verdicts::VerdictsJob;
 use crate::grid::{GridJob, Part, merged};
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Puts the chunks of a computation together
+#[derive(Debug, Args)]
+#[command(after_help = "\
 The result has the very bytes that the command without --chunk gives. Chunks that are missing, there twice, damaged, or of \
 another computation or version of the program are refused by name. See docs/command-line.md, \"On a cluster\".
 
 Example:
-  bouncing-disk merge part-*.json --out diagram.png";
-
-/// Puts the chunks of a computation together
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk merge part-*.json --out diagram.png")]
 pub(crate) struct MergeArgs {
     /// The files of all chunks, in any order
     #[arg(required = true, value_name = "FILE")]

@@ -7,8 +7,12 @@ use bouncing_disk::core::{OrbitSearch, OrbitsFound, PeriodicOrbit};
 use super::map::{MapArgs, VERTICAL, map};
 use super::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Past the second period doubling.
+const FORCING: f64 = 0.535;
+
+/// All periodic orbits of few impacts, stable and unstable
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Orbits of one impact come from their closed form, all others from Newton's method on the impacts of a grid of starts: the \
 result says whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in \
 modulus by more than rounding may change it, and is marginal if rounding decides, as in a fold. Phases are in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See \
@@ -16,14 +20,7 @@ docs/studying-the-dynamics.md, \"All periodic orbits\".
 
 Examples:
   bouncing-disk orbits --axial-forcing 0.535
-  bouncing-disk orbits --axial-forcing 0.535 --impacts 2 --out orbits.json";
-
-/// Past the second period doubling.
-const FORCING: f64 = 0.535;
-
-/// All periodic orbits of few impacts, stable and unstable
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk orbits --axial-forcing 0.535 --impacts 2 --out orbits.json")]
 pub(crate) struct OrbitsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
     /// given; without these 0.535, past the second period doubling

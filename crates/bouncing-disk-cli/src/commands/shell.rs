@@ -7,20 +7,11 @@ use clap_complete::Shell;
 
 use crate::failure::Failure;
 
-/// What stands at the end of the help of completions.
-const AFTER_COMPLETIONS: &str = "\
-Example:
-  bouncing-disk completions bash > ~/.local/share/bash-completion/completions/bouncing-disk";
-
-/// What stands at the end of the help of the manual.
-const AFTER_MAN: &str = "\
-Examples:
-  bouncing-disk man > bouncing-disk.1
-  bouncing-disk man motor sweep | man -l -";
-
 /// Completions for a shell, on standard output
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_COMPLETIONS)]
+#[command(after_help = "\
+Example:
+  bouncing-disk completions bash > ~/.local/share/bash-completion/completions/bouncing-disk")]
 pub(crate) struct CompletionsArgs {
     /// The shell
     shell: Shell,
@@ -28,7 +19,10 @@ pub(crate) struct CompletionsArgs {
 
 /// A manual page in roff, on standard output
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_MAN)]
+#[command(after_help = "\
+Examples:
+  bouncing-disk man > bouncing-disk.1
+  bouncing-disk man motor sweep | man -l -")]
 pub(crate) struct ManArgs {
     /// The command whose page it is; that of the program unless given
     command: Vec<String>,

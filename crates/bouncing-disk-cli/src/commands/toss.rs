@@ -14,18 +14,6 @@ use super::prelude::*;
 use crate::output::json::Data;
 use crate::output::table::WriteTable;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
-The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
-after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
-than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
-are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
-
-Examples:
-  bouncing-disk toss
-  bouncing-disk toss --set disk.friction=0.05 --out toss.png
-  bouncing-disk toss --many --set platform.angular_frequency=12";
-
 /// How the disk turns at the start.
 pub(super) const SPINS: Words<InitialSpin> = &[
     ("absolute-rest", "It does not turn", InitialSpin::AbsoluteRest),
@@ -46,7 +34,16 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
+after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
+than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
+are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
+
+Examples:
+  bouncing-disk toss
+  bouncing-disk toss --set disk.friction=0.05 --out toss.png
+  bouncing-disk toss --many --set platform.angular_frequency=12")]
 pub(crate) struct TossArgs {
     #[command(flatten)]
     system: SystemArgs,
@@ -114,7 +111,7 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Fa
         ..MultiTossSettings::default()
     };
     let start = start(system, args.spin)?;
-    // Before the long part, so that a number of periods that is not legal is told at once.
+    // Before the long part, so that an illegal number of periods is refused at once.
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
     let span = PhaseSpan { periods: args.periods, remainder: 0.0 };
     let instants = instants(args.samples, args.periods) as usize;

@@ -13,18 +13,6 @@ use super::prelude::*;
 use super::start::{STARTS, Start};
 use crate::output::json::Data;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
-A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is \
-proved by Newton's method, chaos by growth that neither neutral motion nor the error explains, or undecided. A range of restitutions \
-makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
-docs/studying-the-dynamics.md.
-
-Examples:
-  bouncing-disk verdicts --axial-forcing 0.3:0.6:7
-  bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 2000 --out map.png
-  bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json";
-
 /// Forcings unless given.
 const FORCINGS: &str = "0.30:0.62:33";
 
@@ -34,13 +22,22 @@ const TOGETHER: usize = 4_096;
 /// Most cells that keep their evidence.
 const MOST_DETAILED: u64 = 1 << 24;
 
-/// What a cell takes while the result is made (bytes), with its evidence and without.
+/// Bytes of a cell while the result is made, with its evidence and without.
 const DETAILED: u64 = 2 * size_of::<Option<Verdict>>() as u64;
 const PLAIN: u64 = 4;
 
 /// Verdicts on what the disk does for good, over forcing and restitution
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is \
+proved by Newton's method, chaos by growth that neither neutral motion nor the error explains, or undecided. A range of restitutions \
+makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
+docs/studying-the-dynamics.md.
+
+Examples:
+  bouncing-disk verdicts --axial-forcing 0.3:0.6:7
+  bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 2000 --out map.png
+  bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json")]
 pub(crate) struct VerdictsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
     /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:33
@@ -92,7 +89,7 @@ pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> 
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-/// What verdicts depend on.
+/// The inputs of verdicts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VerdictsJob {
@@ -237,7 +234,7 @@ impl VerdictsJob {
     }
 }
 
-/// What was found, cell by cell in the order of the rows.
+/// The verdicts, cell by cell in the order of the rows.
 struct Found {
     job: VerdictsJob,
     kinds: Vec<Kind>,
@@ -314,7 +311,7 @@ impl Found {
     }
 }
 
-/// What the disk does for good, without the evidence.
+/// The kind of motion that the disk settles on, without the evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     AtRest,

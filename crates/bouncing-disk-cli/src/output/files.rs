@@ -261,7 +261,7 @@ fn folder_of(path: &Path) -> &Path {
 mod tests {
     use super::*;
 
-    /// What the tests of the program do not see: the file appears, or fails, while the result is computed.
+    /// The tests of the program cannot see this: the file appears, or fails, while the result is computed.
     #[test]
     fn a_file_is_there_as_a_whole_or_not_at_all() {
         let folder = tempfile::tempdir().unwrap();

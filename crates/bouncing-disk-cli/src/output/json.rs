@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use serde_json::Value;
 
-/// What a field has.
+/// The value of a field.
 pub(crate) enum Data {
     Whole(Value),
     /// A list whose elements are tables or lists, each made when it is written: all of them together may take
@@ -23,7 +23,7 @@ impl From<Value> for Data {
 }
 
 impl Data {
-    /// A list of what is made of the numbers below `count`.
+    /// A list of `count` elements, made from their indices.
     pub(crate) fn list(count: usize, of: impl Fn(usize) -> io::Result<Value> + 'static) -> Self {
         Self::List(Box::new(move |each| (0..count).try_for_each(|index| each(&of(index)?))))
     }

@@ -15,11 +15,11 @@ use crate::failure::Failure;
 pub(crate) const PROGRAM: &str = env!("CARGO_PKG_NAME");
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// What a command has found.
+/// The result of a command.
 pub(crate) struct Report {
     /// Of what, and from what.
     pub(crate) provenance: Provenance,
-    /// What is printed.
+    /// The text for the terminal.
     pub(crate) text: String,
     /// Writes what goes into a comma-separated file.
     pub(crate) table: WriteTable,
@@ -67,7 +67,7 @@ impl Report {
     }
 }
 
-/// A value as JSON. What cannot be stored is a defect, and reported as a failure.
+/// A value as JSON. One that cannot be stored is a defect, and reported as a failure.
 pub(crate) fn value(of: &(impl Serialize + ?Sized)) -> Result<Value, Failure> {
     serde_json::to_value(of).map_err(|error| Failure::failed(format!("a result cannot be stored: {error}")))
 }

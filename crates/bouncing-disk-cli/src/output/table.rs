@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::numbers::shown;
 
-/// A cell for people: what is not there, and what is no number, is a dash.
+/// A cell for people; a missing one, or one that is no number, is a dash.
 fn shown_cell(cell: &Value) -> String {
     match cell.as_f64() {
         Some(number) if cell.is_f64() => shown(number),
@@ -16,7 +16,7 @@ fn shown_cell(cell: &Value) -> String {
     }
 }
 
-/// A cell with all bits, as a program reads it; what is not there is empty.
+/// A cell with all bits, as a program reads it; a missing one is empty.
 fn exact_cell(cell: &Value) -> String {
     match cell {
         Value::Null => String::new(),
@@ -26,7 +26,7 @@ fn exact_cell(cell: &Value) -> String {
     }
 }
 
-/// What writes comma-separated text.
+/// Writes comma-separated text.
 pub(crate) type WriteTable = Box<dyn Fn(&mut dyn Write) -> io::Result<()>>;
 
 /// A column: its name, its unit (`1` where it has none), and the cell of a row.

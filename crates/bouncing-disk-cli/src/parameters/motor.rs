@@ -27,7 +27,7 @@ impl Described for Motor {
     const FILE: &'static str = "the data sheet of a motor";
     const READERS: &'static str = "motor and fit --motor";
 
-    fn is_told_by(key: &str) -> bool {
+    fn is_known_by(key: &str) -> bool {
         key.parse::<MotorField>().is_ok() && !is_parameter(key)
     }
 

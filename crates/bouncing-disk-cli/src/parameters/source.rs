@@ -15,7 +15,7 @@ use crate::output::OutputArgs;
 use crate::output::lines::visible;
 use crate::range::{Words, one_of};
 
-/// What a file of parameters describes.
+/// Parameters that a file can describe.
 pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// Those of the paper; the first are the default ones.
     const PRESETS: Words<fn() -> Self>;
@@ -23,12 +23,12 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// The other kind of file, which may be given by mistake.
     type Other: Described;
 
-    /// What a file has, and the commands that read it.
+    /// The content of a file in words, and the commands that read it.
     const FILE: &'static str;
     const READERS: &'static str;
 
     /// Whether a key of the outermost table is one of this kind of file, and no parameter of the other.
-    fn is_told_by(key: &str) -> bool;
+    fn is_known_by(key: &str) -> bool;
 
     /// Reads a file; the settings take the place of what it says before anything is checked, so that they can
     /// put a wrong file right.
@@ -230,9 +230,9 @@ fn in_words(reason: &str) -> String {
     }
 }
 
-/// The key that tells that a text is of the other kind. One with a key that tells its own kind is of that.
+/// The key by which a text is of the other kind; `None` if a key shows that it is of its own kind.
 fn mistaken<D: Described>(text: &str, format: Format) -> Option<String> {
     let keys: BTreeMap<String, IgnoredAny> = parse(text, format).ok()?;
-    let own = keys.keys().any(|key| D::is_told_by(key));
-    keys.into_keys().find(|key| !own && D::Other::is_told_by(key))
+    let own = keys.keys().any(|key| D::is_known_by(key));
+    keys.into_keys().find(|key| !own && D::Other::is_known_by(key))
 }

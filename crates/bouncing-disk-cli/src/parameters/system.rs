@@ -32,7 +32,7 @@ pub(super) fn is_parameter(key: &str) -> bool {
     FIELDS.iter().any(|(path, ..)| path.split_once('.').is_some_and(|(_, name)| name == key))
 }
 
-/// A file, which may lack what is set on the line.
+/// A file, which may lack parameters that --set gives.
 #[derive(Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields, default, expecting = "the tables platform and disk")]
 struct File {
@@ -90,13 +90,13 @@ impl Described for System {
     const FILE: &'static str = "the parameters of a disk and its platform";
     const READERS: &'static str = "toss, orbits, diagram, verdicts, basins, doublings and design";
 
-    fn is_told_by(key: &str) -> bool {
+    fn is_known_by(key: &str) -> bool {
         TABLES.contains(&key)
     }
 
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, Refusal> {
         let mut file: File = parse(text, format).map_err(Refusal::Text)?;
-        // What a file may leave out.
+        // A file may leave it out.
         file.disk.load_acceleration.get_or_insert(0.0);
         tables(&file).and_then(|tables| build(tables, settings)).map_err(Refusal::Value)
     }

@@ -5,8 +5,12 @@ use bouncing_disk::{InputSpread, MotorField, Operation, SweepQuantity};
 use super::settings::{SettingsArgs, SpreadArgs, lock_note, state, warn};
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Loads unless given: points from none to the largest torque.
+const POINTS: usize = 11;
+
+/// The torque-speed curve, with power and efficiency
+#[derive(Debug, Args)]
+#[command(after_help = "\
 All loads ride on one vertical motion: a curve costs little more than a point. Errors are standard errors at exactly these \
 inputs; the spread is over motors whose preload and amplitude lie within the tolerance, and the relaunch perturbation within \
 a decade: 95 of 100 further ones lie between its ends. A load beyond \
@@ -15,14 +19,7 @@ speed changes its sign, on a straight line between two loads; `motor stall` comp
 
 Examples:
   bouncing-disk motor curve
-  bouncing-disk motor curve motor.toml --loads 0:40e-6:21 --out curve.png --out curve.csv";
-
-/// Loads unless given: points from none to the largest torque.
-const POINTS: usize = 11;
-
-/// The torque-speed curve, with power and efficiency
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor curve motor.toml --loads 0:40e-6:21 --out curve.png --out curve.csv")]
 pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,

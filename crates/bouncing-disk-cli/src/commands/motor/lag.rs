@@ -3,17 +3,14 @@
 use super::settings::OperationArgs;
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The phase lag at which the motor turns fastest
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Under the load of the data sheet; the other direction is best half a circle away. Errors are standard errors. See \
 docs/designing-a-motor.md.
 
 Example:
-  bouncing-disk motor phase-lag motor.toml --set load_torque=1e-5";
-
-/// The phase lag at which the motor turns fastest
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor phase-lag motor.toml --set load_torque=1e-5")]
 pub(crate) struct LagArgs {
     #[command(flatten)]
     operation: OperationArgs,

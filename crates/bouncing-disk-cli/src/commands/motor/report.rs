@@ -2,19 +2,16 @@
 
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Forcing, regime, largest torque and warnings that follow from the data sheet
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
 meant. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor report --template > motor.toml
   bouncing-disk motor report motor.toml
-  bouncing-disk motor report motor.toml --set preload_force=5 --out report.json";
-
-/// What follows from the data sheet, and what the rotor does
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor report motor.toml --set preload_force=5 --out report.json")]
 pub(crate) struct ReportArgs {
     #[command(flatten)]
     motor: MotorArgs,

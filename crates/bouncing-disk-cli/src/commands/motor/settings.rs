@@ -62,7 +62,7 @@ impl SpreadArgs {
     }
 }
 
-/// What is legal in a data sheet and yet unlikely to be meant is a warning.
+/// Prints warnings of values in a data sheet that are legal and yet unlikely to be meant.
 pub(super) fn warn(motor: &Motor, context: Context) {
     motor.warnings().iter().for_each(|warning| context.note(&format!("warning: {warning}")));
 }
@@ -84,7 +84,7 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
     }
 }
 
-/// What a command takes that looks for one operation of a motor.
+/// The arguments of a command that looks for one operation of a motor.
 #[derive(Debug, Clone, Args)]
 pub(super) struct OperationArgs {
     #[command(flatten)]

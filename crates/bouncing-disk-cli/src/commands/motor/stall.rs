@@ -3,19 +3,16 @@
 use super::settings::{OperationArgs, OperationJob, SpreadArgs, lock_note};
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The load torque that stops the motor
+#[derive(Debug, Args)]
+#[command(after_help = "\
 The true stall: the load torque at which the mean speed vanishes, not the paper's estimate from the run-up without load \
 (`bouncing-disk fit` has that one). Errors are standard errors at exactly these inputs; the spread is over motors whose \
 preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
 docs/designing-a-motor.md.
 
 Example:
-  bouncing-disk motor stall motor.toml";
-
-/// The load torque that stops the motor
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor stall motor.toml")]
 pub(crate) struct StallArgs {
     #[command(flatten)]
     operation: OperationArgs,

@@ -14,8 +14,9 @@ use serde::{Deserialize, Serialize};
 use super::settings::{SettingsArgs, state, warn};
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// A motor over one or two fields of its data sheet
+#[derive(Debug, Args)]
+#[command(after_help = "\
 One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in \
 load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and \
 --journal divide and keep these. Fields are those of the data sheet, in its units. See docs/designing-a-motor.md.
@@ -23,11 +24,7 @@ load, friction, phase lag, twist, radii or mass only) are computed on one orbit,
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
   bouncing-disk motor sweep --over preload_force=0.2:0.4:3 --over phase_lag=-1:1:9 --out map.png
-  bouncing-disk motor sweep motor.toml --over amplitude=1e-9:1e-7:50 --journal sweep.journal";
-
-/// A motor over one or two fields of its data sheet
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor sweep motor.toml --over amplitude=1e-9:1e-7:50 --journal sweep.journal")]
 pub(crate) struct SweepArgs {
     #[command(flatten)]
     motor: MotorArgs,
@@ -64,7 +61,7 @@ impl FromStr for Over {
     }
 }
 
-/// What a picture shows.
+/// The quantities that a picture can show.
 const PICTURES: Words<SweepQuantity> = &[
     ("speed", "Mean angular speed", SweepQuantity::Speed),
     ("mechanical-power", "Load torque times mean speed", SweepQuantity::MechanicalPower),
@@ -90,7 +87,7 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<(), Failure> {
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
-/// What a sweep depends on.
+/// The inputs of a sweep.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SweepJob {

@@ -13,19 +13,16 @@ use super::settings::warn;
 use crate::commands::fit::{estimates, refusal};
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The run-up from rest, of one motor or many, with its fit
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five members or more \
 their mean is fitted by alpha_ss (1 - exp(-t/t_c)) with 95 % intervals. In .csv a row is an instant and a member, with the \
 columns that `bouncing-disk fit` reads. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor transient --duration 2 --members 5
-  bouncing-disk motor transient motor.toml --members 100 --out run-up.csv --out run-up.png";
-
-/// The run-up from rest, of one motor or many, with its fit
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor transient motor.toml --members 100 --out run-up.csv --out run-up.png")]
 pub(crate) struct TransientArgs {
     #[command(flatten)]
     motor: MotorArgs,
@@ -68,7 +65,7 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure>
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
-/// What a run-up depends on.
+/// The inputs of a run-up.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TransientJob {

@@ -5,18 +5,15 @@ use bouncing_disk::{Estimate, LEAST_TRAP_WIDTH, TrapRange};
 use super::settings::{OperationArgs, OperationJob, state};
 use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Ranges of the preload that trap the motor, with the speed inside
+#[derive(Debug, Args)]
+#[command(after_help = "\
 A motor in a trap repeats a short cycle of flights and rest, whose speed may be far from that beside the trap, or near it. A \
 motor whose preload is known to 1 % meets a trap of relative width w with a chance of up to w/2 %. Speeds are \
 those near both edges and in the middle of the range, under the load of the data sheet. See docs/designing-a-motor.md.
 
 Example:
-  bouncing-disk motor traps motor.toml --from 4 --to 6";
-
-/// Ranges of the preload that trap the motor, with the speed inside
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor traps motor.toml --from 4 --to 6")]
 pub(crate) struct TrapsArgs {
     #[command(flatten)]
     operation: OperationArgs,
