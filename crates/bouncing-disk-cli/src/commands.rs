@@ -64,9 +64,6 @@ pub(crate) enum Command {
 }
 
 /// Runs a command.
-///
-/// # Errors
-/// What ends it before its result is there.
 pub(crate) fn run(command: Command, context: Context) -> Result<(), Failure> {
     match command {
         Command::Toss(args) => toss::run(&args, context),

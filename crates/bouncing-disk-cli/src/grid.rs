@@ -91,16 +91,10 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     /// Most rows that are computed together: they are kept, or begun again, together.
     fn together(&self) -> usize;
 
-    /// Computes what all rows need.
-    ///
-    /// # Errors
-    /// Those of the library, also for a job that is not legal.
+    /// Checks the job, and computes what all rows need.
     fn prepare(&self, observer: &dyn Observer) -> Result<Self::Prepared, Failure>;
 
     /// Computes rows.
-    ///
-    /// # Errors
-    /// Those of the library.
     fn compute(
         &self,
         prepared: &Self::Prepared,
@@ -109,9 +103,6 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     ) -> Result<Vec<Self::Row>, Failure>;
 
     /// The result of all rows.
-    ///
-    /// # Errors
-    /// Those of the library, and what cannot be stored.
     fn report(self, prepared: Self::Prepared, rows: Vec<Self::Row>) -> Result<Report, Failure>;
 }
 

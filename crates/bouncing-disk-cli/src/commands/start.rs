@@ -34,9 +34,6 @@ pub(crate) const STARTS: &str = "`rest` on the platform; `rise`, an impact as th
 
 impl Start {
     /// The impact in a map; `None` where the map has no such start.
-    ///
-    /// # Errors
-    /// Those of [`ImpactState::new`].
     pub(crate) fn of(self, map: &ImpactMap) -> Result<Option<ImpactState>, Error> {
         match self {
             Self::Rest => ImpactState::new(Phase::new(0.0)?, 0.0).map(Some),

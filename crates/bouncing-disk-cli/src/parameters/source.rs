@@ -195,7 +195,7 @@ fn read_text(path: &Path) -> Result<(String, Format), Failure> {
     let bytes = regular_file::read(path, LARGEST).map_err(|error| unreadable(&error.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is no text in UTF-8"))?;
     // Some editors put a byte-order mark before the text.
-    Ok((text.strip_prefix('\u{feff}').map_or_else(|| text.clone(), str::to_owned), format))
+    Ok((text.trim_start_matches('\u{feff}').to_owned(), format))
 }
 
 /// Reads the table of a text.
