@@ -226,7 +226,8 @@ fn in_words(reason: &str) -> String {
             let mut keys = keys.split('`').skip(1).step_by(2);
             unknown(keys.next().unwrap_or_default(), keys)
         }
-        None => visible(reason),
+        // The type is a programmer's word.
+        None => visible(&reason.replace("expected f64", "expected a number")),
     }
 }
 
