@@ -16,8 +16,8 @@ use super::expansion::{Expansion, LAST_SHARE, MAJORANT};
 use super::impact_series::ChatterSeries;
 use crate::error::{Error, not_negative, within};
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
-use crate::platform::phase::{PAIR_TOLERANCE, Phase};
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::phase::{PAIR_TOLERANCE, Phase};
+use crate::flight::platform::vibration::Vibration;
 use crate::read_checked;
 
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of

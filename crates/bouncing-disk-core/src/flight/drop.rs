@@ -17,8 +17,8 @@ use crate::flight::gap::SHORT_FLIGHT;
 use crate::flight::gap::{BRIEFEST, Bracket, GapForm, LaunchForm, Root, ShortForm};
 use crate::flight::impact::Impact;
 use crate::numerics::elementary::{CREST, hypot};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 
 /// Largest gap accepted, in units of g/omega^2.
 const LARGEST_GAP: f64 = 1.0e17;

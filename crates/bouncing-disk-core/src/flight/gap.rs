@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::numerics::elementary::{
     rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
 };
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::vibration::Vibration;
 
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;

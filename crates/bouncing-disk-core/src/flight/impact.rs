@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 
 use crate::error::{Error, within};
-use crate::platform::phase::Phase;
+use crate::flight::platform::phase::Phase;
 use crate::read_checked;
 
 /// The first impact after a launch.

@@ -12,7 +12,7 @@ use crate::error::{Error, not_negative, within};
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::Launch;
 use crate::numerics::elementary::{sin, sin_cos, wrapped_angle};
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::vibration::Vibration;
 use crate::read_checked;
 
 /// Steps after which the walk reports [`Error::NoConvergence`].

@@ -8,9 +8,9 @@ use crate::error::{Error, not_negative, within};
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
-use crate::observer::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::read_checked;
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::wrapped_angle;
-use crate::platform::phase::Phase;
+use crate::flight::platform::phase::Phase;
 
 /// The phase pi - tau, at which the platform that runs backwards has the height that it has at tau.
 fn mirrored(phase: Phase) -> Phase {
@@ -53,7 +53,7 @@ mod tests {
 
     use super::*;
     use crate::numerics::random::SplitMix64;
-    use crate::platform::vibration::Vibration;
+    use crate::flight::platform::vibration::Vibration;
 
     fn map(peak_acceleration: f64, restitution: f64) -> ImpactMap {
         ImpactMap::new(Vibration::new(peak_acceleration).expect("legal"), restitution).expect("legal")
